@@ -1,5 +1,6 @@
 """Glass without depth peeling against rays: each pixel's quadratics are solved, its hits sorted and blended."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -112,27 +113,27 @@ def traced(view: View, width: int, height: int, dpi: float) -> tuple[NDArray[np.
 
 
 SHEETS = ("quadric", {"ratio": 0.5, "field": (1.0, 1.0)})
-GLASS: dict[str, tuple[list[Surface], float, float]] = {
-    "a ball along its axis": ([solids.sphere(O, 1.0, FINE)], 0.0, 90.0),
-    "a ball from the side": ([solids.sphere(O, 1.0, FINE, role="ball")], 20.0, 15.0),
-    "a hyperboloid of one sheet from the side": (of("hyp_b"), 20.0, 15.0),
-    "a hyperboloid of one sheet from within": (of(SHEETS[0], **SHEETS[1]), 90.0, 63.0),
-    "both sheets of a hyperboloid": (of("quadric"), 20.0, 15.0),
-    "both sheets of a hyperboloid, the one before the other": (of("quadric"), 90.0, 58.0),
-    "a cone": (of("cone"), 25.0, 14.0),
-    "a cone along its asymptote": (of("cone", field=(1.0, 1.0)), 90.0, 45.0),
-    "two sheets and the planes that touch them": (of("loop"), 25.0, 14.0),
-    "the same from below": (of("loop"), -60.0, -35.0),
-    "two planes": (of("quadric", field=(1.0, 0.0)), 25.0, 14.0),
-    "a cone in a ball": (of("motion_sphere"), 25.0, 18.0),
-    "a cone in a ball, from behind": (of("motion_sphere"), 200.0, -30.0),
+GLASS: dict[str, tuple[Callable[[], list[Surface]], float, float]] = {
+    "a ball along its axis": (lambda: [solids.sphere(O, 1.0, FINE)], 0.0, 90.0),
+    "a ball from the side": (lambda: [solids.sphere(O, 1.0, FINE, role="ball")], 20.0, 15.0),
+    "a hyperboloid of one sheet from the side": (lambda: of("hyp_b"), 20.0, 15.0),
+    "a hyperboloid of one sheet from within": (lambda: of(SHEETS[0], **SHEETS[1]), 90.0, 63.0),
+    "both sheets of a hyperboloid": (lambda: of("quadric"), 20.0, 15.0),
+    "both sheets of a hyperboloid, the one before the other": (lambda: of("quadric"), 90.0, 58.0),
+    "a cone": (lambda: of("cone"), 25.0, 14.0),
+    "a cone along its asymptote": (lambda: of("cone", field=(1.0, 1.0)), 90.0, 45.0),
+    "two sheets and the planes that touch them": (lambda: of("loop"), 25.0, 14.0),
+    "the same from below": (lambda: of("loop"), -60.0, -35.0),
+    "two planes": (lambda: of("quadric", field=(1.0, 0.0)), 25.0, 14.0),
+    "a cone in a ball": (lambda: of("motion_sphere"), 25.0, 18.0),
+    "a cone in a ball, from behind": (lambda: of("motion_sphere"), 200.0, -30.0),
     "two balls that meet": (
-        [solids.sphere(O, 1.0, FINE), solids.sphere(np.array([0.3, 0.9, 0.4]), 0.8, FINE, role="ball")],
+        lambda: [solids.sphere(O, 1.0, FINE), solids.sphere(np.array([0.3, 0.9, 0.4]), 0.8, FINE, role="ball")],
         35.0,
         20.0,
     ),
     "a ball through a plane and through a cylinder": (
-        [
+        lambda: [
             solids.sphere(O, 1.0, FINE),
             solids.rectangle(0.2 * E3, 1.6 * E1, 1.4 * E2, role="tangent_plane"),
             solids.cylinder(O, E3, 0.7, 2.6, FINE),
@@ -141,7 +142,7 @@ GLASS: dict[str, tuple[list[Surface], float, float]] = {
         20.0,
     ),
     "a shell with its lids": (
-        [
+        lambda: [
             solids.cylinder(O, E3, 1.0, 1.5, FINE),
             solids.disk(0.75 * E3, E3, 1.0, FINE),
             solids.disk(-0.75 * E3, -E3, 1.0, FINE),
@@ -156,10 +157,10 @@ GLASS: dict[str, tuple[list[Surface], float, float]] = {
 @pytest.mark.parametrize("case", GLASS)
 def test_glass_is_what_sorted_rays_give(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Away from edges at most one pixel in 5000 is more than three grey levels from the exact picture."""
-    surfaces, azimuth, elevation = GLASS[case]
+    make, azimuth, elevation = GLASS[case]
     views = []
     monkeypatch.setattr(space, "fit", lambda *words: views.append(fit(*words)) or views[-1])
-    panel = Space(tuple(bare(surface) for surface in surfaces), azimuth=azimuth, elevation=elevation)
+    panel = Space(tuple(bare(surface) for surface in make()), azimuth=azimuth, elevation=elevation)
     draw(Scene("t", "c", "a", (panel,), size=(60.0, 60.0)), tmp_path / "a.png", renderer="shaded", dpi=150.0)
     from matplotlib.image import imread
 

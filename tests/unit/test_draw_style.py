@@ -15,7 +15,7 @@ from pypdf import PdfReader
 
 import atlas
 from atlas import AtlasError
-from atlas.draw import context, gl, save, to_figure, to_plotter
+from atlas.draw import context, gl, save, to_figure
 from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.scene import Curve, Image, Plane, Scene, recipes
@@ -172,7 +172,7 @@ def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
 def test_a_plotter_needs_a_panel_in_space() -> None:
     """The error says what draws the scene."""
     with pytest.raises(AtlasError, match="to_figure"):
-        to_plotter(lines())
+        atlas.draw.to_plotter(lines())
 
 
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")

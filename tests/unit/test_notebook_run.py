@@ -3,9 +3,6 @@
 from pathlib import Path
 from typing import Any
 
-import jupytext
-import nbclient
-import nbformat
 import pytest
 
 from atlas.places import folder
@@ -14,6 +11,10 @@ from atlas.places import folder
 @pytest.fixture(scope="module")
 def ran(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """Run it, in a folder of its own, and ask at the end what was loaded."""
+    import jupytext
+    import nbclient
+    import nbformat
+
     patch, home = pytest.MonkeyPatch(), tmp_path_factory.mktemp("home")
     for name in ("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"):
         patch.setenv(name, str(home))

@@ -2,12 +2,10 @@
 
 import re
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 import numpy as np
-import pint
 import pytest
-from astropy import units as astropy_units
 
 import atlas
 from atlas.core.bodies.units import charge_to_mass, larmor_field
@@ -20,12 +18,15 @@ class Units(Protocol):
         """Return the quantity."""
 
 
-LIBRARIES: dict[str, Units] = {"pint": pint.UnitRegistry().Quantity, "astropy": astropy_units.Quantity}
-
-
-@pytest.fixture(params=LIBRARIES, name="q")
+@pytest.fixture(params=["pint", "astropy"], name="q", scope="module")
 def _q(request: pytest.FixtureRequest) -> Units:
-    return LIBRARIES[request.param]
+    if request.param == "pint":
+        import pint
+
+        return cast("Units", pint.UnitRegistry().Quantity)
+    from astropy import units
+
+    return cast("Units", units.Quantity)
 
 
 def test_a_body_is_in_kilograms_and_metres(q: Units) -> None:
