@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import partial
+from itertools import count as counted
 from random import Random
 from typing import Any
 
@@ -76,12 +77,14 @@ class Result:
         return {"seed": self.seed, "samples": self.samples, "worst": worst, "refusals": [*map(asdict, self.refusals)]}
 
 
-def stress(samples: int, seed: int = 0, jobs: int = 1, progress: Progress | None = None) -> Result:
+def stress(samples: int, seed: int = 0, jobs: int = 1, progress: Progress | None = None, first: int = 0) -> Result:
     """Check at least ``samples`` values drawn from ``seed`` on ``jobs`` processes, which do not change the result.
+
+    The rounds are those from ``first`` on.
 
     ``progress(samples so far, samples asked for)`` is called after each round of all regimes.
     """
-    return finished(seed, _rounds(seed, jobs), samples, progress)
+    return finished(seed, _rounds(seed, jobs, first), samples, progress)
 
 
 def finished(seed: int, parts: Iterable[WorstErrors], samples: int, progress: Progress | None) -> Result:
@@ -120,17 +123,16 @@ def one_round(seed: int, index: int) -> WorstErrors:
     return found
 
 
-def _rounds(seed: int, jobs: int) -> Iterator[WorstErrors]:
+def _rounds(seed: int, jobs: int, first: int) -> Iterator[WorstErrors]:
     """Check one round after the other, endlessly, in the order of their index."""
     batch = 2 * jobs
     executor = processes.pool(jobs) if jobs > 1 else None
     if executor is None:
-        index = 0
-        while True:
+        for index in counted(first):
             yield one_round(seed, index)
-            index += 1
     with executor as pool:
-        first = 0
-        while True:
-            yield from pool.map(partial(one_round, seed), range(first, first + batch))
-            first += batch
+        try:
+            for index in counted(first, batch):
+                yield from pool.map(partial(one_round, seed), range(index, index + batch))
+        finally:
+            pool.shutdown(cancel_futures=True)

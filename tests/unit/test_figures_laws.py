@@ -63,7 +63,7 @@ OTHERS: list[tuple[str, dict[str, Any]]] = [
 """Parameters at which recipes draw what they do not draw at their defaults."""
 EVERY = [*((name, {}) for name in NAMES), *OTHERS]
 UNITS = [
-    (name, given, unit)
+    (name, {"pushes": (1e-1,)} if name == "turnover" else given, unit)  # a push takes seconds
     for name, given in EVERY
     for unit, weights in {"time": TIME, "length": LENGTH, "charge": CHARGE}.items()
     if name not in NOISE and set(weights) & set(recipes.load(name).parameters)
