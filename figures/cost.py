@@ -19,7 +19,7 @@ def scene(*, columns: int = 1) -> Scene:
     return Scene(
         title=title(__doc__),
         caption=(
-            "Above: time for one rotation matrix of the elementary motion among $N$, on one core. Below: the same over "
+            "(a) Time for one rotation matrix of the elementary motion among $N$, on one core. (b) The same over "
             "the time in which one core fills that memory with a constant, on one core and on two. "
             f"{measured(record)}"
         ),
@@ -41,7 +41,7 @@ def each(record: Results) -> Plane:
         rows = [r for r in record.costs if r.method == method and r.threads == 1 and r.nanoseconds is not None]
         if rows:
             layers.extend(line(pairs(rows, lambda row: row.count, lambda row: row.nanoseconds), method))
-    return _plane(layers, "time for one matrix (ns)")
+    return _plane("(a) time for one matrix", layers, "time for one matrix (ns)")
 
 
 def multiples(record: Results) -> Plane:
@@ -57,10 +57,10 @@ def multiples(record: Results) -> Plane:
             points = pairs(rows, lambda row: row.count, lambda row: row.to_fill)
             label = name(method) + (", two cores" if threads == 2 else "")
             layers.extend(line(points, f"{method}/{threads}" if threads == 2 else method, label))
-    return _plane(layers, "multiples of filling the memory")
+    return _plane("(b) over the memory limit", layers, "multiples of filling the memory")
 
 
-def _plane(layers: list[Layer], y_label: str) -> Plane:
+def _plane(name: str, layers: list[Layer], y_label: str) -> Plane:
     drawn = [layer.points for layer in layers]
     return Plane(
         tuple(layers),
@@ -70,4 +70,5 @@ def _plane(layers: list[Layer], y_label: str) -> Plane:
         y_limits=decades((y for points in drawn for y in points[:, 1]), 0.4, 0.4),
         x_scale="log",
         y_scale="log",
+        title=name,
     )

@@ -61,8 +61,8 @@ def scene(
         caption=(
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) in the plane of "
-            r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin "
-            r"(diamonds), loops above it, waves elsewhere."
+            r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin, "
+            r"loops above it, waves elsewhere."
         ),
         alt=(
             f"Unit spheres with the trace of an axis: {listed(kinds)}. A plane of p and g with the curve of the "
@@ -70,7 +70,7 @@ def scene(
         ),
         panels=panels,
         columns=min(len(panels), 2),
-        named={"solid": "main", "dashed": "reference", "dots": "start", "diamonds": "special"},
+        named={"solid": "main", "dashed": "reference", "dots": "start"},
         size=(2 * SIZE, SIZE * -(-len(panels) // 2) + 6.0),
     )
 
@@ -102,8 +102,10 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
     layers: list[Layer] = [Curve(line, "main") for line in lines]
     layers += [
         Curve(np.stack(wells.cusps(cusps), axis=1), "reference"),
-        Points(ends, "special"),
+        Points(ends, "point"),
         Points(places, "start"),
+        Label(np.array([-0.3 * far, 0.55 * high + 0.45 * low]), "loops", "note", (0.0, 0.0)),
+        *(Label(end, "spin", "note", (side, 0.0)) for end, side in zip(ends, (-8.0, 9.0), strict=True)),
     ]
     beside = np.array([0.0, 0.08 * (high - low)])
     for name, top, place in zip("abc", tops, places, strict=False):

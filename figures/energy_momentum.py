@@ -15,7 +15,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, tex, title
 
-WIDTH, HEIGHT = 178.0, 78.0
+WIDTH, HEIGHT = 88.0, 62.0
 
 
 def scene(
@@ -56,7 +56,6 @@ def scene(
             "isolated points above it where they are unstable, and ends of a branch where they are stable."
         ),
         panels=panels,
-        columns=len(panels),
         named={
             word: role
             for word, role in {
@@ -67,7 +66,7 @@ def scene(
             }.items()
             if role in there
         },
-        size=(WIDTH, HEIGHT),
+        size=(WIDTH, HEIGHT * len(panels)),
     )
 
 
@@ -113,6 +112,8 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers += [Label(np.array(spin[:2]), what, "note", (5, 6)) for spin in spins[:1]]
+    layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note", (0.0, 0.0)))
+    layers.append(Label(np.array([-0.95 * reach * scale, low + 0.04 * (high - low)]), "no motion", "note", (20.0, 0.0)))
     return Plane(
         tuple(layers),
         rf"$p$ (1/{unit})",

@@ -13,13 +13,13 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.general import GeneralMotion
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.movement import along
 from atlas.scene.sample import flat
 
-WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 12.0
-ROLES = ("main", "second", "third", "fourth", "sixth")
+WIDTH, COURSE, LAW, MARGIN = 120.0, 30.0, 62.0, 12.0
+"""Width, heights of a course and of the law."""
 
 
 def scene(
@@ -38,6 +38,8 @@ def scene(
             f"figure escape needs an unstable elementary motion; omega2 = {omega2} is stable, as its nutation "
             f"frequency squared is {squared:g}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
         )
+    if not 1 <= len(pushes) <= 5:
+        raise DomainError(f"figure escape takes one to five pushes, not {len(pushes)}.")
     omega3 = float(hyperbola.omega3(omega2))
     growth = float(np.sqrt(-squared))
     motions = [GeneralMotion(ratio, field, (push, omega2, omega3)) for push in pushes]
@@ -45,22 +47,19 @@ def scene(
         title=title(__doc__),
         caption=(
             f"{tex_setting(ratio, field, first='A')}, started beside the unstable elementary motion "
-            rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ leaves with the rate "
-            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. (b) Its period grows by "
+            rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. Above: $\Omega_3$ leaves with the rate "
+            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "
             r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it."
         ),
         alt=(
-            f"Two panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: Omega 3 over time in pulses "
-            "that come the later the smaller the push is; the period over the push on a logarithmic axis, a straight "
-            "line."
+            f"Panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}, one below the other: Omega 3 "
+            "over time in pulses that come the later the smaller the push is; the period over the push on a "
+            "logarithmic axis, a straight line."
         ),
-        panels=(
-            course(motions, pushes, omega3, unit),
-            periods(ratio, field, (omega2, omega3), pushes, growth, unit),
-        ),
-        columns=2,
+        panels=(*courses(motions, pushes, omega3, unit), periods(ratio, field, (omega2, omega3), pushes, growth, unit)),
         named={"dashed": "reference"},
-        size=(WIDTH, HEIGHT),
+        size=(WIDTH, COURSE * len(pushes) + LAW),
+        rows=(*[COURSE] * (len(pushes) - 1), COURSE + 6.0, LAW - 6.0),
         paths={f"{push:g}": partial(moved, motion) for push, motion in zip(pushes, motions, strict=True)},
         lasts=1.6 * max(motion.period for motion in motions),
     )
@@ -76,22 +75,25 @@ def moved(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]
     return along(point(motion, t), point(motion, np.zeros(1))[0])
 
 
-def course(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> Plane:
-    """Panel (a): Omega3(t) over two periods of the slowest motion."""
+def courses(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> list[Plane]:
+    """Return Omega3(t) of each motion over two periods of the slowest, one panel below the other."""
     last = 1.6 * max(motion.period for motion in motions)
     ends = np.array([motion.turning_points for motion in motions])
     low, high = float(ends.min()), float(ends.max())
-    pad = 0.1 * (high - low)
-    view = ((0.0, last), (low - pad, high + 2.2 * pad))
-    layers: list[Layer] = [Curve(np.array([[0.0, omega3], [last, omega3]]), "reference")]
-    for motion, push, role in zip(motions, pushes, ROLES, strict=False):
-        line = flat(partial(point, motion), 0.0, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=96)
-        layers += [
-            Curve(line, role),
-            Label(peaks(line, omega3), rf"$\omega_1={written(push)}$", role, (0.0, 5.0)),
-            Points(point(motion, np.zeros(1)), role, rides=f"{push:g}"),
-        ]
-    return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title="(a) leaving and returning")
+    pad = 0.12 * (high - low)
+    view = ((0.0, last), (low - pad, high + pad))
+    panels = []
+    for letter, motion, push in zip("abcde", motions, pushes, strict=False):
+        line = flat(partial(point, motion), 0.0, last, view, (WIDTH - MARGIN, COURSE - MARGIN), pieces=96)
+        layers = (
+            Curve(np.array([[0.0, omega3], [last, omega3]]), "reference"),
+            Curve(line, "main"),
+            Points(point(motion, np.zeros(1)), "start", rides=f"{push:g}"),
+        )
+        x_label = f"$t$ ({unit})" if push == pushes[-1] else ""
+        name = rf"({letter}) $\omega_1={written(push)}$"
+        panels.append(Plane(layers, x_label, rf"$\Omega_3$ (1/{unit})", *view, title=name))
+    return panels
 
 
 def periods(
@@ -102,7 +104,7 @@ def periods(
     growth: float,
     unit: str,
 ) -> Plane:
-    """Panel (b): the period over the push."""
+    """Return the last panel: the period over the push."""
     decades = np.arange(-12.0, 0.0)
     push = abs(field[0]) * 10.0**decades
     found = np.array([GeneralMotion(ratio, field, (one, *start)).period for one in push])
@@ -112,7 +114,7 @@ def periods(
     layers: list[Layer] = [
         Curve(np.stack([push, law], axis=1), "reference", r"$(4/\sqrt{-\nu_n^2})\ln(1/\omega_1)+$const"),
         Curve(np.stack([push, found], axis=1), "main", "$T$"),
-        Points(marked, "special"),
+        Points(marked, "start"),
     ]
     return Plane(
         tuple(layers),
@@ -120,7 +122,7 @@ def periods(
         f"period $T$ ({unit})",
         *view,
         x_scale="log",
-        title="(b) period of the nutation",
+        title=f"({'abcdef'[len(pushes)]}) period of the nutation",
     )
 
 
@@ -128,10 +130,3 @@ def written(push: float) -> str:
     """Return a push for a formula, powers of ten as such."""
     power = round(np.log10(abs(push))) if push else 0
     return f"10^{{{power}}}" if push == 10.0**power else tex(push)
-
-
-def peaks(line: FloatArray, level: float) -> FloatArray:
-    """Return where a line is farthest from a level: once a period, equally far but for rounding."""
-    away = np.abs(line[:, 1] - level)
-    top = (away[1:-1] >= away[:-2]) & (away[1:-1] > away[2:]) & (away[1:-1] > 0.99 * away.max())
-    return line[1:-1][top]

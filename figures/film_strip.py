@@ -26,12 +26,15 @@ def scene(
     *,
     ratio: Any = 0.5,
     field: tuple[float, float] = (1.0, 1.2),
-    omega2: float = 0.8,
+    omega2: float = 2.31446,
     count: int = 8,
     azimuth: float = 25.0,
     elevation: float = 14.0,
 ) -> Scene:
-    """Draw ``count`` moments from t = 0 to one period of the precession, side by side."""
+    """Draw ``count`` moments from t = 0 to one period of the precession, side by side.
+
+    In motion the first body runs through what the others show. At the default phi = k, and it ends as it began.
+    """
     motion = ElementaryMotion(ratio, field, omega2)
     if not (motion.k and any(field) and 2 <= count <= 24):
         raise DomainError(
@@ -48,11 +51,11 @@ def scene(
         ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
         cells.append(
             [
-                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, fine)], f"{i}"),
+                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, fine)], "" if i else "first"),
                 Curve(ring, "trace"),
-                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides=f"{i}"),
+                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides="" if i else "first"),
                 Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
-                Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),
+                Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$" if i else "start", "note", (0.0, -5.0)),
             ]
         )
     return Scene(
@@ -70,11 +73,11 @@ def scene(
         panels=stacked(cells, 1, azimuth, elevation, STEP),
         narrow=stacked(cells, 2, azimuth, elevation, STEP),
         size=(WIDTH, HEIGHT),
-        paths={f"{i}": partial(turned, motion, times[i], places[i]) for i in range(count)},
+        paths={"first": partial(turned, motion, places[0])},
         lasts=float(times[-1]),
     )
 
 
-def turned(motion: ElementaryMotion, start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how a body goes on from the moment at which it is drawn."""
-    return about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
+def turned(motion: ElementaryMotion, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how the first body goes on."""
+    return about(centre, motion.rotation(t))

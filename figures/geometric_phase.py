@@ -13,12 +13,13 @@ from atlas.core.inputs import FloatArray, vector
 from atlas.core.motions.elliptic import EllipticMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import listed, plain, tex, tex_vector, title
+from atlas.scene.captions import plain, tex, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 76.0
 POINTS = 256
 """Points of K in a period, for means: they converge faster than any power."""
-LINES = {"main": "dark", "second": "amber", "third": "turquoise", "fourth": "green"}
+SPOKES = 32
+"""Arcs of great circles that hatch the area inside the curve of K."""
 
 
 def scene(
@@ -27,34 +28,36 @@ def scene(
     field: tuple[float, float, float] = (0.3, 0.9, 0.4),
     branch: float = -1.0,
     z: tuple[float, float] = (-0.495, -0.01),
-    shown: tuple[float, ...] = (-0.48, -0.3, -0.01),
+    shown: float = -0.3,
     count: int = 48,
 ) -> Scene:
-    """Draw the turn and its parts between two places ``z``, at ``count`` of them, and the curves of ``shown``."""
-    if not (0 < len(shown) <= 4 and z[0] < z[1] and 2 <= count <= 1000):
+    """Draw the turn and its parts between two places ``z``, at ``count`` of them, and the curve of one ``shown``."""
+    if not (z[0] < z[1] and z[0] <= shown <= z[1] and 2 <= count <= 1000):
         raise DomainError(
-            f"figure geometric_phase takes z from low to high, one to four places and 2 to 1000 points, not {z}, "
-            f"{shown} and {count}."
+            "figure geometric_phase takes z from low to high, a place shown between them and 2 to 1000 points, not "
+            f"{z}, {shown} and {count}."
         )
     places = z[0] + (z[1] - z[0]) * np.linspace(0.0, 1.0, count) ** 2
     found = np.array([parts(EllipticMotion(inertia, field, one, branch)) for one in places]) / (2 * np.pi)
+    one = EllipticMotion(inertia, field, shown, branch)
+    turn, dynamic, area = (part / (2 * np.pi) for part in parts(one))
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"(a) Turn of a body with $I_i={tex_vector(inertia)}$ about $\mathbf{{B}}'={tex_vector(field)}$ in one "
-            r"period of $\mathbf{K}$, for elliptic motions (solid): the sum of a dynamic part (dashed) and of minus "
-            r"the area inside the curve of $\hat{\mathbf{K}}$ over $2\pi$ (dotted). (b) These curves for "
-            rf"{listed([f'$z={tex(one)}$ ({colour})' for one, colour in zip(shown, LINES.values(), strict=False)])}."
+            rf"(a) $\hat{{\mathbf{{K}}}}$ in a body with $I_i={tex_vector(inertia)}$, "
+            rf"$\mathbf{{B}}'={tex_vector(field)}$, goes once round the hatched area $S$ in one period of the elliptic "
+            rf"motion $z={tex(shown)}$. The body turns about the field by ${round(turn, 3):g}$ of a turn meanwhile, "
+            rf"${round(dynamic, 3):g}$ dynamically and ${round(-area, 3):g}=-S/2\pi$. (b) The same for all $z$; the "
+            "dots are this motion."
         ),
         alt=(
-            "Three smooth curves over z: the turn about the field in a period, its dynamic part, and a geometric part "
-            f"of less than a turn. A unit sphere with closed curves for z = {listed([plain(one) for one in shown])} "
-            "through one point."
+            f"A unit sphere with a closed curve, of z = {plain(shown)}, and the hatched area inside it. Three smooth "
+            "curves over z: the turn about the field in a period, its dynamic part, and a geometric part of less than "
+            "a turn."
         ),
-        panels=(plane(places, found), sphere(inertia, field, branch, shown)),
+        panels=(sphere(one, field), plane(places, found, np.array([shown, turn, dynamic, -area]))),
         columns=2,
-        named={"solid": "main", "dashed": "reference", "dotted": "limit"}
-        | {colour: role for role, colour in list(LINES.items())[: len(shown)]},
+        named={"hatched": "fine_trajectory", "dots": "start"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -77,23 +80,31 @@ def parts(motion: Any) -> tuple[float, float, float]:
     return motion.precession_per_period, float(np.mean(np.vecdot(k, Omega)) * motion.period), float(area)
 
 
-def plane(z: FloatArray, found: FloatArray) -> Plane:
-    """Return the plane of z with the turn and its parts, from turn, dynamic part and area (N, 3) in turns."""
+def plane(z: FloatArray, found: FloatArray, one: FloatArray) -> Plane:
+    """Return the plane of z with the turn and its parts, from turn, dynamic part and area (N, 3) in turns.
+
+    ``one`` (4,) holds z and the values of the motion shown.
+    """
     lines = (("main", "turn", 0, 1), ("reference", "dynamic part", 1, 1), ("limit", "geometric part", 2, -1))
     layers: list[Layer] = [Curve(np.array([[z[0], 0.0], [z[-1], 0.0]]), "guide")]
     layers += [Curve(np.column_stack([z, sign * found[:, k]]), role, name) for role, name, k, sign in lines]
+    layers.append(Points(np.column_stack([np.full(3, one[0]), one[1:]]), "start"))
     limits = float(z[0]), float(z[-1])
-    return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(a) in one period", legend=True)
+    return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(b) in one period")
 
 
-def sphere(inertia: Any, field: Any, branch: float, shown: tuple[float, ...]) -> Space:
-    """Return the unit sphere with curves of K/b."""
+def sphere(motion: Any, field: Any) -> Space:
+    """Return the unit sphere with the curve of K/b, hatched by arcs of great circles from the mean direction of K."""
     start = vector(field, "field") / np.linalg.norm(field)
+    K = motion.field_in_body(motion.period * np.linspace(0.0, 1.0, POINTS + 1))
+    line, pole = K / np.linalg.norm(K[0]), K[:-1].mean(axis=0) / np.linalg.norm(K[:-1].mean(axis=0))
     layers: list[Layer] = [solids.sphere(quadric_panel.O, 1.0, quadric_panel.tolerance(1.4))]
-    for z, role in zip(shown, LINES, strict=False):
-        motion = EllipticMotion(inertia, field, z, branch)
-        K = motion.field_in_body(motion.period * np.linspace(0.0, 1.0, POINTS + 1))
-        layers.append(Curve(K / np.linalg.norm(K[0]), role))
+    for end in line[:: POINTS // SPOKES]:
+        arc = pole + np.linspace(0.0, 1.0, 17)[:, None] * (end - pole)
+        layers.append(Curve(arc / np.linalg.norm(arc, axis=1)[:, None], "fine_trajectory"))
+    layers.append(Curve(line, "trajectory"))
     layers += [Arrow(axis, 1.35 * axis, "body_axis", rf"$\mathbf{{e}}_{n}$") for n, axis in enumerate(np.eye(3), 1)]
     layers += [Points(start[None], "start"), Label(start, r"$\hat{\mathbf{B}}$", "label", (6, -4))]
-    return Space(tuple(layers), 40.0, 20.0, title=r"(b) $\hat{\mathbf{K}}$ in the body")
+    beside = pole + start
+    layers.append(Label(beside / np.linalg.norm(beside), "$S$", "trajectory", (0.0, 0.0)))
+    return Space(tuple(layers), 40.0, 48.0, title=r"(a) $\hat{\mathbf{K}}$ in the body")

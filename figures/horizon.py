@@ -69,9 +69,9 @@ def panels(record: Results, cases: tuple[str, ...]) -> tuple[Plane, ...]:
             y_limits=decades((y for some in points for y in some[:, 1]), 1.2, 0.7),
             x_scale="log",
             y_scale="log",
-            title=case_title(case).capitalize(),
+            title=f"({letter}) {case_title(case)}",
         )
-        for case in cases
+        for letter, case in zip("abcdefgh", cases, strict=False)
     )
 
 

@@ -20,8 +20,8 @@ from atlas.study.sweep.plan import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
 NARROWEST = 139.0
-SCALES = 150.0, 180.0
-"""Degrees at the end of the scale of colours, of which the first that holds all amplitudes is taken."""
+STEP = 10.0
+"""Degrees: the scale of colours ends at the least multiple that holds all amplitudes."""
 
 
 def scene(
@@ -45,7 +45,7 @@ def scene(
     table = Tabulation("general", settings, ("kind", "least", "largest"))
     swings = amplitudes(table.columns(), field).reshape(-1, cells, cells)
     last = "b" if len(ratios) > 1 else "a"
-    most = next(most for most in SCALES if np.max(swings) <= most)
+    most = STEP * float(np.ceil(np.max(swings) / STEP))
     panels = tuple(
         panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, unit, most, bar=letter == last)
         for letter, I, swing in zip("abcd", ratios, swings, strict=False)

@@ -45,7 +45,7 @@ def scene(
     (left, right), high = np.ptp(coarse[:, 0]) * np.array([-0.06, 0.06]), 1.1 * float(np.abs(coarse[:, 1]).max())
     view = (float(coarse[:, 0].min() + left), float(coarse[:, 0].max() + right)), (-high, high)
     layers: list[Layer] = [Curve(np.array([[view[0][0], 0.0], [view[0][1], 0.0]]), "guide")]
-    layers += [Curve(line, "second_trace") for energy in energies for line in top.orbits(*energy, view)]
+    layers += [Curve(line, "component") for energy in energies for line in top.orbits(*energy, view)]
     layers += [Curve(line, "unstable") for nu in saddles for line in top.orbits(top.V(nu), 0.0, view)]
     layers += [Points(np.array([[top.omega3(nu), 0.0]]), "start") for nu in stable]
     layers += [Points(np.array([[top.omega3(nu), 0.0]]), "unstable_point") for nu in saddles]

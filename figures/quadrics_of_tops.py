@@ -11,7 +11,7 @@ from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadric_row, quadrics
 from atlas.scene.captions import tex, title
-from atlas.scene.narrow import stacked
+from atlas.scene.narrow import lettered, stacked
 from atlas.scene.quadric_row import Member
 
 WIDTH, HEIGHT = 178.0, 134.0
@@ -62,15 +62,15 @@ def scene(
         caption=(
             rf"Initial angular velocities with $\ddot\nu=0$ of tops, $I={tex(ratio)}$, "
             rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$, whose points "
-            r"alone are steady. Below: the same tops (dots) in the plane of all with this $I$. On the border (solid), "
+            r"alone are steady. (b) The same tops (dots) in the plane of all with this $I$. On the border (solid), "
             r"$D=0$, is 4, a paper's body that the field magnetises."
         ),
         alt=(
             "A row of quadrics at one scale, tubes of one sheet, then a double cone, then two bowls; below a plane "
             "with a curve that parts tops with one sheet from those with two, and six numbered points."
         ),
-        panels=(*stacked(cells, 1, azimuth, elevation), plane),
-        narrow=(*stacked(cells, 2, azimuth, elevation), plane),
+        panels=(*lettered(stacked(cells, 1, azimuth, elevation)), plane),
+        narrow=(*lettered(stacked(cells, 2, azimuth, elevation)), plane),
         named={"Heavy": "hyperbola", "dots": "start", "solid": "main"},
         size=(WIDTH, HEIGHT),
     )
@@ -99,5 +99,5 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
         Label(np.array([0.5 * (at + wide), 0.25 * high]), "two sheets", "note", (0.0, 0.0)),
     ]
     return Plane(
-        tuple(layers), r"$(A_0+a_0/n_3)/b^2$", r"$k_3/Ik_2$", (-wide, wide), (low, high),
+        tuple(layers), r"$(A_0+a_0/n_3)/b^2$", r"$k_3/Ik_2$", (-wide, wide), (low, high), title="(b) all tops",
     )  # fmt: skip

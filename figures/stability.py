@@ -24,7 +24,6 @@ from atlas.scene.sample import flat
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
 HIGH, WIDE, FAR = 1.6, 1.0, 2.0
 """The map shows |x| up to HIGH, and tau up to WIDE, or a little beyond that of the field unless that is above FAR."""
-ROLES = ("third", "second", "main", "fourth", "sixth", "seventh", "eighth")
 
 
 def scene(
@@ -124,13 +123,13 @@ def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
         (edge,) = level(0.0, one_less, view)
         layers += [Region(edge, "unstable_region"), Curve(edge, "unstable")]
         layers.append(Label(edge.mean(axis=0), "unstable", "unstable"))
-    for value, role in zip(levels, ROLES, strict=False):
+    for value in levels:
         lines = level(value, one_less, view)
-        layers += [Curve(line, role) for line in lines]
+        layers += [Curve(line, "component") for line in lines]
         inner = np.concatenate([np.empty((0, 2)), *lines])
         inner = inner[inner[:, 0] < 0.93 * view.x[1]]
         if len(inner):
-            layers.append(Label(inner[np.argmax(inner[:, 0])], f"${tex(value)}$", role, (4.0, 3.0)))
+            layers.append(Label(inner[np.argmax(inner[:, 0])], f"${tex(value)}$", "component", (4.0, 3.0)))
     if tau <= FAR:
         layers.append(Curve(view.upright(tau), "limit"))
     return Plane(

@@ -12,16 +12,16 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
+from atlas.scene import Curve, Image, Label, Layer, Plane, Scene
 from atlas.scene.captions import body_role, title
 from atlas.scene.sample import flat
 from atlas.study.sweep.plan import Range, Tabulation
 
-WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
+WIDTH, HEIGHT, MARGIN = 120.0, 70.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
-CELLS = (240, 144)
-NARROWEST = 130.0
+CELLS = (160, 96)
+NARROWEST = 120.0
 BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop"))
 ABOVE, ASIDE = 0.045, 0.09
 """Room for the names above the map, and how far the outermost stand inside, in units of tau and I."""
@@ -31,48 +31,59 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     """Draw where the greatest growth rate, or the least frequency, is one of ``rates`` times |B2|."""
     if not all(0.0 < rate < 1.0 for rate in rates):
         raise DomainError(f"rates of figure stability_map lie between 0 and 1, in units of |B2|, not {rates}.")
-    x, y = np.linspace(0.0, 2.0, CELLS[0] + 1), np.linspace(0.0, TOP, CELLS[1] + 1)
-    table = Tabulation(
-        "hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",)
-    )
-    least = table.columns()["least_stability"].T
-    layers: list[Layer] = [
-        Image(x, y, -np.sign(least) * np.sqrt(abs(least)), r"rate of growth over $|B'_2|$; below 0 the frequency"),
-        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "map_curve"),
+    growth, rising = mapped(1.0, EDGE, -1.0, r"$\sqrt{-\nu_n^2}/|B'_2|$")
+    frequency, waving = mapped(2.0, TOP, 1.0, r"$\nu_n/|B'_2|$")
+    unstable: list[Layer] = [rising]
+    stable: list[Layer] = [
+        waving,
+        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
+        Label(np.array([0.5, 0.5 * EDGE]), "some unstable: (a)", "unstable"),
+        *(Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2),
     ]
-    layers += [Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2]
     for rate in rates:
         growing = level(-(rate**2), -1)
-        layers += [Curve(growing, "main"), Label(growing[len(growing) // 2], f"${rate:g}$", "main")]
-        for side in (-1, 1):
-            line = level(rate**2, side)
-            if len(line):
-                layers += [Curve(line, "second"), Label(on(line, rate), f"${rate:g}$", "second")]
-    layers += [Points(np.array([[I, 0.0]]), "point") for I, _ in BODIES]
-    layers += [
+        unstable += [Curve(growing, "map_curve"), Label(growing[len(growing) // 2], f"${rate:g}$", "label")]
+        for line in filter(len, (level(rate**2, side) for side in (-1, 1))):
+            stable += [Curve(line, "map_curve"), Label(on(line, rate), f"${rate:g}$", "label")]
+    stable += [
         Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), TOP + ABOVE / 2]), name, body_role(I) if I else "note")
         for I, name in BODIES
     ]
-    layers.append(Label(np.array([0.0, EDGE]), r"$\tau=1/(2\sqrt{2})$", "map_curve", (4.0, 6.0)))
+    views = ((0.0, 1.0), (0.0, EDGE)), ((0.0, 2.0), (0.0, TOP + ABOVE))
+    names = "(a) greatest rate of growth", "(b) least nutation frequency"
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. In the rectangle "
-            r"some are unstable: solid lines are levels of the greatest rate of growth "
-            r"$\sqrt{-\nu_n^2}/\lvert B'_2\rvert$, "
-            r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable: dashed lines are "
-            r"levels of the least nutation frequency."
+            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. (a) Where some are "
+            r"unstable: the greatest rate of growth, "
+            r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. (b) Where all are stable: the least frequency "
+            r"of their nutation."
         ),
         alt=(
-            "Map over I from 0 to 2 and tau from 0 to 0.6. The unstable rectangle reaches to I = 1 and tau = 0.354; "
-            "level lines of the growth rate fall from its left to its lower edge, level lines of the least nutation "
-            "frequency fill the rest. Five bodies are marked."
+            "Two maps over I and tau. The rate of growth, for I up to 1 and tau up to 0.354, falls from the lower left "
+            "corner to zero at the upper and the right edge. The least nutation frequency, for I up to 2 and tau up to "
+            "0.6, is empty there and grows away from that rectangle. Five bodies are named."
         ),
-        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP + ABOVE)),),
-        named={"solid lines": "main", "dashed lines": "second"},
-        commands=(table.command("stability.csv"),),
-        size=(WIDTH, HEIGHT),
+        panels=tuple(
+            Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", *view, title=name)
+            for layers, view, name in zip((unstable, stable), views, names, strict=True)
+        ),
+        commands=(growth.command("growth.csv"), frequency.command("frequency.csv")),
+        size=(WIDTH, 2 * HEIGHT),
     )
+
+
+def mapped(wide: float, high: float, sign: float, label: str) -> tuple[Tabulation, Image]:
+    """Return the table of the least stability for I up to ``wide`` and tau up to ``high``, and its root as a map.
+
+    Where it does not have the sign the map is empty.
+    """
+    x, y = np.linspace(0.0, wide, CELLS[0] + 1), np.linspace(0.0, high, CELLS[1] + 1)
+    table = Tabulation(
+        "hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",)
+    )
+    square = sign * table.columns()["least_stability"].T
+    return table, Image(x, y, np.sqrt(np.where(square < 0, np.nan, square)), label)
 
 
 def on(line: FloatArray, rate: float) -> FloatArray:

@@ -21,7 +21,7 @@ from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadri
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, quotient, tex, title
 from atlas.scene.movement import about, along, riding
-from atlas.scene.narrow import stacked
+from atlas.scene.narrow import lettered, stacked
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
@@ -59,7 +59,7 @@ def scene(
         caption=(
             f"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
             rf"$\omega_3={tex(omega3)}$; $D={tex(D)}<0$, and a push $\omega_1={tex(push)}$ grows with the rate "
-            rf"$\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments of half a period. Below: the angle of axis and "
+            rf"$\sqrt{{-D}}/2={tex(growth)}$. (a) {count} moments of half a period. (b) The angle of axis and "
             "field, with these moments as dots. "
             + (
                 "The axis goes round in one sense, through both ends of the field's."
@@ -71,8 +71,8 @@ def scene(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
             f"time, three times from zero to {plain(round(far))} degrees and back."
         ),
-        panels=(*stacked(cells, 1, azimuth, elevation), below),
-        narrow=(*stacked(cells, 2, azimuth, elevation), below),
+        panels=(*lettered(stacked(cells, 1, azimuth, elevation)), below),
+        narrow=(*lettered(stacked(cells, 2, azimuth, elevation)), below),
         named={"dots": "start"},
         size=(WIDTH, HEIGHT),
         paths={
@@ -142,4 +142,5 @@ def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:
         r"angle of $\mathbf{R}_3$ and $\mathbf{B}$ (degrees)",
         view[0],
         (0.0, float(1.12 * line[:, 1].max())),
+        title="(b) angle",
     )

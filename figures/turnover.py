@@ -10,12 +10,12 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.errors import DomainError
-from atlas.scene import Curve, Plane, Scene
+from atlas.scene import Curve, Label, Plane, Scene
 from atlas.scene.captions import plain, tex, tex_vector, title
 
 WIDTH, HEIGHT = 88.0, 62.0
 POINTS = 600
-ROLES = ("main", "third", "unstable_line")
+ROLES = ("main", "third", "second")
 RANGES = {"reach": (0.1, 100.0)}
 
 
@@ -34,23 +34,25 @@ def scene(
     smallest = min(pushes, key=abs)
     curves = [(push, departure(inertia, field, push, reach)) for push in pushes]
     farthest = float(dict(curves)[smallest][:, 1].max())
-    layers = tuple(
-        Curve(points, role, label=rf"${tex(push)}$") for role, (push, points) in zip(ROLES, curves, strict=False)
+    layers = (
+        Curve(np.array([[0.0, 2.0], [reach, 2.0]]), "limit"),
+        Label(np.array([0.0, 2.0]), "upside down", "note", (6.0, -6.0)),
+        *(Curve(points, role, rf"$s={tex(push)}$") for role, (push, points) in zip(ROLES, curves, strict=False)),
     )
     return Scene(
         title=title(__doc__),
         caption=(
             rf"How far the field in the body is from where it was, for a body with $I_i={tex_vector(inertia)}$ at rest "
             rf"in $\mathbf{{B}}'={tex_vector(field)}$ that is pushed about $\mathbf{{e}}_2$ with the angular "
-            rf"velocities $s$ named at the curves, against $st$. With ${tex(smallest)}$ it reaches "
-            rf"${tex(round(farthest, 2))}$, where 2 is upside down."
+            rf"velocities $s$, against $st$: the curves of small pushes are one. With ${tex(smallest)}$ it reaches "
+            rf"${tex(round(farthest, 2))}$."
         ),
         alt=(
             f"Curves of a distance against the push times the time, for pushes {', '.join(map(plain, pushes))}: those "
             f"of small pushes are one curve, which rises from 0 to {plain(round(farthest, 2))}."
         ),
         panels=(
-            Plane(layers, "$st$", r"$|\mathbf{K}-\mathbf{B}'|/b$", (0.0, reach), (0.0, 2.0), legend=True),
+            Plane(layers, "$st$", r"$|\mathbf{K}-\mathbf{B}'|/b$", (0.0, reach), (0.0, 2.1), legend=True),
         ),
         size=(WIDTH, HEIGHT),
     )  # fmt: skip

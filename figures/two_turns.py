@@ -24,9 +24,9 @@ def scene(
     *,
     ratio: Any = 0.5,
     field: tuple[float, float] = (1.0, 1.2),
-    omega2: float = 0.8,
-    part: float = 0.28,
-    azimuth: float = 25.0,
+    omega2: float = 1.5,
+    part: float = 0.16,
+    azimuth: float = 48.0,
     elevation: float = 14.0,
 ) -> Scene:
     """Draw the attitudes 1, R_z and R_B R_z at the time ``part`` of a period of the precession."""
@@ -43,7 +43,7 @@ def scene(
     about_axis = np.array([[C, -S, 0.0], [S, C, 0.0], [0.0, 0.0, 1.0]])
     axis = quadric_panel.in_plane(*field) / np.hypot(*field)
     fine = quadric_panel.tolerance(1.5 * STEP)
-    steps = ((np.eye(3), r"$1$"), (about_axis, r"$R_z(\phi t)$"), (R, r"$R_\mathbf{B}(kt)\,R_z(\phi t)$"))
+    steps = ((np.eye(3), r"(a) $1$"), (about_axis, r"(b) $R_z(\phi t)$"), (R, r"(c) $R_\mathbf{B}(kt)\,R_z(\phi t)$"))
     cells: list[list[Layer]] = []
     for i, (centre, (attitude, name)) in enumerate(zip(row(3, STEP, azimuth), steps, strict=True)):
         layers = [

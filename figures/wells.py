@@ -81,6 +81,7 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         layers += [
             Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", "label", (0.0, 0.0)),
             Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", "label", (0.0, 0.0)),
+            Label(np.array([0.62 * reach, -0.86 * reach]), "two wells", "note", (0.0, 0.0)),
         ]
     return Plane(
         tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),

@@ -69,9 +69,9 @@ def panels(record: Results, cases: tuple[str, ...], horizon: float) -> tuple[Pla
             y_limits=decades((y for some in points for y in some[:, 1]), 0.9, 0.5),
             x_scale="log",
             y_scale="log",
-            title=case_title(case).capitalize(),
+            title=f"({letter}) {case_title(case)}",
         )
-        for case in cases
+        for letter, case in zip("abcdefgh", cases, strict=False)
     )
 
 

@@ -46,6 +46,12 @@ def stacked(
     return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
 
 
+def lettered(panels: Sequence[Space], title: str = "(a)") -> tuple[Space, ...]:
+    """Return panels of which the first has a title."""
+    first, *others = panels
+    return replace(first, title=title), *others
+
+
 def extent(panel: Space) -> FloatArray:
     """Return how much of the plane of view (right, up) the layers of a panel cover."""
     points = [np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)]

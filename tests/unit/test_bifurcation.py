@@ -220,15 +220,16 @@ def test_the_line_on_the_torus_is_straight_and_the_orbit_that_of_the_certified_m
 
 def test_the_turn_is_the_dynamic_part_less_the_area_of_the_curve_on_the_sphere() -> None:
     """Both lines add to the third, 1e-9; the area is that of triangles on the drawn curve, 1e-3."""
-    plane, sphere = recipes.load("geometric_phase").scene(shown=(-0.495, -0.01), count=5).panels
+    sphere, plane = recipes.load("geometric_phase").scene(shown=-0.495, count=5).panels
     turn, dynamic, geometric = (
         next(layer.points for layer in plane.layers if isinstance(layer, Curve) and layer.role == role)
         for role in ("main", "reference", "limit")
     )
     assert np.abs(turn[:, 1] - dynamic[:, 1] - geometric[:, 1]).max() <= 1e-9
-    for role, place in (("main", 0), ("second", -1)):
-        line = next(layer.points for layer in sphere.layers if isinstance(layer, Curve) and layer.role == role)
-        assert abs(rings(line[:-1]) / (2 * np.pi) + geometric[place, 1]) <= 1e-3
+    line = next(layer.points for layer in sphere.layers if isinstance(layer, Curve) and layer.role == "trajectory")
+    assert abs(rings(line[:-1]) / (2 * np.pi) + geometric[0, 1]) <= 1e-3
+    dots = next(layer.points for layer in plane.layers if isinstance(layer, Points))
+    assert np.abs(dots[:, 1] - [turn[0, 1], dynamic[0, 1], geometric[0, 1]]).max() <= 1e-9
 
 
 def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:

@@ -45,9 +45,9 @@ def test_a_rosette_closes_and_the_last_one_does_not() -> None:
 
 def test_levels_of_the_stability_map_are_least_frequencies() -> None:
     """On a drawn line the least of the nutation frequency squared along the hyperbola is the level, to 1e-4 B2^2."""
-    (panel,) = panels("stability_map", rates=(0.5,))
-    for role, level in (("main", -0.25), ("second", 0.25)):
-        for line in layers(panel, Curve, role):
+    for panel, level in zip(panels("stability_map", rates=(0.5,)), (-0.25, 0.25), strict=True):
+        assert layers(panel, Curve, "map_curve")
+        for line in layers(panel, Curve, "map_curve"):
             I, tau = line.points[len(line.points) // 3]
             if not (0.0 < I < 2.0 and tau > 0.0):
                 continue
@@ -129,7 +129,7 @@ def test_the_caption_says_how_the_cones_lie(ratio: float, omega2: float, words: 
 def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
     """The arrows along the axis point as R_3 at i/7 of the period, within 8 eps; all fields point the same way."""
     (panel,) = panels("film_strip")
-    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 2.31446)
     arrows = layers(panel, Arrow, "body_axis")
     times = np.linspace(0.0, 2 * np.pi / motion.k, 8)
     directions = np.array([np.asarray(a.tip) - np.asarray(a.tail) for a in arrows]) / 1.35
@@ -142,7 +142,7 @@ def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
 def test_the_seam_shows_the_proper_rotation() -> None:
     """The middle of each painted seam lies in the direction of R_1, within 16 eps of 1."""
     (panel,) = panels("film_strip")
-    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 2.31446)
     times = np.linspace(0.0, 2 * np.pi / motion.k, 8)
     tails = [np.asarray(a.tail) for a in layers(panel, Arrow, "body_axis")]
     for seam, centre, R in zip(layers(panel, Surface, "seam"), tails, motion.rotation(times), strict=True):
@@ -153,11 +153,11 @@ def test_the_seam_shows_the_proper_rotation() -> None:
 def test_two_turns_make_the_rotation() -> None:
     """The axis of the third attitude is R_3(t) of the motion, that of the others e3, within 16 eps."""
     (panel,) = panels("two_turns")
-    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 1.5)
     first, second, third = ((np.asarray(a.tip) - np.asarray(a.tail)) / 1.55 for a in layers(panel, Arrow, "body_axis"))
     assert np.abs(first - [0, 0, 1]).max() <= 16 * EPS
     assert np.abs(second - [0, 0, 1]).max() <= 16 * EPS
-    assert np.abs(third - motion.third_axis(0.28 * 2 * np.pi / motion.k)).max() <= 16 * EPS
+    assert np.abs(third - motion.third_axis(0.16 * 2 * np.pi / motion.k)).max() <= 16 * EPS
 
 
 def test_the_energy_is_constant_along_each_orbit_of_the_phase_portrait() -> None:
@@ -167,7 +167,7 @@ def test_the_energy_is_constant_along_each_orbit_of_the_phase_portrait() -> None
     omega3 = float(Hyperbola(I, (B2, B3)).omega3(omega2))
     b, c3 = float(np.hypot(B2, B3)), omega3 + B3
     value = momentum_map(I, (0.0, omega2, omega3), (0.0, B2, B3))
-    orbits = layers(panel, Curve, "second_trace") + layers(panel, Curve, "unstable")
+    orbits = layers(panel, Curve, "component") + layers(panel, Curve, "unstable")
     assert len(orbits) == 4 * 3 + 2
     for orbit in orbits:
         nu, rate = (c3 - orbit.points[:, 0]) / b, orbit.points[:, 1] / b
@@ -216,7 +216,7 @@ def test_an_escape_follows_the_equations_of_motion(push: float) -> None:
 
 def test_the_period_of_an_escape_grows_by_its_logarithmic_law() -> None:
     """Per decade of the push the period grows by (4/gamma) ln 10, within 1e-6 of itself where the push is small."""
-    _, periods = panels("escape")
+    *_, periods = panels("escape")
     (law,), (found,) = layers(periods, Curve, "reference"), layers(periods, Curve, "main")
     growth = np.sqrt(-Hyperbola(*LONG[:2]).stability(LONG[2]))
     assert np.abs(np.diff(law.points[:, 1]) + 4 / growth * np.log(10)).max() <= 1e-9
@@ -310,7 +310,7 @@ def test_the_motion_map_shows_the_amplitude_of_the_nutation() -> None:
         assert layers_of_kind(panel, Points)
 
 
-@pytest.mark.parametrize(("field", "end"), [((1.0, 0.3), 150.0), ((0.05, 1.0), 180.0)])
+@pytest.mark.parametrize(("field", "end"), [((1.0, 0.3), 110.0), ((0.05, 1.0), 180.0)])
 def test_no_amplitude_is_beyond_the_scale_of_colours(field: tuple[float, float], end: float) -> None:
     """In a field close to the axis the axis of the body goes over by nearly 180 degrees; all panels have one scale."""
     images = [layers_of_kind(panel, Image)[0] for panel in panels("motion_map", field=field, cells=12)]

@@ -19,7 +19,7 @@ def test_the_motion_map_has_the_hyperbola_and_what_is_special_on_it() -> None:
         (image,) = (layer for layer in panel.layers if isinstance(layer, Image))
         assert image.values.shape == (CELLS, CELLS)
         assert np.nanmin(image.values) >= 0.0
-        assert image.limits == (0.0, 150.0)
+        assert image.limits[1] - 10.0 < np.nanmax([one.layers[0].values for one in scene.panels]) <= image.limits[1]
         bars.append(bool(image.label))
         lines = [layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "map_curve"]
         assert len(lines) >= 2 * (I != 1.0) + (I == 1.0)
