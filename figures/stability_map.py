@@ -37,7 +37,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     stable: list[Layer] = [
         waving,
         Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
-        Label(np.array([0.5, 0.5 * EDGE]), "some unstable: (a)", "unstable"),
+        Label(np.array([0.5, 0.5 * EDGE]), "some unstable: (a)"),
         *(Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2),
     ]
     for rate in rates:
