@@ -6,9 +6,10 @@
     (1.565247584, -0.741176471)
 
 Bodies and fields: SymmetricBody, ChargeMoments, Field, LaboratoryFrame. Surfaces of initial data: Quadric, Hyperbola.
-Motions: ElementaryMotion (the paper's), GeneralMotion (from any start), BallMotion, FreeMotion, TopMotion (any
-symmetric top), EllipticMotion and AsymmetricMotion (three different moments), ParticleMotion, Flight. Pictures: figure,
-plotter, animate. Tables: sweep. Periods round a loop: monodromy. To compare with: simulate, check, clebsch. Errors:
+Motions: motion (any body from any start, by the class that fits); ElementaryMotion (the paper's), GeneralMotion (from
+any start), BallMotion, FreeMotion, TopMotion (any symmetric top), EllipticMotion and AsymmetricMotion (three different
+moments), ParticleMotion, Flight. Pictures: figure, plotter, animate. Tables: sweep. Periods round a loop: monodromy. To
+compare with: simulate, check, clebsch. Errors:
 AtlasError, DomainError, NotCertifiedError.
 
 Names are loaded when they are first used, so that a number costs no drawing library.
@@ -35,6 +36,7 @@ _HOMES = {
     "AsymmetricMotion": "atlas.core.motions.asymmetric",
     "EllipticMotion": "atlas.core.motions.elliptic",
     "ChargeMoments": "atlas.core.bodies.charge",
+    "motion": "atlas.core.motions.chosen",
     "BallMotion": "atlas.core.motions.ball",
     "ParticleMotion": "atlas.core.motions.particle",
     "Flight": "atlas.core.motions.flight",

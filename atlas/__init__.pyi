@@ -9,6 +9,7 @@ from atlas.core.bodies.field import (
 from atlas.core.maps.monodromy import monodromy
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.core.motions.ball import BallMotion
+from atlas.core.motions.chosen import motion
 from atlas.core.motions.clebsch import clebsch
 from atlas.core.motions.elementary import (
     ElementaryMotion,
@@ -62,6 +63,7 @@ __all__ = [
     "clebsch",
     "figure",
     "monodromy",
+    "motion",
     "plotter",
     "simulate",
     "sweep",

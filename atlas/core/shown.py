@@ -34,7 +34,7 @@ class Shown:
     def __reduce__(self) -> tuple[Any, ...]:
         """Let it be copied, and sent to another process, as the call that makes it."""
         own = self.made_by.partition(".")[2] if "made_by" in self.__dict__ else ""
-        return _made, (getattr(type(self), own) if own else type(self), dict(self.arguments))
+        return made, (getattr(type(self), own) if own else type(self), dict(self.arguments))
 
     def __repr__(self) -> str:
         """Return the call that makes it and, behind a #, of which kind it is."""
@@ -80,7 +80,8 @@ class Shown:
         return notebook("frames").frame(self, times, quantities)
 
 
-def _made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
+def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
+    """Return what a call makes, of a copy or in another process."""
     return make(**arguments)
 
 

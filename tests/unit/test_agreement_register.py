@@ -53,6 +53,12 @@ UNTIED = {
         for shape in "ring disk solid_cylinder thin_rod sphere spherical_shell spheroid".split()
     },
     **{
+        f"{name}Motion.{what}": "the rotation, tied or checked, in another form: test_quaternion, test_motion"
+        for name in ("Elementary", "Free", "Ball", "General", "Top", "Elliptic", "Asymmetric")
+        for what in ("angular_velocity_in_laboratory", "in_laboratory", "quaternion")
+        if (name, what) != ("Elementary", "quaternion")
+    },
+    **{
         f"GeneralMotion.{name}": SERIES
         for name in (
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body "

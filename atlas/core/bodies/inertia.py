@@ -69,8 +69,8 @@ def inertia_tensor(inertia: Any) -> FloatArray:
         raise DomainError(f"The moments of inertia must be positive, but the principal ones are {I}.")
     if I[2] - I[1] > I[0] + ROUNDING * I[2]:
         raise DomainError(
-            f"No body has the principal moments {I}: the largest is at most the sum of the others, "
-            "since 2 g1 = I2 + I3 - I1 is a sum of 2 m x^2."
+            f"No body has the principal moments {I}: the largest is at most the sum of the others, since 2 g1 = I2 + "
+            f"I3 - I1 is a sum of 2 m x^2, but {I[2]:.6g} > {I[1]:.6g} + {I[0]:.6g}."
         )
     return tensor
 
@@ -86,5 +86,7 @@ def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]
         return tensor, tensor.sum()
     size = np.abs(tensor).max(axis=(-2, -1))
     if (np.abs(tensor - tensor.swapaxes(-2, -1)).max(axis=(-2, -1)) > ROUNDING * size).any():
-        raise AtlasError(f"{name} must be symmetric.")
+        i, j = np.unravel_index(np.argmax(np.abs(tensor - tensor.swapaxes(-2, -1)).reshape(-1, 9).max(axis=0)), (3, 3))
+        one, other = tensor.reshape(-1, 3, 3)[0][[i, j], [j, i]]
+        raise AtlasError(f"{name} must be symmetric, but has {one:.6g} and {other:.6g} across its diagonal.")
     return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]

@@ -84,7 +84,9 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         self.arguments = {"ratio": self.ratio, "field": self.field, "omega": self.omega}
 
     @classmethod
-    def in_laboratory(cls, ratio: Any, field: Any, attitude: Any, angular_velocity: Any) -> Self:
+    def in_laboratory(  # type: ignore[override]  # exact, and so of one motion, without other parameters
+        cls, ratio: Any, field: Any, attitude: Any, angular_velocity: Any
+    ) -> Self:
         """Motion R(t), R(0) = `attitude`, in a field of any direction.
 
         `field` (3,) is the vector B' and `angular_velocity` (3,) the initial one, both in the laboratory and in 1/time;

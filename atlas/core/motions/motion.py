@@ -99,8 +99,8 @@ class Motion(Shown, Generic[Single]):
         """Quaternion (x, y, z, w) of R(t), of length 1, its Cayley-Klein parameters; shape (..., 4).
 
         It is continuous in t: after a whole turn it has changed its sign, and comes back after two. At t = 0 w >= 0.
-        `scalar_first` gives (w, x, y, z). SciPy reads it by ``Rotation.from_quat(q)``. Times and bounds are those of
-        `rotation`.
+        `scalar_first` gives (w, x, y, z). SciPy reads it by ``Rotation.from_quat(q)``. Bounds are those of
+        `rotation`. Raises AtlasError for times as that does.
         """
         found = self._evaluate(lambda one, t, out: one.quaternion(t, out), t, (4,))
         return np.roll(found, 1, axis=-1) if scalar_first else found
@@ -112,6 +112,21 @@ class Motion(Shown, Generic[Single]):
     def angular_velocity_in_laboratory(self, t: Any) -> FloatArray:
         """Angular velocity R Omega in the laboratory; shape (..., 3). Raises AtlasError as `angular_velocity` does."""
         return np.asarray(finite(np.matvec(self.rotation(t), self.angular_velocity(t)), "R Omega"))
+
+    @classmethod
+    def in_laboratory(
+        cls, body: Any, field: Any, attitude: Any, angular_velocity: Any = None, **parameters: Any
+    ) -> "Motion[Any]":
+        """Motion of this class with R(0) = `attitude`, in a field of any direction, as `atlas.motion` gives it.
+
+        `body` as there, (I2, I3) for a top; `field` (..., 3), of a top its direction n, and `angular_velocity` are in
+        the laboratory; `parameters` are the coupling and the potential of a top, or the z and branch of an
+        `EllipticMotion`, which has no free angular velocity. Raises DomainError where the motion is not of this class,
+        AtlasError for what is no number.
+        """
+        chosen = import_module("atlas.core.motions.chosen")
+        found: Motion[Any] = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
+        return found
 
     def third_axis(self, t: Any) -> FloatArray:
         """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3).

@@ -1,0 +1,130 @@
+"""A motion seen in other axes: those of the laboratory and of the body that a user has."""
+
+from collections.abc import Mapping
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from atlas.core.arithmetic.quaternions import of_matrix, product
+from atlas.core.inputs import FloatArray, finite
+from atlas.core.motions.motion import Motion
+from atlas.core.shown import made
+
+
+class Turned(Motion[Any]):
+    """What a motion `own` is in given axes: R(t) = `left` R_own(t) `right`, both rotations (..., 3, 3), or None for 1.
+
+    Numbers as the period, and the parameters of the class, are those of the motion itself, in the axes of its class;
+    what was given is in `arguments`.
+    """
+
+    own: Motion[Any]
+    _sides: tuple[FloatArray | None, FloatArray | None]
+    _tensor: FloatArray
+    _given_field: FloatArray
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Return what the class of the motion has besides."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let it be copied, and sent to another process, as the call that makes it."""
+        from atlas.core.motions.chosen import motion
+
+        make = motion if self.made_by == "motion" else type(self.own).in_laboratory
+        return made, (make, dict(self.arguments))
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Rotation matrix R(t), with the body's given axes as columns, R(0) the given attitude; shape (..., 3, 3).
+
+        Bounds and times are those of the class, but for 1e-15 by the turns into the given axes.
+        """
+        found = self.own.rotation(t, out)
+        left, right = self._sides
+        if right is not None:
+            np.matmul(found, right, out=found)
+        return found if left is None else np.matmul(left, found, out=found)
+
+    def column(self, j: int, t: Any) -> FloatArray:
+        """Column j = 1, 2, 3 of R(t), as `Motion.column`."""
+        left, right = self._sides
+        if right is None:
+            return _by(left, self.own.column(j, t))
+        self.own.column(j, ())  # what is no column is refused there
+        return np.ascontiguousarray(self.rotation(t)[..., j - 1])
+
+    def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
+        """Quaternion (x, y, z, w) of R(t), continuous in t, as `Motion.quaternion`."""
+        left, right = self._quaternions
+        found = product(product(left, self.own.quaternion(t)), right)
+        return np.roll(found, 1, axis=-1) if scalar_first else found
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body's given axes; shape (..., 3)."""
+        return self._in_body(self.own.angular_velocity(t))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body's given axes; shape (..., 3)."""
+        if hasattr(self.own, "field_in_body"):
+            return self._in_body(self.own.field_in_body(t))
+        return np.asarray(np.vecmat(self._given_field, self.rotation(t)))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum R II Omega in the laboratory, II the given tensor, over I2 if a ratio; shape (..., 3)."""
+        momentum = np.matvec(self._tensor, self.angular_velocity(t))
+        return np.asarray(finite(np.matvec(self.rotation(t), momentum), "m"))
+
+    def invariants(self, t: Any = None) -> dict[str, Any]:
+        """Constants of the motion by name, as its class has them."""
+        found: dict[str, Any] = getattr(self.own, "invariants")(t)  # noqa: B009  where the class has them
+        return found
+
+    def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
+        """Rotation matrices on a uniform grid, as `Motion.rotation_grid`."""
+        left, right = (None if x is None else x[..., None, :, :] for x in self._sides)
+        found = self.own.rotation_grid(start, step, count, out)
+        if right is not None:
+            np.matmul(found, right, out=found)
+        return found if left is None else np.matmul(left, found, out=found)
+
+    def _in_body(self, v: FloatArray) -> FloatArray:
+        right = self._sides[1]
+        return v if right is None else np.asarray(np.vecmat(v, right))
+
+    @cached_property
+    def _quaternions(self) -> tuple[FloatArray, FloatArray]:
+        """Quaternions of both turns; that of the product at t = 0 has w >= 0."""
+        one = np.eye(3)
+        left, right = (of_matrix(one if x is None else x) for x in self._sides)
+        return left * np.where(product(left, right)[..., 3:] < 0, -1.0, 1.0), right
+
+
+def _by(left: FloatArray | None, v: FloatArray) -> FloatArray:
+    return v if left is None else np.asarray(np.matvec(left, v))
+
+
+@cache
+def _class(of: Any) -> type[Turned]:
+    """Return the class of motions of a class in given axes."""
+    return type(of.__name__, (Turned, of), {"__doc__": of.__doc__, "__module__": of.__module__})
+
+
+def turned(
+    own: Motion[Any],
+    left: FloatArray,
+    right: FloatArray,
+    tensor: FloatArray,
+    field: FloatArray,
+    arguments: Mapping[str, Any],
+    made_by: str = "motion",
+) -> Turned:
+    """Return a motion in given axes, see `Turned`; `made_by` is what made it of the arguments."""
+    of: Any = type(own)
+    found = object.__new__(_class(of))
+    found.__dict__.update({name: value for name, value in vars(own).items() if name != "arguments"})
+    sides = tuple(None if (x == np.eye(3)).all() else x for x in (left, right))
+    found.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field)
+    found.made_by, found.arguments = made_by, arguments
+    return found

@@ -1,0 +1,187 @@
+"""`atlas.motion`: any body from any start, of the class that fits, in the axes that were given."""
+
+import copy
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+import atlas
+
+EPS = 2.0**-52
+
+
+def turn(seed: int) -> Any:
+    """Return some rotation matrix."""
+    return Rotation.random(random_state=seed).as_matrix()
+
+
+def tensor(seed: int, *moments: float) -> Any:
+    """Return the tensor of a body with these moments in odd axes."""
+    P = turn(seed)
+    found = P @ np.diag(moments) @ P.T
+    return (found + found.T) / 2
+
+
+def integrated(I: Any, B: Any, omega: Any, attitude: Any, t: Any) -> tuple[Any, Any]:
+    """Return R and Omega by SciPy's DOP853 of the Euler-Poisson equations, (12) and (16), and K = R^T B'."""
+    torque = np.trace(I) * np.eye(3) - 2 * I
+
+    def rate(_: float, y: Any) -> Any:
+        R, W = y[:9].reshape(3, 3), y[9:]
+        turning = np.array([[0, -W[2], W[1]], [W[2], 0, -W[0]], [-W[1], W[0], 0]])
+        return np.append(R @ turning, np.linalg.solve(I, np.cross(I @ W - torque @ (R.T @ B), W)))
+
+    start = np.append(attitude, omega)
+    y = solve_ivp(rate, (0, t[-1]), start, method="DOP853", rtol=1e-13, atol=1e-14, t_eval=t).y.T
+    return y[:, :9].reshape(-1, 3, 3), y[:, 9:]
+
+
+BODIES = {
+    "three moments": (tensor(1, 1.0, 1.3, 0.8), "asymmetric"),
+    "flat": (tensor(2, 1.0, 1.5, 2.4), "asymmetric"),
+    "free": (tensor(3, 1.0, 1.3, 0.8), "asymmetric"),
+    "disk": (tensor(4, 1.0, 1.0, 1.9), "general"),
+    "rod": (tensor(5, 2.0, 0.3, 2.0), "general"),
+    "ball": (tensor(6, 0.7, 0.7, 0.7), "ball"),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
+    """Attitude, both angular velocities, field in the body, quaternion, momentum, in the axes that were given."""
+    I, family = BODIES[name]
+    seed = list(BODIES).index(name)
+    (B, omega), A = np.random.default_rng(seed).normal(size=(2, 3)).tolist(), turn(seed + 20)
+    B = [0.0, 0.0, 0.0] if name == "free" else B
+    m = atlas.motion(I, B, omega, A)
+    t = np.linspace(0.0, 10.0, 21)[1:]
+    R, Omega = integrated(I, B, omega, A, t)
+    w = np.matvec(R, Omega)
+    assert m.family == family
+    for found, true in (
+        (m.rotation(t), R), (m.rotation_grid(0.5, 0.5, 20), R), (m.column(2, t), R[:, :, 1]),
+        (Rotation.from_quat(m.quaternion(t)).as_matrix(), R), (m.angular_velocity(t), Omega),
+        (m.angular_velocity_in_laboratory(t), w), (m.field_in_body(t), np.vecmat(B, R)),
+        (m.angular_momentum(t), np.matvec(R, np.matvec(I, Omega))),
+    ):  # fmt: skip
+        assert np.abs(found - true).max() <= 3e-12
+    assert np.abs(m.rotation(0.0) - A).max() <= 8 * EPS
+    assert np.abs(m.angular_velocity(0.0) - omega).max() <= 16 * EPS
+    assert np.linalg.norm(np.diff(m.quaternion(np.linspace(0, 40, 4000)), axis=0), axis=-1).max() < 0.1
+
+
+def test_all_ways_to_give_a_body_say_the_same() -> None:
+    """A ratio, a body, moments and a tensor; along another axis the same body is that with its axes renamed."""
+    B, w, t = (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), np.linspace(-3, 3, 7)
+    one = atlas.motion(1.5, B, w).rotation(t)
+    for body in (
+        atlas.SymmetricBody(2.0, 3.0),
+        (2.0, 2.0, 3.0),
+        np.diag([2.0, 2.0, 3.0]),
+        [[2, 0, 0], [0, 2, 0], [0, 0, 3]],
+    ):
+        m = atlas.motion(body, B, w)
+        assert np.abs(m.rotation(t) - one).max() <= 32 * EPS
+        assert np.abs(m.angular_momentum(0.0) - np.array([2.0, 2.0, 3.0]) * w).max() <= 8 * EPS
+    order = [1, 2, 0]
+    other = atlas.motion((3.0, 2.0, 2.0), np.array(B)[[2, 0, 1]], np.array(w)[[2, 0, 1]]).rotation(t)
+    assert np.abs(other[:, order][:, :, order] - one).max() <= 64 * EPS
+
+
+def test_the_class_that_fits_is_found() -> None:
+    """By the start, too: the paper's family, a free body; and it is an instance of its class."""
+    omega3 = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).omega3
+    for given, made, family in (
+        ((1.5, (0, 1, 2), (0, 0.7, omega3)), atlas.ElementaryMotion, "elementary"),
+        ((1.5, turn(3) @ (0, 1, 2), (0, 0.7, omega3), turn(3)), atlas.ElementaryMotion, "elementary"),
+        ((1.5, (0, 0, 2), (0, 0, 1)), atlas.ElementaryMotion, "elementary"),
+        ((1.5, (0, 1, 2), (0, 0.7, 0.1)), atlas.GeneralMotion, "general"),
+        ((1.5, (0, 0, 0), (0.1, 0.7, 0.1)), atlas.FreeMotion, "free"),
+        ((1.0, (0, 1, 2), (0.1, 0.7, 0.1)), atlas.BallMotion, "ball"),
+        (((1.0, 1.2, 1.5), (0, 1, 2), (0, 0.7, 0.1)), atlas.AsymmetricMotion, "asymmetric"),
+    ):
+        m = atlas.motion(*given)  # type: ignore[arg-type]
+        assert isinstance(m, made)
+        assert m.family == family
+        assert np.abs(m.angular_velocity(0.0) - given[2]).max() <= 16 * EPS
+
+
+def test_arrays_have_each_motion_of_their_own() -> None:
+    """Ratios, fields, starts and attitudes broadcast, with each other and with times."""
+    rng, t = np.random.default_rng(4), np.linspace(-2, 2, 5)
+    ratios, B, w, A = (
+        rng.uniform(0.2, 1.9, 6),
+        rng.normal(size=(6, 3)),
+        rng.normal(size=(6, 3)),
+        [turn(i) for i in range(6)],
+    )
+    m = atlas.motion(ratios, B, w, A)
+    R, q, Omega = m.rotation(t[:, None]), m.quaternion(t[:, None]), m.angular_velocity(t[:, None])
+    assert R.shape == (5, 6, 3, 3)
+    assert m.rotation_grid(-2, 1, 5).shape == (6, 5, 3, 3)
+    for i in range(6):
+        one = atlas.motion(float(ratios[i]), B[i], w[i], A[i])
+        assert np.abs(one.rotation(t) - R[:, i]).max() <= 64 * EPS
+        assert np.abs(one.quaternion(t) - q[:, i]).max() <= 64 * EPS
+        assert np.abs(one.angular_velocity(t) - Omega[:, i]).max() <= 128 * EPS
+    assert atlas.motion((1.0, 1.0, ratios), tuple(B.T), tuple(w.T)).shape == (6,)
+
+
+def test_a_motion_in_given_axes_is_copied_and_says_what_it_is() -> None:
+    """By the call that makes it."""
+    m = atlas.motion((1.0, 1.0, 1.5), (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), Rotation.from_euler("x", 0.3))
+    top = atlas.TopMotion.in_laboratory(
+        (1.0, 0.5), (0.3, -1.0, 2.0), turn(1), (0.1, 0.2, 5.0), coupling=(0.0, 0.0), linear=3.0
+    )
+    for one in (m, top):
+        for again in (copy.copy(one), pickle.loads(pickle.dumps(one))):  # noqa: S301  its own
+            assert np.array_equal(again.rotation(1.3), one.rotation(1.3))
+    assert repr(m).startswith("motion(inertia=(1.0, 1.0, 1.5), field=[0.3, -1.0, 2.0], omega=")
+    assert m.kind == "nutation, four real roots"
+    assert m.period > 0
+
+
+def test_every_class_takes_the_laboratory() -> None:
+    """R(0) is the attitude, n or B' and the angular velocity are where they were given; a wrong class is refused."""
+    A, B, w = turn(8), np.array([0.3, -1.0, 2.0]), np.array([0.3, 0.7, 0.2])
+    for made, body, field, more in (
+        (atlas.GeneralMotion, 1.5, B, {}), (atlas.BallMotion, 1.0, B, {}), (atlas.FreeMotion, 1.5, 0 * B, {}),
+        (atlas.AsymmetricMotion, (0.8, 1.0, 1.3), B, {}),
+        (atlas.TopMotion, (1.0, 0.5), B, {"coupling": (1.0, 0.3), "linear": 2.0}),
+        (atlas.EllipticMotion, (0.8, 1.0, 1.3), B, {"z": 1.7}),
+    ):  # fmt: skip
+        start = () if made is atlas.EllipticMotion else (w,)
+        m = made.in_laboratory(body, field, A, *start, **more)
+        assert isinstance(m, made)
+        assert np.abs(m.rotation(0.0) - A).max() <= 8 * EPS
+        if start:
+            assert np.abs(m.angular_velocity_in_laboratory(0.0) - w).max() <= 16 * EPS
+        along = field / np.linalg.norm(B) if made is atlas.TopMotion else field
+        if hasattr(m, "field_in_body"):
+            assert np.abs(np.matvec(m.rotation(0.7), m.field_in_body(0.7)) - along).max() <= 32 * EPS
+    with pytest.raises(atlas.DomainError, match=r"no ElementaryMotion starts, but one of the family general"):
+        atlas.ElementaryMotion.in_laboratory(1.5, B, A, w)
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (((1, 1, 5.0), (0, 0, 1), (0, 0, 1)), r"5 > 1 \+ 1"),
+        (((1, 2), (0, 0, 1), (0, 0, 1)), "three moments"),
+        (([[1, 0.2, 0], [0, 1, 0], [0, 0, 1]], (0, 0, 1), (0, 0, 1)), "has 0.2 and 0 across its diagonal"),
+        ((-np.eye(3), (0, 0, 1), (0, 0, 1)), "must be positive"),
+        ((1.5, (0, 1), (0, 0, 1)), "The field must have"),
+        ((1.5, (0, 1, 2), (0, 1)), "The angular velocity must have"),
+        ((1.5, (0, 1, 2), (0, 1, 1), -np.eye(3)), "must be a rotation matrix"),
+        (((1, 1, np.array([1.5, 1.0])) , (0, 1, 2), (0, 1, 1), np.zeros((2, 2))), "must be a rotation matrix"),
+        (((1, np.array([1.0, 1.2]), 1.5), (0, 1, 2), (0, 1, 1)), "Some of these bodies are symmetric"),
+    ],
+)  # fmt: skip
+def test_what_is_no_motion_is_refused(given: Any, says: str) -> None:
+    """In one line that says what would be right."""
+    with pytest.raises(atlas.AtlasError, match=says):
+        atlas.motion(*given)
