@@ -124,8 +124,8 @@ def free_spin(say: Ledger, p: Any) -> Any:
 
 
 def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
-    """Return the matrix of the unit quaternion of an exact motion."""
-    w, x, y, z = motion(f, p).quaternion(p.t)
+    """Return the matrix of the unit quaternion, which has its scalar first in balls."""
+    w, x, y, z = motion(f, p).quaternion(p.t, **({} if f.name == "exact" else {"scalar_first": True}))
     return [
         [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
@@ -184,7 +184,7 @@ PRECESSION = (
         quaternion_rotation,
         lambda say, p: rotation(say, p, p.t),
         POINTS,
-        floors=("exact",),
+        size=unit,
     ),
     Tie(
         "ElementaryMotion.rotation_grid",

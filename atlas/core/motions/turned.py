@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cache, cached_property
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,9 +32,8 @@ class Turned(Motion[Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Let it be copied, and sent to another process, as the call that makes it."""
-        from atlas.core.motions.chosen import motion
-
-        make = motion if self.made_by == "motion" else type(self.own).in_laboratory
+        chosen = import_module("atlas.core.motions.chosen")
+        make = chosen.motion if self.made_by == "motion" else type(self.own).in_laboratory
         return made, (make, dict(self.arguments))
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
