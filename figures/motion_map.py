@@ -9,11 +9,13 @@ from collections.abc import Mapping
 
 import numpy as np
 from contourpy import contour_generator
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from atlas.core.inputs import FloatArray
 from atlas.core.maps.trace_map import trace_map
 from atlas.errors import DomainError
-from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
+from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import body_name, listed, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, branches, places
 from atlas.study.sweep.plan import Range, Tabulation
@@ -99,7 +101,18 @@ def panel(
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
     layers += [Points(np.array([place.at]), place.role) for place in places(I, field) if place.role != "point"]
+    if name.startswith("(a)"):
+        layers += [
+            Label(inmost(*middle, (looping == k) & (swing > most / 4)), word)
+            for k, word in ((1.0, "loops"), (0.0, "waves"))
+        ]
     return view.panel(layers, unit, equal=True, title=name)
+
+
+def inmost(x: FloatArray, y: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """Return the middle (2,) of the cell of a region that is farthest from its border."""
+    row, column = np.unravel_index(np.argmax(distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]), inside.shape)
+    return np.array([x[column], y[row]])
 
 
 def borders(x: FloatArray, y: FloatArray, inside: FloatArray) -> list[FloatArray]:

@@ -6,6 +6,7 @@ precession, its trace waves; if it moves against it, the trace loops; if it stan
 
 from typing import Any
 
+from atlas.core.maps.trace_map import trace_map
 from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
@@ -29,7 +30,8 @@ def scene(
     motions = [GeneralMotion(ratio, field, (0.0, start, omega3)) for start in omega2]
     panels = tuple(
         axis_trace.sphere(
-            rf"({letter}) $\omega_2={tex(start)}$", field, motion.third_axis, nutations * motion.period,
+            rf"({letter}) {shape(ratio, field, start, omega3)}, $\omega_2={tex(start)}$", field, motion.third_axis,
+            nutations * motion.period,
             max(16, round(12 * nutations)), label=r"$\mathbf{B}$", elevation=elevation,
         )
         for letter, start, motion in zip("abcdef", omega2, motions, strict=False)
@@ -50,3 +52,8 @@ def scene(
         columns=len(panels),
         size=(SIZE * len(panels), SIZE + 10.0),
     )
+
+
+def shape(ratio: Any, field: tuple[float, float], omega2: float, omega3: float) -> str:
+    """Return what the axis draws that starts at a turning point with these omega2 and omega3."""
+    return ("steady", "waves", "loops")[int(trace_map(ratio, field, (0.0, omega2, omega3)))] if omega2 else "cusps"

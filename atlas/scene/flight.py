@@ -164,7 +164,6 @@ def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Pla
         rf"along ${along}$ ({unit})",
         rf"along ${across}$ ({unit})",
         equal=True,
-        legend="beside",
         title=r"(b) across $\mathbf{B}$",
     )
 
