@@ -12,7 +12,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from atlas.core.inputs import FloatArray
-from atlas.core.maps.momentum_map import momentum_map, potential
+from atlas.core.maps.bifurcation import momentum_map, potential
 from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError

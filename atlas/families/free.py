@@ -13,7 +13,7 @@ def _kernels() -> Any:
 
 
 def _balls() -> Any:
-    from atlas.exact.motions.free import FreeMotion
+    from atlas.exact.motions.elementary import FreeMotion
 
     return FreeMotion
 

@@ -17,8 +17,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.core.motions.certified import REACH
 from atlas.core.motions.clebsch_theta import ThetaKernel
-from atlas.core.nutation.single_general import SingleGeneral
-from atlas.core.nutation.single_top import SingleTop
+from atlas.core.nutation.single import SingleGeneral, SingleTop
 from atlas.exact.digits import enclosed
 from atlas.exact.inputs import Real
 from atlas.exact.motions.asymmetric import AsymmetricMotion

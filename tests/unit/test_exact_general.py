@@ -12,8 +12,7 @@ from oracles.taylor import taylor as integrated
 
 from atlas.errors import DomainError
 from atlas.exact.digits import certified
-from atlas.exact.motions.elementary import ElementaryMotion
-from atlas.exact.motions.free import FreeMotion
+from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.cayley_klein import matrix

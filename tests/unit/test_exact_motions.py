@@ -15,10 +15,8 @@ from atlas.errors import DomainError
 from atlas.exact.digits import certified, enclosed, numbers
 from atlas.exact.inputs import Real
 from atlas.exact.motions.ball import BallMotion
-from atlas.exact.motions.elementary import ElementaryMotion
-from atlas.exact.motions.flight import Flight
-from atlas.exact.motions.free import FreeMotion
-from atlas.exact.motions.particle import ParticleMotion
+from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.exact.motions.particle import Flight, ParticleMotion
 from atlas.exact.motions.pseudo_oscillator import PseudoOscillator
 from atlas.exact.surfaces.hyperbola import Hyperbola
 from atlas.exact.surfaces.quadric import Quadric

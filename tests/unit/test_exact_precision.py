@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
-from atlas.exact.nutation.theta import infinite
+from atlas.exact.nutation.cayley_klein import infinite
 
 BITS = 128
 SCALARS = "period", "precession_per_period", "spin_per_period", "nome", "modulus", "complementary_modulus"

@@ -11,7 +11,7 @@ from oracles.top import taylor
 from stress.nutating import narrow
 
 from atlas import DomainError, ElementaryMotion, EllipticMotion, GeneralMotion, Hyperbola, TopMotion, simulate
-from atlas.core.maps.momentum_map import momentum_map, potential
+from atlas.core.maps.bifurcation import momentum_map, potential
 from atlas.core.maps.separatrix import companions
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes

@@ -12,7 +12,7 @@ from flint import arb, ctx
 from stress.regimes import GENERAL
 
 from atlas.core.motions.general import GeneralMotion
-from atlas.core.nutation import rows, single_general
+from atlas.core.nutation import rows, single
 from atlas.exact.motions.general import GeneralMotion as Balls
 from tests.oracles.taylor import taylor
 
@@ -135,7 +135,7 @@ def test_many_times_of_a_slender_body_are_as_true_as_one(monkeypatch: pytest.Mon
     assert max(map(off, motion.angular_velocity(t), true)) <= WANTED
     assert max(map(off, motion.angular_velocity(t.reshape(12, 5)).reshape(60, 3), true)) <= WANTED
     assert max(off(motion.angular_velocity(time), x) for time, x in zip(t[:9], true, strict=False)) <= WANTED
-    monkeypatch.setattr(single_general, "NEAR", np.inf)
+    monkeypatch.setattr(single, "NEAR", np.inf)
     assert max(map(off, motion.angular_velocity(t), true)) > WANTED
 
 

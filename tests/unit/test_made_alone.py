@@ -14,8 +14,7 @@ from atlas.core.motions.general import standing
 from atlas.core.motions.top import balls
 from atlas.core.nutation.exponentials import cancelling
 from atlas.core.nutation.functions import Line
-from atlas.core.nutation.single import SingleMotion
-from atlas.core.nutation.single_top import SingleTop
+from atlas.core.nutation.single import SingleMotion, SingleTop
 from atlas.core.nutation.swing import Swing
 from atlas.errors import DomainError
 

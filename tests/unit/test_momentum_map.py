@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.maps.momentum_map import momentum_map, potential
+from atlas.core.maps.bifurcation import momentum_map, potential
 from atlas.core.maps.trace_map import quartic, trace_map, turning_points
 from atlas.core.maps.wells import Branch, Wells, border, nutation_squared, rest
 from atlas.core.motions.pseudo_oscillator import PseudoOscillator

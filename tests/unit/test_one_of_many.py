@@ -8,7 +8,7 @@ import pytest
 
 import atlas
 from atlas.core.bodies.inertia import mass_matrix_from_inertia
-from atlas.core.maps.momentum_map import momentum_map
+from atlas.core.maps.bifurcation import momentum_map
 from atlas.core.maps.wells import Wells
 
 ZERO, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])

@@ -8,7 +8,7 @@ import pytest
 from flint import arb
 
 from atlas.exact.nutation import swing
-from atlas.exact.nutation.theta import Lattice, Sum, vanishing_at
+from atlas.exact.nutation.cayley_klein import Lattice, Sum, vanishing_at
 from atlas.formulas.numbers import workprec
 
 FACTOR = 0.75

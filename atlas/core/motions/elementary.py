@@ -13,8 +13,7 @@ from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ZERO, exact
 from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.inputs import FloatArray, components, kept, plain, real, turn_time
-from atlas.core.motions.integrals import integrals, shape_factors
-from atlas.core.motions.invariants import invariants
+from atlas.core.motions.integrals import integrals, invariants, shape_factors
 from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError

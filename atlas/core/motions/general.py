@@ -15,8 +15,7 @@ from atlas.core.nutation.blocks import Blocks
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import IN_ARRAYS, KINDS, Scalars
-from atlas.core.nutation.single import BITS
-from atlas.core.nutation.single_general import SingleGeneral
+from atlas.core.nutation.single import BITS, SingleGeneral
 from atlas.core.quantities import RATE
 from atlas.errors import DomainError
 from atlas.exact.bodies.body import ratio_of

@@ -18,8 +18,7 @@ from atlas.core.nutation.blocks import TopBlocks
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.rows import TopRows
 from atlas.core.nutation.scalars import IN_ARRAYS, TOP_KINDS, Scalars
-from atlas.core.nutation.single import BITS
-from atlas.core.nutation.single_top import SingleTop
+from atlas.core.nutation.single import BITS, SingleTop
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import AtlasError, DomainError

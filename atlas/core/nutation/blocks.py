@@ -1,8 +1,8 @@
 """Many motions by blocks: what their constants are made from, and whether their inputs are of one size.
 
 With y = M t + y0 the pair (alpha, beta) of the axis, and that of the angular velocity, is exp(i l t) F times the sum
-over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of `atlas.exact.nutation.theta`. Where kappa is
-not zero, the integral of nu adds to the turn about the axis that the pair has: see `atlas.core.nutation.swing_rows`.
+over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of `atlas.exact.nutation.cayley_klein`.
+Where kappa is not zero, the integral of nu adds to the turn about the axis that the pair has: see `swing_rows`.
 """
 
 from collections.abc import Iterator, Sequence

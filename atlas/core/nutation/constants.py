@@ -15,9 +15,8 @@ from atlas.core.inputs import FloatArray
 from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
 from atlas.core.nutation.swing import Crossing, Swing
 from atlas.errors import DomainError
-from atlas.exact.nutation.cayley_klein import Solution
+from atlas.exact.nutation.cayley_klein import Solution, infinite
 from atlas.exact.nutation.swing import Crossing as ExactCrossing
-from atlas.exact.nutation.theta import infinite
 from atlas.formulas.numbers import rational, workprec
 
 FIRST = 256

@@ -8,9 +8,8 @@ from flint import acb, arb, fmpq
 from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.words import middle, turn_of
 from atlas.core.inputs import FloatArray
-from atlas.exact.nutation.cayley_klein import Parameter
+from atlas.exact.nutation.cayley_klein import Parameter, infinite
 from atlas.exact.nutation.nutating import Nutating
-from atlas.exact.nutation.theta import infinite
 from atlas.formulas.numbers import nearest, workprec
 
 FINE = 128

@@ -1,7 +1,7 @@
 """The functions of time of which alpha and beta of the general motion are made: a few rows of them at many times.
 
-Their weights are those of `atlas.exact.nutation.theta.Sum`, rearranged so that no sum cancels. A common real factor,
-such as the cosh x by which all that is hyperbolic is divided, is left out: it drops out of the matrix.
+Their weights are those of `atlas.exact.nutation.cayley_klein.Sum`, rearranged so that no sum cancels. A common real
+factor, such as the cosh x by which all that is hyperbolic is divided, is left out: it drops out of the matrix.
 """
 
 from collections.abc import Iterable, Sequence
@@ -15,8 +15,7 @@ from atlas.core.arithmetic.circle import WHOLE
 from atlas.core.arithmetic.phase import SPLITTER
 from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
-from atlas.exact.nutation.cayley_klein import Solution
-from atlas.exact.nutation.theta import Sum, infinite
+from atlas.exact.nutation.cayley_klein import Solution, Sum, infinite
 
 NEGLIGIBLE = 2.0**-58
 """Part of the first term below which a term is left out."""

@@ -12,9 +12,9 @@ from flint import arb
 from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray
+from atlas.exact.nutation.cayley_klein import infinite
 from atlas.exact.nutation.swing import Crossing as ExactCrossing
 from atlas.exact.nutation.swing import Swing as Exact
-from atlas.exact.nutation.theta import infinite
 
 Numbers: TypeAlias = NDArray[Any]
 """Numbers of the type."""

@@ -13,8 +13,8 @@ from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.inputs import FloatArray, components, plain, positive, real, whole
 from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
-from atlas.core.surfaces.branches import Branch, halves
 from atlas.core.surfaces.closed import ClosedMotion
+from atlas.core.surfaces.top_hyperbola import Branch, halves
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.formulas.numbers import Number, length, nearest, root, workprec

@@ -7,17 +7,26 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import over
 from atlas.core.bodies.symmetric_top import arguments_of, given
-from atlas.core.inputs import FloatArray, number, plain, positive, real
+from atlas.core.inputs import FloatArray, number, plain, positive, real, whole
 from atlas.core.motions.top import TopMotion
 from atlas.core.quantities import ENERGY, RATE
 from atlas.core.shown import Shown
-from atlas.core.surfaces.branches import Branch, halves
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.surfaces.top_quadric import TopHyperbola as Exact
 from atlas.formulas import top
 from atlas.formulas.numbers import nearest, workprec
+
+Branch = tuple[FloatArray, FloatArray]
+"""Points (omega2, omega3) of one branch."""
+
+
+def halves(points: Any) -> tuple[int, int]:
+    """Split a number of points between two branches."""
+    count = whole(points, "The number of points of two branches", 2)
+    return count - count // 2, count // 2
+
 
 BITS = 64
 """Digits of the ends of a band, before they are rounded once."""

@@ -16,7 +16,6 @@ from flint import arb, ctx, fmpq
 
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.inputs import Real, rational, rationals
-from atlas.exact.motions import two_turns
 from atlas.exact.motions.clebsch_flow import Arrival
 from atlas.exact.motions.clebsch_periods import Integrals, nearest
 from atlas.exact.motions.elliptic import EllipticMotion
@@ -25,6 +24,7 @@ from atlas.exact.motions.euler_top import EulerTop
 from atlas.exact.motions.simpler import Spin, Symmetric
 from atlas.exact.motions.torus import Torus, frequencies, turned
 from atlas.exact.nutation.cayley_klein import matrix
+from atlas.exact.nutation.nutating import product, turn
 from atlas.formulas.numbers import dot, workprec
 from atlas.formulas.numbers import nearest as nearest_float
 
@@ -146,8 +146,8 @@ class OnTorus:
         if i is None:
             swing: list[list[Real]] = matrix(arrival.q)
         else:
-            swing = two_turns.turn([fmpq(int(i == j)) for j in range(3)], w * w - q[i] * q[i], 2 * w * q[i])
-        return two_turns.product(two_turns.turn(self.field, angle.cos(), angle.sin()), swing)
+            swing = turn([fmpq(int(i == j)) for j in range(3)], w * w - q[i] * q[i], 2 * w * q[i])
+        return product(turn(self.field, angle.cos(), angle.sin()), swing)
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B'."""

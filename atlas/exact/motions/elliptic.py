@@ -20,12 +20,11 @@ from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
-from atlas.exact.motions import two_turns
 from atlas.exact.motions.elliptic_curve import check_moments, square_of_v
 from atlas.exact.nutation.cayley_klein import Solution, matrix, steady
 from atlas.exact.nutation.constants import Nutation
 from atlas.exact.nutation.elliptic_quartic import EllipticQuartic
-from atlas.exact.nutation.nutating import Nutating
+from atlas.exact.nutation.nutating import Nutating, product, turn
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.formulas.elliptic import splitting
 from atlas.formulas.integrals import clebsch
@@ -226,7 +225,7 @@ class EllipticMotion(Nutating):
             k, phi = self.steady_rates()
             (s, c), (S, C) = sin_cos(k * t), sin_cos(phi * t)
             axis = [fmpq(int(i == self.places[2])) for i in range(3)]
-            return two_turns.product(two_turns.turn(self.field, c, s), two_turns.turn(axis, C, S))
+            return product(turn(self.field, c, s), turn(axis, C, S))
         a, b, _, _ = self.solution.parameters(t)
         found, back = matrix(self.from_frame(a, b)), self._back
         return [[found[i][j] for j in back] for i in back]

@@ -17,15 +17,12 @@ from flint import acb, arb, ctx, fmpq
 from atlas.errors import DomainError
 from atlas.exact.bodies.body import ratio_of
 from atlas.exact.inputs import Real, rational, rationals
-from atlas.exact.motions import two_turns
-from atlas.exact.motions.elementary import ElementaryMotion
-from atlas.exact.motions.free import FreeMotion
-from atlas.exact.nutation.cayley_klein import Parameter, Solution, steady
+from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.exact.nutation.cayley_klein import Lattice, Parameter, Solution, Sum, steady
 from atlas.exact.nutation.constants import Nutation
-from atlas.exact.nutation.nutating import Nutating
+from atlas.exact.nutation.nutating import Nutating, attitude
 from atlas.exact.nutation.quartic import Quartic
 from atlas.exact.nutation.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
-from atlas.exact.nutation.theta import Lattice, Sum
 from atlas.formulas.numbers import root
 
 
@@ -243,7 +240,7 @@ class GeneralMotion(Nutating):
         t = rational(t, "the time")
         if t != 0 and self._elementary is not None:
             return self._elementary.rotation(t)
-        return two_turns.attitude(self, t)
+        return attitude(self, t)
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""

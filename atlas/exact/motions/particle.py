@@ -1,6 +1,6 @@
-"""The charged particle in constant fields (89), (93), (98) as balls, for any E, B and sign of mu."""
+"""The charged particle in constant fields (89), (93), (98) as balls, for any E, B and sign of mu; a point of a body."""
 
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 from flint import arb, fmpq
 
@@ -108,3 +108,23 @@ class ParticleMotion:
         w = self.cyclotron_frequency
         sine, cosine = sin_cos(w * t)
         return sine / w, cosine
+
+
+class Turning(Protocol):
+    """A motion of a body about its centre of mass."""
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+
+
+class Flight:
+    """y_N(t) = y_0(t) + R(t) x_N(0) of the point ``point``, counted from the centre of mass."""
+
+    def __init__(self, particle: ParticleMotion, motion: Turning, point: Any) -> None:
+        self.particle, self.motion = particle, motion
+        self.point = rationals(point, "the point", 3)
+
+    def position(self, t: Any) -> list[Real]:
+        """Return the point's position at time t."""
+        centre, R = self.particle.position(t), self.motion.rotation(t)
+        return [y + sum(r * x for r, x in zip(row, self.point, strict=True)) for y, row in zip(centre, R, strict=True)]

@@ -5,8 +5,8 @@ from typing import Any
 from flint import fmpq
 
 from atlas.exact.inputs import Real, rational, sin_cos
-from atlas.exact.motions import two_turns
 from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.nutation.nutating import turn
 
 
 class Spin:
@@ -19,7 +19,7 @@ class Spin:
         """Return R(t) as rows."""
         last = next((i for i in range(3) if self.omega[i] != 0), 2)
         s, c = sin_cos(self.omega[last] * rational(t, "the time"))
-        return two_turns.turn([fmpq(int(i == last)) for i in range(3)], c, s)
+        return turn([fmpq(int(i == last)) for i in range(3)], c, s)
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega, which is constant."""

@@ -15,14 +15,14 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 
 from atlas.exact.inputs import Real, rational, rationals
-from atlas.exact.motions import top_steady, two_turns
+from atlas.exact.motions import top_steady
 from atlas.exact.motions.top_steady import SteadyPrecession
 from atlas.exact.nutation.cayley_klein import Solution, steady
 from atlas.exact.nutation.constants import Nutation
-from atlas.exact.nutation.nutating import Nutating
+from atlas.exact.nutation.nutating import Nutating, attitude
+from atlas.exact.nutation.quartic import TopQuartic
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.exact.nutation.swing import crossing, swing
-from atlas.exact.nutation.top_quartic import TopQuartic
 from atlas.exact.surfaces.top_quadric import given
 from atlas.formulas.top import constants
 
@@ -202,7 +202,7 @@ class TopMotion(Nutating):
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
-        return two_turns.attitude(self, rational(t, "the time"))
+        return attitude(self, rational(t, "the time"))
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame."""

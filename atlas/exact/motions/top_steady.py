@@ -7,7 +7,7 @@ from flint import arb, fmpq
 from atlas.errors import DomainError
 from atlas.exact.arithmetic.surd import Surd, derivative, evaluated, sign_of
 from atlas.exact.inputs import Real
-from atlas.exact.nutation.top_quartic import TopQuartic
+from atlas.exact.nutation.quartic import TopQuartic
 from atlas.formulas.numbers import root
 
 

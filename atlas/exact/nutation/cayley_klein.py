@@ -1,14 +1,176 @@
-"""The Cayley-Klein parameters of a motion as functions of time, and the rotation matrix that they make."""
+"""The Cayley-Klein parameters of a motion as functions of time, and the rotation matrix that they make.
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+They are, up to phases, the two entire functions whose ratio is the tangent of half the nutation angle, as sums that
+converge at once. Each is a theta function of the time s since a turning point, with one zero in a cell of the lattice.
+Where the nome is small the sum is trigonometric in pi s/T; near the separatrix the lattice is turned by a right angle
+(Jacobi's imaginary transformation) and the sum is hyperbolic in the time within one period; on the separatrix one term
+is left, and at a triple root it is linear. Every sum carries the bound of what it leaves out.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from flint import acb, arb, fmpz
+from flint import acb, arb, ctx, fmpz
 
 from atlas.exact.inputs import Real, rational
-from atlas.exact.nutation.theta import Lattice, Sum, constant, infinite
 from atlas.formulas.numbers import Number
+
+
+def infinite(x: arb) -> bool:
+    """Whether a period is infinite; one that is not known at the precision of the moment is not a number, and not."""
+    return bool(x > 0) and not x.is_finite()
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """The periods of nutation and the form of the sums.
+
+    ``half`` is half the real period T, infinite on the separatrix; ``imaginary`` half the imaginary period, infinite
+    where a nutation is elementary. ``oblique`` for two real roots: then half + i imaginary is half of a period too.
+    ``rate`` is the factor of s in the functions.
+    """
+
+    form: str
+    half: arb
+    imaginary: arb
+    oblique: bool
+    rate: arb
+
+    @property
+    def nome(self) -> acb:
+        """Nome of the sums, zero where one term is all."""
+        if infinite(self.half) or infinite(self.imaginary):
+            return acb(0)
+        ratio = self.imaginary / self.half if self.form == "trigonometric" else self.half / self.imaginary
+        size = (-arb.pi() * (ratio / 2 if self.oblique else ratio)).exp()
+        return acb(0, size) if self.oblique else acb(size)
+
+    def as_trigonometric(self) -> "Lattice":
+        """Return the same periods with trigonometric sums, whatever the nome: they converge slowly next to one."""
+        return replace(self, form="trigonometric", rate=arb.pi() / (2 * self.half))
+
+    @property
+    def twist(self) -> arb:
+        """Phase by time s and by distance y that the turned lattice asks for: -2 g with g = -N pi/(4 T/2 T'/2)."""
+        if self.form != "hyperbolic" or infinite(self.half):
+            return arb(0)
+        return arb.pi() * (2 if self.oblique else 1) / (2 * self.half * self.imaginary)
+
+    @property
+    def reach(self) -> arb:
+        """Largest absolute value of rate s that a hyperbolic sum is asked for; zero where there is but one term."""
+        return self.rate * self.half if self.form == "hyperbolic" and not infinite(self.half) else arb(0)
+
+
+@dataclass(frozen=True)
+class Sum:
+    """A sum over n of ``odd[n]`` S(k rate s) + ``even[n]`` C(k rate s), k = 2n + 1, or 2n if ``doubled``.
+
+    S and C are sine and cosine, or sinh and cosh, or rate s and one. What is left out is at most ``bound`` times
+    exp(m rate |s|) in a hyperbolic sum, m the first k left out. ``shifted``: the zero is that of another cell.
+    """
+
+    lattice: Lattice
+    odd: tuple[acb, ...]
+    even: tuple[acb, ...]
+    bound: arb
+    doubled: bool = False
+    shifted: bool = False
+
+    def frequency(self, n: int) -> int:
+        """Return k of a term."""
+        return 2 * n if self.doubled else 2 * n + 1
+
+    def at(self, s: arb) -> tuple[acb, acb]:
+        """Return the sum and its derivative by s."""
+        x, form = self.lattice.rate * s, self.lattice.form
+        if form == "linear":
+            return self.even[0] + self.odd[0] * x, self.odd[0] * self.lattice.rate
+        value, slope = acb(0), acb(0)
+        for n, (a, b) in enumerate(zip(self.odd, self.even, strict=True)):
+            k = self.frequency(n)
+            S, C = (x * k).sin_cos() if form == "trigonometric" else (x * k).sinh_cosh()
+            value += a * S + b * C
+            slope += k * (a * C - b * S if form == "trigonometric" else a * C + b * S)
+        k = self.frequency(len(self.odd))
+        left = self.bound * ((k * abs(x)).exp() if form == "hyperbolic" else 1)
+        return _widened(value, left), _widened(slope, 2 * k * left) * self.lattice.rate
+
+    @property
+    def derivative(self) -> "Sum":
+        """The derivative by s, as a sum of the same form; its bound is not kept."""
+        rate, sign = self.lattice.rate, -1 if self.lattice.form == "trigonometric" else 1
+        if self.lattice.form == "linear":
+            return Sum(self.lattice, (acb(0),), (self.odd[0] * rate,), arb(0), self.doubled)
+        odd = tuple(sign * rate * self.frequency(n) * b for n, b in enumerate(self.even))
+        even = tuple(rate * self.frequency(n) * a for n, a in enumerate(self.odd))
+        return Sum(self.lattice, odd, even, self.bound, self.doubled)
+
+    @property
+    def logarithmic_slope(self) -> acb:
+        """Derivative of the logarithm at s = 0."""
+        value, slope = self.at(arb(0))
+        return slope / value
+
+
+def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
+    """Return the sum with a zero at s = i y, or at s = T/2 + i y if ``beyond``; |y| at most the imaginary half-period.
+
+    With two real roots and small nome a zero in the outer half of its cell is moved by T/2 + i imaginary into the
+    inner one, lest the sum converge slowly: that multiplies the function by a phase linear in s.
+    """
+    zeta = lattice.rate * y
+    if lattice.form == "linear":
+        return Sum(lattice, (acb(1),), (acb(0, -y),), arb(0))
+    if lattice.form == "hyperbolic":
+        if beyond:
+            return _sum(lattice, arb(0), lambda k: (acb(0, -(zeta * k).sin()), acb((zeta * k).cos())), doubled=True)
+        return _sum(lattice, arb(0), lambda k: (acb(0, (zeta * k).cos()), acb((zeta * k).sin())))
+    shifted = lattice.oblique and bool(2 * abs(y).mid() > lattice.imaginary.mid())
+    if shifted:
+        cell = lattice.rate * lattice.imaginary
+        zeta, beyond = zeta - (cell if y.mid() > 0 else -cell), not beyond
+    zero = acb(arb.pi() / 2 if beyond else 0, zeta)
+    found = _sum(lattice, abs(zeta), lambda k: ((zero * k).cos(), -(zero * k).sin()))
+    return replace(found, shifted=shifted)
+
+
+def constant(lattice: Lattice) -> Sum:
+    """Return the function one, whose zero has gone to infinity."""
+    return Sum(lattice, (acb(0),), (acb(1),), arb(0), doubled=True)
+
+
+def _sum(lattice: Lattice, depth: arb, weights: Callable[[int], tuple[acb, acb]], *, doubled: bool = False) -> Sum:
+    """Add terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if doubled, until the rest is below the precision of the moment.
+
+    The weights of a term are at most 2 exp(k depth).
+    """
+    nome, growth = lattice.nome, (lattice.reach + 1 if lattice.form == "hyperbolic" else depth)
+    size, odd, even, n = abs(nome), list[acb](), list[acb](), 0
+    if not (size.is_finite() and growth.is_finite() and size < 1):  # the precision of the moment does not suffice
+        return Sum(lattice, (acb(arb("nan")),), (acb(arb("nan")),), arb(0), doubled)
+    while True:
+        k = 2 * n if doubled else 2 * n + 1
+        power = n * n if doubled else n * (n + 1)
+        first = size**power * (k * growth).exp() * 4
+        falls = size ** (2 * n + 1 if doubled else 2 * n + 2) * (2 * growth).exp() < 0.5
+        if n and (nome == 0 or (falls and first < arb(2) ** -(ctx.prec + 8))):
+            break
+        factor = (-1) ** n * nome**power * (2 if doubled and n else 1)
+        a, b = weights(k)
+        odd.append(factor * a)
+        even.append(factor * b)
+        n += 1
+    left = arb(0) if nome == 0 else 8 * size**power * (k * depth).exp()
+    return Sum(lattice, tuple(odd), tuple(even), left, doubled)
+
+
+def _widened(value: acb, radius: arb) -> acb:
+    """Return a ball widened by a bound."""
+    if radius.is_zero():
+        return value
+    return value + acb(arb(0, radius.upper()), arb(0, radius.upper()))
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,9 @@ from functools import cached_property
 
 from flint import acb, arb, fmpq
 
-from atlas.exact.nutation.cayley_klein import Parameter, Solution
+from atlas.exact.nutation.cayley_klein import Lattice, Parameter, Solution, Sum, constant, infinite, vanishing_at
 from atlas.exact.nutation.quartic import Quartic, Root
 from atlas.exact.nutation.spheres import Sphere
-from atlas.exact.nutation.theta import Lattice, Sum, constant, infinite, vanishing_at
 
 
 @dataclass(frozen=True)

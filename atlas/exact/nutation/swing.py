@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 
 from flint import acb, arb, ctx
 
+from atlas.exact.nutation.cayley_klein import Lattice, Sum, infinite, vanishing_at
 from atlas.exact.nutation.constants import Nutation
-from atlas.exact.nutation.theta import Lattice, Sum, infinite, vanishing_at
-from atlas.exact.nutation.top_quartic import TopQuartic
+from atlas.exact.nutation.quartic import TopQuartic
 from atlas.formulas.numbers import workprec
 
 ROUGH = 80

@@ -19,7 +19,7 @@ class FlightParameters(StrictStruct, frozen=True):
 def flight(request: Request) -> Data:
     """Positions y_0(t) and y_N(t) = y_0(t) + R(t) x_N(0) at some `times`, in the laboratory frame of figure Lssc."""
     from atlas.exact.motions.elementary import ElementaryMotion
-    from atlas.exact.motions.flight import Flight
+    from atlas.exact.motions.particle import Flight
 
     asked, case = request.take(FlightParameters), request.case
     made = exact_particle(case, asked.position, asked.velocity)
