@@ -8,9 +8,8 @@ from flint import arb, fmpq
 
 import atlas
 from atlas.exact.motions.ball import BallMotion
-from atlas.exact.motions.elementary import ElementaryMotion
+from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.free import FreeMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import rational, workprec

@@ -1,4 +1,4 @@
-"""The charged particle in constant fields (89), (93), (98) as balls, for any E, B and sign of mu; a point of a body."""
+"""The charged particle in constant fields, (89), (93), (98), for any E, B and sign of mu; a point of a body, (101)."""
 
 from typing import Any, Protocol, TypeAlias
 

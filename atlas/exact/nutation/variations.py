@@ -14,8 +14,7 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.nutation.cayley_klein import Solution
-from atlas.exact.nutation.theta import Sum, infinite
+from atlas.exact.nutation.cayley_klein import Solution, Sum, infinite
 from atlas.formulas.numbers import workprec
 
 STEP = 80
