@@ -41,6 +41,13 @@ def plot(
     return drawn
 
 
+def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
+    """Return a motion as an animation, see `Motion.animate`."""
+    from atlas.draw.animation import of_motion
+
+    return of_motion(motion, times, fps=fps, style=style)
+
+
 def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
     """Return the scene of an object. Raises AtlasError where no recipe takes it."""
     family, name = FAMILIES.get(shown.family), type(shown).__name__

@@ -3,7 +3,6 @@
 import reprlib
 from collections.abc import Callable, Mapping
 from functools import cached_property, partial
-from importlib import import_module
 from math import prod
 from numbers import Integral
 from typing import Any, Generic, Protocol, TypeVar
@@ -157,7 +156,7 @@ class Motion(Shown, Generic[Single]):
         `rotation` does.
         """
         moments = None if times is None else real(times, "The time", TIME).ravel()
-        return import_module("atlas.draw.animation").of_motion(self, moments, fps=number(fps, "fps"), style=style)
+        return notebook("pictures").animate(self, moments, number(fps, "fps"), style)
 
     def trace(self, periods: float = 1.0, *, stop: float | None = None, tolerance: float = 1e-4) -> Any:
         """Curve that the third axis draws on the unit sphere: times (N,) and points R_3(t), (N, 3), of one motion.

@@ -1,61 +1,30 @@
-"""The computed tables of a report, by name; one idea a file."""
+"""The computed tables of a report, each by the name of its function."""
 
 from collections.abc import Mapping
-from types import MappingProxyType
 
 from atlas.errors import unknown
-from atlas.report.tables import (
-    ball,
-    body_and_field,
-    charges,
-    closed,
-    companions,
-    diamagnetism,
-    families,
-    flight,
-    motion,
-    observed,
-    particle,
-    points,
-    properties,
-    quadric,
-    sheet,
-    sizes,
-    targets,
-    three_moments,
-    tops,
-)
+from atlas.report.tables.body_and_field import body_and_field
+from atlas.report.tables.charges import charges, diamagnetism
+from atlas.report.tables.closed import closed, companions
+from atlas.report.tables.families import quantities, targets
+from atlas.report.tables.motion import motion, samples, sheet
+from atlas.report.tables.observed import coats, swings
+from atlas.report.tables.particle import ball, flight, particle
+from atlas.report.tables.points import points
+from atlas.report.tables.properties import properties
+from atlas.report.tables.quadric import quadric
+from atlas.report.tables.sizes import radiation, sizes
 from atlas.report.tables.table import Data, Maker, Request
+from atlas.report.tables.tops import asymmetric, elliptic, monodromy, periods, tops
 
-TABLES: Mapping[str, Maker] = MappingProxyType(
-    {
-        "body_and_field": body_and_field.body_and_field,
-        "charges": charges.charges,
-        "diamagnetism": diamagnetism.diamagnetism,
-        "quadric": quadric.quadric,
-        "points": points.points,
-        "properties": properties.properties,
-        "motion": motion.motion,
-        "sheet": sheet.sheet,
-        "quantities": families.quantities,
-        "samples": motion.samples,
-        "ball": ball.ball,
-        "closed": closed.closed,
-        "companions": companions.companions,
-        "particle": particle.particle,
-        "flight": flight.flight,
-        "sizes": sizes.sizes,
-        "targets": targets.targets,
-        "radiation": sizes.radiation,
-        "coats": observed.coats,
-        "swings": observed.swings,
-        "tops": tops.tops,
-        "monodromy": tops.loops,
-        "elliptic": three_moments.elliptic,
-        "periods": three_moments.periods,
-        "asymmetric": three_moments.asymmetric,
-    }
-)
+TABLES: Mapping[str, Maker] = {
+    made.__name__: made
+    for made in (
+        *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
+        *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
+        *(periods, asymmetric),
+    )
+}
 
 
 def compute(name: str, request: Request) -> Data:

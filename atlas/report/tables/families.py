@@ -1,12 +1,14 @@
-"""The register of families as a reference: what each is given, what it has, in which unit, from which equation."""
+"""What there is to ask for: the families of the register and their quantities, and the targets of figures."""
 
 from collections.abc import Iterator
+from itertools import groupby
 
 from atlas.families import FAMILIES, Family
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.properties import cited
 from atlas.report.tables.table import Column, Data, Request
+from atlas.targets import ANY, TARGETS, Target
 
 Row = tuple[str, str, str, str, str | Number]
 
@@ -56,3 +58,24 @@ def _names(names: tuple[str, ...]) -> str:
 
 def _promise(one: Family, checked: str) -> str | Number:
     return Number(f"{one.promises[checked]:g}") if checked in one.promises else ""
+
+
+def targets(request: Request) -> Data:
+    """List the targets of figures with width and height, type, lines, resolution, what is asked, and the source."""
+    request.take(StrictStruct)
+    columns = ("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi")
+    firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
+    return Data(
+        tuple(map(Column, columns)),
+        tuple((f"`{name}`", *_sizes(one)) for name, one in TARGETS.items()),
+        "What `atlas figure NAME --for TARGET` makes: width and greatest height, size of all type, least and "
+        "greatest width of lines, resolution of pictures.",
+        tuple(f"{name}: {one.asks}{f' ({one.source})' if one.source else ''}." for name, one in firsts),
+    )
+
+
+def _sizes(one: Target) -> tuple[str, ...]:
+    """Return the sizes of a target in words."""
+    least, greatest = one.lines
+    lines = f"{least:g}" if greatest == ANY else f"{least:g} to {greatest:g}"
+    return f"{one.width:g}", f"{one.height:g}", f"{one.type:g}", lines, f"{one.dpi:g}"

@@ -3,7 +3,8 @@
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.layout import Quantity, side_by_side
+from atlas.report.tables.layout import Quantity, side_by_side, titled
+from atlas.report.tables.quadric import quantities as quadric_quantities
 from atlas.report.tables.table import RATE, Column, Data, Request, certified, column
 
 
@@ -78,4 +79,19 @@ def samples(request: Request) -> Data:
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
         r"@(73), and the body's axis in the laboratory, the third column of @(84).",
+    )
+
+
+def sheet(request: Request) -> Data:
+    """List what the tables `quadric` and `motion` have, for the motion that starts with `omega2`."""
+    asked = request.take(Motion)
+    columns, rows = side_by_side(
+        request,
+        [[*quadric_quantities(one, request.digits), *quantities(one, asked, request.digits)] for one in request.cases],
+    )
+    return Data(
+        columns,
+        rows,
+        f"Data sheet of {titled(request)}: the quadric of initial data, @(51) to @(57), and the motion that starts "
+        rf"with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$.",
     )

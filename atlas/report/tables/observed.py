@@ -6,7 +6,7 @@ from atlas.core.bodies.body import from_shape
 from atlas.core.bodies.charge import ChargeMoments
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.diamagnetism import DiamagnetismParameters, magnetised
+from atlas.report.tables.charges import DiamagnetismParameters, magnetised
 from atlas.report.tables.table import RATE, Column, Data, Request
 
 

@@ -1,4 +1,4 @@
-"""A charged particle in constant fields: its frequency, its drift, and where it is at some times."""
+"""A charged ball, a charged particle and a body that flies: frequencies, the drift, where they are at some times."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct, Vector
-from atlas.report.tables.table import Column, Data, Request, certified, column, scaled
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, column, quantity, scaled
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
@@ -51,4 +51,69 @@ def particle(request: Request) -> Data:
                 rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$."
             ),
         ),
+    )
+
+
+class BallParameters(StrictStruct, frozen=True):
+    """Initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
+
+    omega2: float
+    omega3: float
+    larmor: float
+
+
+def ball(request: Request) -> Data:
+    """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
+    from atlas.exact.motions.ball import BallMotion
+
+    asked = request.take(BallParameters)
+    if asked.larmor == 0:
+        raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
+    made = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
+    gamma, k_hat = certified(lambda: (made.gamma, made.k_hat), request.digits)
+    rows = (
+        ("initial angular velocity", r"$m_2/I_0$", made.m2, RATE),
+        ("", r"$m_3/I_0$", made.m3, RATE),
+        ("Larmor's frequency @(27)", r"$\alpha$", made.larmor, RATE),
+        ("frequency of the turn about $\\hat{\\mathbf{k}}$, @(29)", r"$\gamma$", gamma, RATE),
+        ("axis of that turn, @(29)", r"$\hat k_2$", k_hat[0], "1"),
+        ("", r"$\hat k_3$", k_hat[1], "1"),
+    )
+    return Data(
+        (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
+        tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
+        r"The general motion of the ball, @(28), in a field along $\mathbf{e}_3$.",
+    )
+
+
+class FlightParameters(StrictStruct, frozen=True):
+    """The elementary motion by its omega2, times in s, the point at t = 0, the start of the centre of mass."""
+
+    omega2: float
+    times: tuple[float, ...]
+    point: Vector
+    position: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
+
+
+def flight(request: Request) -> Data:
+    """Positions y_0(t) and y_N(t) = y_0(t) + R(t) x_N(0) at some `times`, in the laboratory frame of figure Lssc."""
+    from atlas.exact.motions.elementary import ElementaryMotion
+    from atlas.exact.motions.particle import Flight
+
+    asked, case = request.take(FlightParameters), request.case
+    made = exact_particle(case, asked.position, asked.velocity)
+    turning = ElementaryMotion(case.exact, case.components, asked.omega2)
+    whole = Flight(made, turning, asked.point)
+    unit = case.units.length_unit if case.units else ""
+    values = certified(lambda: [(*made.position(t), *whole.position(t)) for t in asked.times], request.digits)
+    unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
+    return Data(
+        (
+            Column("$t$", "s"),
+            *(Column(f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)),
+            *(Column(f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3)),
+        ),
+        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
+        r"The flight of the centre of mass $\mathbf{y}_0$, @(101), and of the point $\mathbf{y}_N$ of the body.",
     )
