@@ -6,8 +6,8 @@ One colour means one thing in the whole atlas; this is the key to all of its fig
 import numpy as np
 
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, quadric_panel, solids
+from atlas.scene.arrange import stacked
 from atlas.scene.captions import title
-from atlas.scene.narrow import stacked
 
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
 NARROWEST = 139.0

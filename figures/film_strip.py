@@ -13,10 +13,10 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
+from atlas.scene.arrange import stacked
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
 from atlas.scene.movement import about, riding
-from atlas.scene.narrow import stacked
 
 WIDTH, HEIGHT = 178.0, 50.0
 STEP = 2.3

@@ -9,10 +9,10 @@ import numpy as np
 
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadric_row, quadrics
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadrics
+from atlas.scene.arrange import lettered, stacked
 from atlas.scene.captions import tex, title
-from atlas.scene.narrow import lettered, stacked
-from atlas.scene.quadric_row import Member
+from atlas.scene.quadric_panel import Member
 
 WIDTH, HEIGHT = 178.0, 134.0
 NARROWEST = 150.0
@@ -55,7 +55,7 @@ def scene(
         sheets = quadrics.sheets(quadric, Q, reach, quadric_panel.tolerance(2 * reach))
         members.append(Member(sheets, Q, np.asarray(quadric.centre), f"{number} {name}"))
     depth = max(one.centre[2] - grid[..., 2].min() for one in members for sheet in one.surfaces for grid in sheet.grids)
-    cells = quadric_row.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)
+    cells = quadric_panel.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)
     plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
     return Scene(
         title=title(__doc__),

@@ -18,10 +18,10 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadric_panel
+from atlas.scene.arrange import lettered, stacked
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, quotient, tex, title
 from atlas.scene.movement import about, along, riding
-from atlas.scene.narrow import lettered, stacked
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0

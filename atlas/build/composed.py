@@ -1,5 +1,6 @@
 """A report composed with its figures drawn in some format."""
 
+import gzip
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -7,6 +8,7 @@ from typing import TYPE_CHECKING
 from atlas.build import figures
 from atlas.build.cache import Cache
 from atlas.build.figures import FigureBuild
+from atlas.build.publish import replace
 from atlas.errors import AtlasError
 from atlas.places import cache_folder
 from atlas.report.find import find
@@ -58,3 +60,40 @@ def composed(
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
     document = compose(report, wanted, gather(report), works, outlines(report))
     return document, {picture.stem: build for build, picture in builds.items()}
+
+
+if TYPE_CHECKING:
+    from atlas.report.blocks.figure import FigureView
+
+OUT = Path("build/data")
+
+
+def build_data(
+    name: str | Path,
+    out: Path = OUT,
+    progress: Progress = lambda _done, _total, _what: None,
+    *,
+    jobs: int | None = None,
+    parquet: bool = True,
+) -> Path:
+    """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
+
+    They are CSV, and Parquet if that is wanted.
+
+    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
+    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
+    written.
+    """
+    from atlas.report.data_package import DESCRIPTION, package
+
+    place = out / find(str(name)).stem
+    document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs)
+    views: list[FigureView] = document.listed("figure")
+    stems = {view.id: view.pictures[0].stem for view in views}
+    drawn = {
+        name: gzip.decompress(figures[stem].contents["csv.gz"]).decode()
+        for name, stem in stems.items()
+        if stem in figures
+    }
+    replace(place, package(document, drawn, parquet=parquet))
+    return place / DESCRIPTION

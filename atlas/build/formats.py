@@ -3,8 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import msgspec
+
 from atlas.build.cache import Cache
-from atlas.report.manifest import MANIFEST, manifest_of
 from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
@@ -88,3 +89,19 @@ def _pdf(
 
 
 MAKERS = {"html": _pages, "pdf": _pdf, "single": _single}
+
+
+if TYPE_CHECKING:
+    from atlas.report.document import Document
+
+MANIFEST = "manifest.json"
+"""By it a folder is known to be of a report, which may be built anew."""
+
+
+def manifest_of(document: "Document") -> bytes:
+    """Return the manifest of a report as JSON; it depends on the report and on the versions alone."""
+    from atlas.report.versions import versions
+
+    report = document.report
+    found = {"report": report.name, "title": report.title, "versions": versions()}
+    return msgspec.json.format(msgspec.json.encode(found), indent=1) + b"\n"

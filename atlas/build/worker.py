@@ -20,8 +20,7 @@ from atlas.errors import AtlasError
 from atlas.places import settle_matplotlib
 from atlas.processes import end_with_parent
 from atlas.scene import Curve, Image, Points, Region, Scene, Surface, data, recipes
-from atlas.scene.arrange import arranged, suited
-from atlas.scene.narrow import narrowed
+from atlas.scene.arrange import arranged, narrowed, suited
 from atlas.targets import find
 
 

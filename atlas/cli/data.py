@@ -25,7 +25,7 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     written whole, with the same bytes each time; what you put there stays. Beside a file that you edited the new one
     is written, as NAME.new.csv, and then the exit status is 2.
     """
-    from atlas.build.data import build_data
+    from atlas.build.composed import build_data
 
     try:
         parquet = bool(of_sweeps("pyarrow", "Parquet"))

@@ -1,11 +1,10 @@
-"""Point masses and charges of a CSV file as the body of a command."""
+"""Columns of numbers of a CSV file with a heading; point masses and charges of one as the body of a command."""
 
+import csv
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
-
-from atlas.cli.columns import columns_of
 
 SYMMETRIC = 1e-9
 """By how much moments about the axis may differ, and how large products may be, in parts of the largest moment."""
@@ -109,3 +108,30 @@ def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
             f"{ratios.max():.6g}; other charges are those of atlas.TopMotion.charged."
         )
     return charge_to_mass(float(charges.sum()), float(masses.sum()))
+
+
+def columns_of(path: Path) -> dict[str, list[float]]:
+    """Return the columns of a CSV file, named by its first line. Raises click.UsageError, with the line."""
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            reader = csv.reader(file)
+            (_, heading), *lines = [(reader.line_num, line) for line in reader if line] or [(1, [])]
+    except OSError as error:
+        raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
+    except csv.Error as error:
+        raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
+    names = [name.partition("[")[0].strip() for name in heading]  # k [1/time] is k
+    if not lines or len(set(names)) != len(names):
+        raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
+    columns: dict[str, list[float]] = {name: [] for name in names}
+    for number, line in lines:
+        if len(line) != len(names):
+            raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(names)}.")
+        for name, cell in zip(names, line, strict=True):
+            try:
+                columns[name].append(float(cell))
+            except ValueError:
+                raise click.UsageError(f"{path}: line {number}: {cell!r} under {name} is not a number.") from None
+    return columns

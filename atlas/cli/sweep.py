@@ -18,8 +18,8 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.columns import columns_of
 from atlas.cli.options import REAL, Command, Place, examples
+from atlas.cli.points import columns_of
 from atlas.cli.progress import bar
 from atlas.families import FAMILIES
 

@@ -7,8 +7,8 @@ from typing import Any
 import click
 
 from atlas.cli.body import SECONDS, SIZES, F
-from atlas.cli.columns import columns_of
 from atlas.cli.options import REAL, stack
+from atlas.cli.points import columns_of
 
 WAYS = ("heavy", "magnetic")
 BODY = ("inertia", "shape", "points")

@@ -20,8 +20,8 @@ from atlas.draw.plane import marker
 from atlas.draw.space import window
 from atlas.draw.style import context
 from atlas.draw.view import View, fit, named
+from atlas.scene.arrange import narrowed
 from atlas.scene.layers import FloatArray, Layer, Path, Plane, Scene, Space, Surface
-from atlas.scene.narrow import narrowed
 
 FINE = 32767
 _PLAIN, _MOST, _LOOKS = 96, 240, 2400

@@ -22,8 +22,8 @@ from atlas.draw.panels import places
 from atlas.draw.style import HEAD_LENGTH, HEAD_WIDTH, context, style_of
 from atlas.draw.text import extent, line, points, typeset
 from atlas.draw.view import View, dashes, fit, named
+from atlas.scene.arrange import narrowed
 from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, points_of
-from atlas.scene.narrow import narrowed
 from atlas.scene.style import Style, readable
 
 STEPS, GRID = 16000, 16

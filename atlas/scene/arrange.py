@@ -1,12 +1,14 @@
-"""A scene laid out anew for a target: its panels in other rows and columns, as large as the place allows."""
+"""A scene laid out anew: its panels in other rows and columns for a target, below one another for a narrow screen."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from math import log
 
+import numpy as np
+
 from atlas.errors import AtlasError
-from atlas.scene.layers import Panel, Plane, Scene
-from atlas.scene.narrow import extent
+from atlas.scene.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, points_of
 from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.35
@@ -126,3 +128,53 @@ def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float])
 def _words(panel: Panel) -> tuple[float, float]:
     """Return the room beside and below a panel for what does not shrink with it."""
     return _AXES if isinstance(panel, Plane) else _NAMES
+
+
+WIDTH = 90.0
+"""Millimetres: what a phone shows of a figure without making its words smaller."""
+
+
+def narrowed(scene: Scene) -> Scene | None:
+    """Return a scene with its panels in as few columns as leave them no smaller, or None if it has them already.
+
+    Wide panels of curves that stand below one another are made narrower alone: their words stay readable. A scene that
+    has panels for a narrow screen is drawn with these.
+    """
+    panels, (width, height) = len(scene.panels), scene.size
+    rows = -(-panels // scene.columns)
+    if scene.narrow:
+        high = height / rows * len(scene.narrow)
+        return replace(scene, panels=scene.narrow, columns=1, size=(WIDTH, high))
+    curves = all(isinstance(one, Plane) and not one.equal for one in scene.panels)
+    if scene.columns == 1 and width > WIDTH and curves:
+        return replace(scene, size=(WIDTH, height))
+    columns = max(1, int(WIDTH * scene.columns // width))
+    if columns >= scene.columns:
+        return None
+    scale = WIDTH / width * scene.columns / columns
+    return replace(scene, columns=columns, size=(WIDTH, scale * height * -(-panels // columns) / rows))
+
+
+def stacked(
+    cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0
+) -> tuple[Space, ...]:
+    """Return groups of layers that stand side by side in space as so many panels at one scale.
+
+    Each group has at least so much ``room`` to the right.
+    """
+    each = -(-len(cells) // rows)
+    panels = [Space(tuple(chain(*cells[i : i + each])), azimuth, elevation) for i in range(0, len(cells), each)]
+    span = np.max([extent(panel) for panel in panels], axis=0)
+    return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
+
+
+def lettered(panels: Sequence[Space], title: str = "(a)") -> tuple[Space, ...]:
+    """Return panels of which the first has a title."""
+    first, *others = panels
+    return replace(first, title=title), *others
+
+
+def extent(panel: Space) -> FloatArray:
+    """Return how much of the plane of view (right, up) the layers of a panel cover."""
+    points = [np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)]
+    return np.asarray(np.ptp(np.concatenate(points) @ frame(panel)[:2].T, axis=0))

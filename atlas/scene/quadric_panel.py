@@ -5,6 +5,7 @@ e1, e2, e3.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -192,3 +193,42 @@ def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
     layers.append(Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"))
     layers += angle(centre, float(np.arctan2(axes[1, 2], axes[1, 1])), radius, r"$\beta/2+\pi/4$")
     return layers
+
+
+PITCH = 0.5
+"""Least distance from one to the next, in parts of the height of the tallest."""
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """One quadric: its sheets, its matrix (4, 4) and its centre (3,), its name and the role of that."""
+
+    surfaces: Sequence[Surface]
+    matrix: FloatArray
+    centre: FloatArray
+    name: str
+    role: str = "label"
+
+
+def cells(members: Sequence[Member], scale: float, azimuth: float, below: float = 2.35) -> list[list[Layer]]:
+    """Return the layers of each, from left to right, all centres as high as the first; names stand ``below`` them.
+
+    Gaps and that length are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
+    """
+    right, found, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
+    least = PITCH * max(float(np.ptp(solids.extent(one.surfaces, E3))) for one in members)
+    for one in members:
+        level = members[0].centre - one.centre
+        surfaces = [solids.moved(surface, level) for surface in one.surfaces] if level.any() else one.surfaces
+        left, end = solids.extent(surfaces, right)
+        shift = (place - left) * right + level
+        place += max(end - left + 0.35 * scale, least)
+        layers: list[Layer] = []
+        for surface in one.surfaces:
+            layers.append(solids.moved(surface, shift))
+            curve = quadrics.hyperbola(one.matrix, surface, tolerance(3 * scale))
+            layers += [Curve(points + shift, "hyperbola") for points in curve]
+        low = one.centre + shift - below * scale * E3
+        layers.append(Label(np.asarray(low), one.name, one.role, (0.0, 0.0)))
+        found.append(layers)
+    return found

@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 
 from atlas.build import publish as publishing
+from atlas.build.formats import MANIFEST
 from atlas.build.publish import WRITTEN, publish, replace
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report import pdf
-from atlas.report.manifest import MANIFEST
 
 PLAIN = """
 name = "plain"

@@ -13,8 +13,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from atlas.build.composed import composed
-from atlas.build.data import build_data
+from atlas.build.composed import build_data, composed
 from atlas.build.publish import WRITTEN
 from atlas.cli.app import atlas as program
 from atlas.core.motions.elementary import ElementaryMotion

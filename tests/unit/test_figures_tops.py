@@ -9,7 +9,7 @@ from atlas import DomainError, TopMotion
 from atlas.core.maps.wells import Wells
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.scene import Arrow, Curve, Label, Points, Region, Scene, Space, Surface, recipes
-from atlas.scene.narrow import narrowed
+from atlas.scene.arrange import narrowed
 
 
 def made(name: str, **parameters: Any) -> Scene:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import atlas
-from atlas.build.reference import described
+from atlas.build.appendices import described
 from atlas.cli import main
 from atlas.places import folder
 from atlas.report.blocks.reference import markdown

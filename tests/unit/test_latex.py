@@ -14,8 +14,7 @@ from atlas.build.tex import build_tex
 from atlas.exact.digits import certified
 from atlas.exact.motions.elementary import ElementaryMotion as Balls
 from atlas.report.blocks.table import Cell, ColumnView, TableView
-from atlas.report.latex import _numbers, _with_unit
-from atlas.report.latex_table import _format, table_of
+from atlas.report.latex import _format, _numbers, _with_unit, table_of
 
 REPORT = r"""
 name = "small"

@@ -260,7 +260,6 @@ def test_help_is_there_at_once() -> None:
         "atlas",
         "atlas.cli",
         "atlas.cli.app",
-        "atlas.cli.encoding",
         "atlas.errors",
         "atlas.families",
         "atlas.families.family",

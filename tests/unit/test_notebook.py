@@ -31,7 +31,7 @@ from atlas import (
     TopMotion,
 )
 from atlas.core.shown import Shown
-from atlas.draw.embedded import mimebundle
+from atlas.draw.window import mimebundle
 from atlas.families import FAMILIES
 from atlas.notebook.pictures import alone, scene_of
 from atlas.notebook.show import picture

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from atlas import places
-from atlas.cli.encoding import NEAR
+from atlas.cli.app import NEAR
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -85,7 +85,7 @@ def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, c
 def test_no_letter_fails(encoding: str) -> None:
     """What the terminal's encoding does not have is written in ASCII, as near as it gets; JSON keeps its turn."""
     program = (
-        "import json, sys; from atlas.cli.encoding import write_plainly; from atlas.cli.present import dump\n"
+        "import json, sys; from atlas.cli.app import write_plainly; from atlas.cli.present import dump\n"
         "write_plainly(); print('\u2212\u00d7\u2192\u03c9 \u00e9\u2075'); dump({'a': '\u03c9'})"
     )
     done = subprocess.run(

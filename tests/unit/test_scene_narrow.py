@@ -6,8 +6,8 @@ import pytest
 
 from atlas.draw.view import fit
 from atlas.scene import recipes
+from atlas.scene.arrange import WIDTH, narrowed
 from atlas.scene.layers import Scene, Space
-from atlas.scene.narrow import WIDTH, narrowed
 
 SCENE = recipes.load("motion").scene()
 

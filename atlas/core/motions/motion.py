@@ -3,6 +3,7 @@
 import reprlib
 from collections.abc import Callable, Mapping
 from functools import cached_property, partial
+from importlib import import_module
 from math import prod
 from numbers import Integral
 from typing import Any, Generic, Protocol, TypeVar
