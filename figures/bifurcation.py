@@ -14,7 +14,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import listed, plain, tex, tex_vector, title
 from atlas.scene.sample import curve, quarter_pixel
 
-WIDTH, HEIGHT, MARGIN = 150.0, 62.0, 13.0
+WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
 NEAR = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
 ROLES = {"stable": "start", "saddle": "unstable_point", "focus-focus": "unstable_point"}

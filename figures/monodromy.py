@@ -98,7 +98,7 @@ def values(name: str, wells: Wells, found: Monodromy, first: bool, unit: str) ->
         *(Curve(line, "main") for line in lines),
         Curve(smooth(np.stack([found.p, found.g], axis=1)), "trajectory"),
         Points(ends, "unstable_point", "spin" if first else ""),
-        *([Label(np.array([0.0, low - 0.05 * pad]), "no motion", "note")] if first else []),
+        *([Label(np.array([0.4 * far, low]), "no motion", "note")] if first else []),
         Points(np.array([[found.p[0], found.g[0]]]), "start"),
     ]
     return Plane(

@@ -57,7 +57,7 @@ def scene(
         ),
         panels=panels,
         columns=len(panels),
-        named={"navy": "trace", "teal": "trajectory"},
+        named={"navy": "body_axis", "teal": "trajectory"},
         size=(SIZE * len(panels), SIZE + 4.0),
     )
 
@@ -81,7 +81,7 @@ def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns
     trace = curve(point, 0.0, turns * period, fine, pieces=pieces)
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),
-        Curve(curve(motion.third_axis, 0.0, period, fine), "trace"),
+        Curve(curve(motion.third_axis, 0.0, period, fine), "body_axis"),
         Curve(trace, "trajectory" if turns <= DENSE else "fine_trajectory"),
         Points(trace[:1], "start"),
     ]
