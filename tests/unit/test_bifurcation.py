@@ -13,6 +13,7 @@ from stress.elliptic import ELLIPTIC
 from atlas import AsymmetricMotion, DomainError, EllipticMotion
 from atlas.core.inputs import FloatArray
 from atlas.core.maps.bifurcation import Bifurcation
+from atlas.core.maps.monodromy import carried
 from atlas.core.motions.clebsch import clebsch
 from atlas.exact.motions.elliptic import EllipticMotion as ExactElliptic
 from atlas.exact.motions.torus import Torus
@@ -146,6 +147,23 @@ def test_plane_pendulums_have_the_values_of_the_rays_and_their_stability() -> No
             H = (np.vecdot(M, M / BODY) + np.vecdot(K, BODY * K)) / 2
             assert abs(2 * H - F / BODY[axis] - BODY.sum() + BODY[axis]) <= 1e-12
             assert (departed(M, K) > 1e4) != stable
+
+
+def test_the_isolated_focus_has_monodromy_and_a_regular_value_has_none() -> None:
+    """Round it one period comes back with the other added; the same loop beside it brings both back."""
+    one = Bifurcation(BODY, 1.0, 0.8)
+    t = 2 * np.pi * np.arange(16) / 16
+    ring = np.stack([0.06 * np.cos(t), 0.03 * np.cos(t) + 0.02 * np.sin(t)], axis=1)
+    spin = one.spins[2]
+    assert spin.kind == "focus-focus"
+    centres = np.array([[spin.F, spin.H], [spin.F + 0.3, spin.H + 0.15]])
+    (matrix, step), (beside, _) = carried(one, 2, ring + centres[0]), carried(one, 2, ring[::2] + centres[1])
+    change = np.array(matrix) - np.eye(2, dtype=int)
+    assert step < 0.2
+    assert change.any()
+    assert not (change @ change).any()  # unipotent
+    assert np.gcd.reduce(change.ravel()) == 1  # one focus
+    assert beside == ((1, 0), (0, 1))
 
 
 def test_the_edge_is_reached() -> None:

@@ -7,7 +7,8 @@ top back. A basis is
     g1 = (2 pi, 0, 0),     g2 = (0, 2 pi, 0),     g3 = (-Delta psi, -Delta chi, T),
 
 T the period of nutation and Delta psi, Delta chi the angles of precession and spin in it. g1 and g2 are the same
-everywhere; g3 continued along a loop comes back as another vector of the lattice. Not in the paper.
+everywhere; g3 continued along a loop comes back as another vector of the lattice. Of a body with three moments two
+pairs of times (T_H, T_F) of a torus are carried round the values of an isolated spin. Not in the paper.
 """
 
 import math
@@ -15,17 +16,22 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from flint import arb
+from flint import arb, fmpq
 
 from atlas.core.bodies.symmetric_top import given
 from atlas.core.inputs import FloatArray, whole
+from atlas.core.maps.bifurcation import Bifurcation
 from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.motions.top import TopMotion
+from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import workprec
 
 PRECISION = 128
 """Binary digits of the balls of period and angles."""
+
+NEWTON = 40
+"""Steps to a state with given values."""
 
 LEAST = 1e-280
 """Least square of a rate, beside which an energy keeps its digits."""
@@ -178,3 +184,43 @@ def around(wells: Wells, p: float, points: int = 48) -> FloatArray:
         widths.append(near)
     t = 2 * np.pi * (np.arange(points) + 0.5) / points
     return np.stack([p + min(widths) / 2 * np.cos(t), g + room(p) / 2 * np.sin(t)], axis=-1)
+
+
+def carried(one: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
+    """Carry two periods of the tori of a body round a `loop` (N, 2) of values (F, H), closed by its first point.
+
+    The tori are those next to the spin about an `axis`, 0 to 2. Their periods, pairs of times (T_H, T_F), are proved in
+    balls at each point and continued to the nearest basis. Returns the rows of the new basis in the old, and the
+    largest distance of a continued basis from the next in units of that, which must be below 1/4. Raises DomainError
+    for a coarser loop, NotCertifiedError where no periods are found.
+    """
+    state = np.zeros(6)
+    state[[axis, axis + 3]] = one.c / one.b, one.b
+    state += 0.1 * one.b * np.array([0.5, 0.8, -0.3, 1.0, 0.5, -0.1])
+    found: list[FloatArray] = []
+    step = 0.0
+    for F, H in [*loop.tolist(), loop[0].tolist()]:
+        state = _with_values(one, state, np.array([H, F, one.b * one.b, one.c]))
+        W, K = ([fmpq(*x.as_integer_ratio()) for x in half.tolist()] for half in (state[:3] / one.inertia, state[3:]))
+        torus = Torus(tuple(fmpq(*I.as_integer_ratio()) for I in one.inertia.tolist()), tuple(W), tuple(K))
+        basis = np.array([[float(period.H), float(period.F)] for period in torus.periods(64)])
+        if found:
+            part = found[-1] @ np.linalg.inv(basis)
+            step = max(step, float(np.abs(part - np.rint(part)).max()))
+            basis = np.rint(part) @ basis
+        found.append(basis)
+    if not step < 1 / 4:
+        raise DomainError(f"A period changes by {step:.3g} of itself from one point of the loop to the next.")
+    turned = np.rint(found[-1] @ np.linalg.inv(found[0])).astype(int).tolist()
+    return tuple(tuple(row) for row in turned), step
+
+
+def _with_values(one: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Return (M, K) near a state with the values (H, F, K^2, (M, K)), by Newton's method to the nearest."""
+    I, a = one.inertia, one.a
+    for _ in range(NEWTON):
+        M, K = state[:3], state[3:]
+        values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])
+        slopes = np.array([[*(M / I), *(I * K)], [*(2 * M), *(-2 * a * K)], [0, 0, 0, *(2 * K)], [*K, *M]])
+        state = state - np.linalg.lstsq(slopes, values - wanted)[0]
+    return state
