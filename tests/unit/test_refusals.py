@@ -54,7 +54,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).column(0, 1.0), "are 1, 2 and 3, not 0"),
     (lambda: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).column(4, 1.0), "are 1, 2 and 3, not 4"),
     (lambda: Ball(0, 1, (1, 1)), "must be positive"),
-    (lambda: Balls(1.5, (0, 1)).omega3(1), "is the axis omega2 = 0"),
+    (lambda: Balls(1.5, (0, 1)).omega3(1), "is the line omega2 = 0"),
     (lambda: Balls(1.5, (1, 1)).omega3(-1), "is the pole"),
     (lambda: rationals("123", "x", 3), "must hold 3 numbers"),
     (lambda: rationals((1, 2), "x", 3), "3"),

@@ -16,10 +16,9 @@ from atlas.core.bodies.inertia import (
 from atlas.core.inputs import FloatArray, matrix, number, positive, real
 from atlas.core.quantities import INERTIA, LENGTH, MASS
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.domain import NO_SUCH_BODY, ROD, check_ratio, check_shape
 
 __all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
-
-NO_SUCH_BODY = "since the mass matrix element g3 = (2 I2 - I3)/2 is a sum of m x^2 and so cannot be negative"
 
 
 def moments(ratio: Any) -> tuple[float, Any]:
@@ -30,16 +29,10 @@ def moments(ratio: Any) -> tuple[float, Any]:
     """
     if isinstance(ratio, SymmetricBody):
         if ratio.I3 == 0:
-            raise DomainError(
-                "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
-                "give it a radius."
-            )
+            raise DomainError(ROD)
         return ratio.I2, ratio.I3
     I = real(ratio, "The ratio I = I3/I2")
-    if (I <= 0).any():
-        raise DomainError(f"The ratio I = I3/I2 must lie in (0, 2], not {I.min()}: a moment of inertia is positive.")
-    if (I > 2).any():
-        raise DomainError(f"No body has I = I3/I2 = {I.max()}: I is at most 2, {NO_SUCH_BODY}.")
+    check_ratio(I)
     return 1.0, I if I.ndim else float(I)
 
 
@@ -225,13 +218,8 @@ SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
 
 def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
     """Make the body `SHAPES[name]` from its dimensions, all of them and no others."""
-    if name not in SHAPES:
-        raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
-    constructor, names = SHAPES[name]
-    if set(dimensions) != set(names):
-        given = ", ".join(dimensions) or "nothing"
-        raise AtlasError(f"The shape {name} is given by {', '.join(names)}, not by {given}.")
-    return constructor(**dimensions)
+    check_shape(name, SHAPES, lambda name: SHAPES[name][1], dimensions)
+    return SHAPES[name][0](**dimensions)
 
 
 def _square(length: Any, name: str, *, zero: bool = False) -> float:

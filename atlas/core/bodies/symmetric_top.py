@@ -9,6 +9,7 @@ from atlas.core.bodies.body import moments
 from atlas.core.inputs import FloatArray, common_shape, components, number, plain
 from atlas.core.quantities import ENERGY, INERTIA, MOMENTUM
 from atlas.errors import DomainError
+from atlas.formulas.domain import check_direction, check_moments
 
 PARALLEL = 1e-14
 """Sine of the angle up to which a weight counts as parallel to the field."""
@@ -28,13 +29,8 @@ def given(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: A
     ]
     common_shape(*(np.shape(x) for x in parts))
     I2, I3, _, _, n2, n3 = np.broadcast_arrays(*parts)[:6]
-    wrong = ~((I3 > 0) & (I2 > 0) & (I3 <= 2 * I2))
-    if wrong.any():
-        raise DomainError(
-            f"No body has I2 = {I2[wrong].flat[0]}, I3 = {I3[wrong].flat[0]}: both are positive and I3 is at most 2 I2."
-        )
-    if ((n2 == 0) & (n3 == 0)).any():
-        raise DomainError("The direction (n2, n3) must not be the zero vector.")
+    check_moments(I2, I3)
+    check_direction(n2, n3)
     return parts
 
 

@@ -25,6 +25,7 @@ from atlas.core.bodies.body import moments
 from atlas.core.inputs import FloatArray, components, number, real
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
+from atlas.formulas.domain import check_curve
 from atlas.formulas.numbers import Number, nearest, root, workprec
 
 ComplexArray = NDArray[np.complex128]
@@ -127,8 +128,7 @@ def companions(ratio: Any, field: Any, omega2: Any) -> tuple[Companion, ...]:
     w2 = number(omega2, "omega2")
     if not B2:
         raise DomainError("With B2 = 0 the elementary motions turn about the field: see `TopMotion.sleeping_bands`.")
-    if w2 == -B2:
-        raise DomainError(f"omega2 = -B2 = {w2} is the pole of omega3(omega2), (71).")
+    check_curve(B2, w2)
     i2, i3, b2, b3, omega = exact(I2, I3, B2, B3, w2)
     less = (i2 - i3) / i2
     if less <= 0:

@@ -11,8 +11,8 @@ from atlas.core.arithmetic.words import ONE, ZERO, exact
 from atlas.core.inputs import FloatArray, components, kept, plain, real
 from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import INERTIA, MOMENTUM, RATE
-from atlas.errors import DomainError
 from atlas.formulas.ball import rates, turning
+from atlas.formulas.domain import check_ball
 from atlas.formulas.numbers import alone, direction, workprec
 
 
@@ -47,8 +47,7 @@ class BallMotion(DoubleTurn[Ball]):
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
         m2, m3 = components(momentum, ("m2", "m3"), "The momentum", MOMENTUM)
         inertia = real(inertia, "The inertia", INERTIA)
-        if (inertia <= 0).any():
-            raise DomainError(f"The inertia of a ball must be positive, not {inertia.min()}.")
+        check_ball(inertia)
         larmor = real(larmor, "The Larmor frequency", RATE)
         super().__init__(Ball, inertia, larmor, m2, m3)
         self.larmor = plain(larmor)

@@ -17,31 +17,10 @@ from atlas.core.motions.integrals import integrals, invariants, shape_factors
 from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.domain import case_of, check_omega3
 from atlas.formulas.elementary import CASES, FREE, constants, free, quotient, scalars, turning
 from atlas.formulas.integrals import NAMES
 from atlas.formulas.numbers import direction, nearest, workprec
-
-
-def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
-    """Name the case, decided on the inputs as given; DomainError where (67) has no point."""
-    if B2 == 0:
-        if B3 == 0:
-            return "free body"
-        if omega2:
-            raise DomainError(
-                f"With B2 = 0 every elementary motion has omega2 = 0, not {omega2}: (67) reads B3 omega2^2 = 0."
-            )
-        return "spin along the field"
-    if omega2 == -B2:
-        if B3 == 0:
-            return "transverse field, free spin"
-        if I2 == I3:
-            return "ball, free spin"
-        raise DomainError(
-            f"omega2 = -B2 = {omega2} is the pole of omega3(omega2), (71): "
-            "no elementary motion starts there unless B3 = 0 or I = 1."
-        )
-    return "precession" if omega2 else "at rest"
 
 
 class Elementary(DoubleRotation):
@@ -49,15 +28,12 @@ class Elementary(DoubleRotation):
 
     def __init__(self, I2: float, I3: float, B2: float, B3: float, omega2: float, given: float | None) -> None:
         self.case = case_of(I2, I3, B2, B3, omega2)
-        if self.case in CASES[:FREE] and given is None:
-            raise DomainError(f"In the case '{self.case}' omega3 is free: give it.")
         inputs = exact(I2, I3, B2, B3, omega2, 0.0 if given is None else given)
         with workprec():
             w3, along, k, phi = constants(self.case, *inputs)
             axis, third = (ZERO, *direction(along)), nearest(inputs[1] * w3 / inputs[0])
         self.omega3 = nearest(w3)
-        if self.case not in CASES[:FREE] and given is not None and given != self.omega3:
-            raise DomainError(f"omega3 follows from omega2 by (71) and is {self.omega3}, not {given}: leave it out.")
+        check_omega3(self.case, given, self.omega3)
         self.vectors = {"Omega": (0.0, omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, omega2, third)}
         super().__init__(axis, k, phi)
 

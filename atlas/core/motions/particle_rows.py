@@ -21,6 +21,7 @@ from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.formulas import particle
+from atlas.formulas.domain import check_force
 from atlas.formulas.numbers import Number, nearest, rational, workprec
 
 SERIES = np.array([(-1) ** n / factorial(2 * n + 3) for n in range(12, -1, -1)])
@@ -168,8 +169,7 @@ class Charge:
 
     def needs_field(self, what: str) -> None:
         """Raise DomainError if one of the particles feels no magnetic force."""
-        if not np.all(self.force):
-            raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
+        check_force(self.force, what)
 
     @cached_property
     def velocity_parts(self) -> FloatArray:

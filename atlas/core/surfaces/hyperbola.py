@@ -16,6 +16,7 @@ from atlas.core.shown import Shown
 from atlas.core.surfaces.closed import ClosedMotion
 from atlas.core.surfaces.top_hyperbola import Branch, halves
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.domain import check_asymptotes, check_curve
 from atlas.formulas.hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.formulas.numbers import Number, length, nearest, root, workprec
 
@@ -85,8 +86,7 @@ class Hyperbola(Shown):
         The first is the pole's, the second that of I^-1 B'. DomainError where the curve is none: B2 = 0 or B3 = 0.
         """
         I2, I3, B2, B3 = self._exact
-        if not (B2 and B3):
-            raise DomainError("The curve (67) has asymptotes only if neither B2 nor B3 is zero.")
+        check_asymptotes(B2, B3)
         with workprec():
             x, y = I3 * B2, I2 * B3
             h = length(x, y)
@@ -259,10 +259,5 @@ class Hyperbola(Shown):
     def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
         """Return what a formula of I2, I3, B2, B3 and omega2 gives, where (71) holds."""
         omega2 = real(omega2, "omega2", RATE)
-        if np.any(np.equal(self.B2, 0)):
-            raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
-        pole = omega2 == self.pole
-        if np.any(pole):
-            found = np.broadcast_to(omega2, pole.shape)[pole].flat[0]
-            raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), (71).")
+        check_curve(self.B2, omega2)
         return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, None), **more)

@@ -10,8 +10,8 @@ from atlas.core.bodies.symmetric_top import arguments_of, given
 from atlas.core.inputs import FloatArray, common_shape, components, kept, plain, vectors
 from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
-from atlas.errors import DomainError
 from atlas.formulas import quadric, top
+from atlas.formulas.domain import check_a2, check_a3, check_beta, check_D
 from atlas.formulas.numbers import nearest, workprec
 
 if TYPE_CHECKING:
@@ -85,16 +85,14 @@ class Quadric(Shown):
     def a2(self) -> Any:
         """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54). Raises DomainError for B2 = 0, B3 >= 0."""
         I2, I3, B2, B3 = self._directed()
-        if np.any((B2 == 0) & (B3 > 0)):
-            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
+        check_a2(B2, B3)
         return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
     def a3(self) -> Any:
         """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54). Raises DomainError for B2 = 0, B3 <= 0."""
         I2, I3, B2, B3 = self._directed()
-        if np.any((B2 == 0) & (B3 < 0)):
-            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
+        check_a3(B2, B3)
         return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
@@ -154,8 +152,7 @@ class Quadric(Shown):
     def _directed(self) -> tuple[Any, ...]:
         """Return the inputs as arrays; DomainError where I^-1 B' has no direction."""
         I2, I3, B2, B3 = (np.asarray(x) for x in self._inputs)
-        if np.any((B2 == 0) & (B3 == 0)):
-            raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
+        check_beta(B2, B3)
         return I2, I3, B2, B3
 
 
@@ -247,5 +244,4 @@ class TopQuadric(Quadric):
 
     def _needs_finite(self) -> None:
         """Raise DomainError where D is infinite."""
-        if np.any((np.asarray(self._top[5]) == 0) & (np.asarray(self._top[6]) != 0)):
-            raise DomainError("With n3 = 0 and a linear potential D = A + kappa^2 + a0/n3 is infinite.")
+        check_D(np.asarray(self._top[5]), np.asarray(self._top[6]))

@@ -5,13 +5,9 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import DomainError
 from atlas.exact.inputs import rational
-
-ROD = (
-    "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
-    "give it a radius."
-)
+from atlas.formulas.domain import ROD, check_ratio, check_shape, written
 
 
 class Moments(NamedTuple):
@@ -32,36 +28,18 @@ def ratio_of(ratio: Any) -> fmpq:
         I = rational(ratio.I3, "I3") / rational(ratio.I2, "I2")
     else:
         I = rational(ratio, "the ratio I = I3/I2")
-    if I <= 0:
-        raise DomainError(f"The ratio I = I3/I2 must lie in (0, 2], not {float_text(I)}: no turn is without inertia.")
-    if I > 2:
-        raise DomainError(
-            f"No body has I = I3/I2 = {float_text(I)}: I is at most 2, since g3 = (2 I2 - I3)/2 is a sum of m x^2."
-        )
+    check_ratio(I)
     return I
-
-
-def float_text(value: fmpq) -> str:
-    """Return a rational as the shortest text of the double nearest to it, or "beyond all floats", for sentences."""
-    try:
-        return repr(int(value.p) / int(value.q))
-    except OverflowError:
-        return "beyond all floats"
 
 
 def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
     """Return (I2, I3) of a homogeneous shape, (8), exactly, from its ``mass`` and its dimensions."""
-    if name not in SHAPES:
-        raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
+    check_shape(name, SHAPES, lambda name: SHAPES[name][0], dimensions)
     names, formula = SHAPES[name]
-    if set(dimensions) != set(names):
-        raise AtlasError(
-            f"The shape {name} is given by {', '.join(names)}, not by {', '.join(dimensions) or 'nothing'}."
-        )
     values = [rational(dimensions[key], key) for key in names]
     for key, value in zip(names, values, strict=True):
         if value < 0 or (value == 0 and key not in {"height", "polar"}):
-            raise DomainError(f"The {key} must be positive, not {float_text(value)}.")
+            raise DomainError(f"The {key} must be positive, not {written(value)}.")
     return formula(*values)
 
 

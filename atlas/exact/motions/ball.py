@@ -4,10 +4,9 @@ from typing import Any
 
 from flint import fmpq
 
-from atlas.errors import DomainError
-from atlas.exact.bodies.body import float_text
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.formulas import ball
+from atlas.formulas.domain import check_ball
 from atlas.formulas.numbers import direction
 
 
@@ -18,8 +17,7 @@ class BallMotion:
         self.inertia = rational(inertia, "the inertia")
         self.larmor = rational(larmor, "the Larmor frequency")
         self.m2, self.m3 = rationals(momentum, "the momentum (m2, m3)", 2)
-        if self.inertia <= 0:
-            raise DomainError(f"The inertia of a ball must be positive, not {float_text(self.inertia)}.")
+        check_ball(self.inertia)
 
     @property
     def gamma(self) -> Real:

@@ -4,11 +4,10 @@ from typing import Any
 
 from flint import arb, fmpq
 
-from atlas.errors import DomainError
-from atlas.exact.bodies.body import float_text, ratio_of
+from atlas.exact.bodies.body import ratio_of
 from atlas.exact.inputs import Real, rational, rationals, sin_cos, turn_time
-from atlas.exact.surfaces.hyperbola import Hyperbola
 from atlas.formulas import elementary
+from atlas.formulas.domain import case_of, check_omega3
 from atlas.formulas.integrals import NAMES, along_field, integrals
 from atlas.formulas.numbers import root
 
@@ -26,42 +25,10 @@ class ElementaryMotion:
         self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
         self.omega2 = rational(omega2, "omega2")
         given = None if omega3 is None else rational(omega3, "omega3")
-        self.case = self._case()
-        self.omega3: fmpq = self._omega3(given)
-
-    def _case(self) -> str:
-        if self.B2 == 0 and self.B3 == 0:
-            return "free body"
-        if self.B2 == 0:
-            if self.omega2 != 0:
-                raise DomainError(
-                    f"With B2 = 0 every elementary motion has omega2 = 0, not {float_text(self.omega2)}: "
-                    "(67) reads B3 omega2^2 = 0."
-                )
-            return "spin along the field"
-        if self.omega2 + self.B2 == 0:
-            if self.B3 == 0:
-                return "transverse field, free spin"
-            if self.I == 1:
-                return "ball, free spin"
-            raise DomainError(
-                f"omega2 = -B2 = {float_text(self.omega2)} is the pole of omega3(omega2), (71): "
-                "no elementary motion starts there unless B3 = 0 or I = 1."
-            )
-        return "at rest" if self.omega2 == 0 else "precession"
-
-    def _omega3(self, given: fmpq | None) -> fmpq:
-        if self.case in {"precession", "at rest"}:
-            value = Hyperbola(self.I, (self.B2, self.B3)).omega3(self.omega2)
-            if given is not None and float_text(given) != float_text(value):
-                raise DomainError(
-                    f"omega3 follows from omega2 by (71) and is {float_text(value)}, not {float_text(given)}: "
-                    "leave it out."
-                )
-            return value
-        if given is None:
-            raise DomainError(f"In the case {self.case!r} omega3 is free: give it.")
-        return given
+        self.case = case_of(fmpq(1), self.I, self.B2, self.B3, self.omega2)
+        curve = fmpq(1), self.I, self.B2, self.B3, self.omega2, given or fmpq(0)
+        self.omega3: fmpq = elementary.constants(self.case, *curve)[0]
+        check_omega3(self.case, given, self.omega3)
 
     @property
     def omega(self) -> tuple[fmpq, fmpq, fmpq]:

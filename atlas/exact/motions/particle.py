@@ -7,6 +7,7 @@ from flint import arb, fmpq
 from atlas.errors import DomainError
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.formulas import particle
+from atlas.formulas.domain import check_force
 from atlas.formulas.numbers import dot
 
 Vector: TypeAlias = tuple[Real, ...]
@@ -33,25 +34,25 @@ class ParticleMotion:
     @property
     def drift(self) -> Vector:
         """The drift velocity c [E, B]/B^2 of (94), whatever the sign of mu."""
-        self._needs_field("drift")
+        check_force(bool(self._force), "drift")
         return tuple(particle.drift(*self._inputs))
 
     @property
     def period(self) -> arb:
         """The time 2 pi/|omega| of one turn."""
-        self._needs_field("period")
+        check_force(bool(self._force), "period")
         return 2 * arb.pi() / abs(self.cyclotron_frequency)
 
     @property
     def radius(self) -> Real:
         """The radius a of (97): that of the circle around the drifting centre."""
-        self._needs_field("radius")
+        check_force(bool(self._force), "radius")
         found: Real = particle.radius(*self._inputs)
         return found
 
     def guiding_centre(self, t: Any) -> list[fmpq]:
         """Return the point O(t) of (99) about which the particle circles, carried along B with it."""
-        self._needs_field("guiding centre")
+        check_force(bool(self._force), "guiding centre")
         t = rational(t, "the time")
         terms = zip(self.start, *self._vectors(), strict=True)
         return [y - r + d * t + p * t**2 / 2 for y, d, p, r, _ in terms]
@@ -80,11 +81,6 @@ class ParticleMotion:
         s, c = self._circle(t)
         terms, w2 = zip(self.launch, *self._vectors(), strict=True), self._square
         return [v + p * t - w2 * s * r + (c - 1) * q for v, _, p, r, q in terms]
-
-    def _needs_field(self, what: str) -> None:
-        """Raise DomainError where there is no magnetic force."""
-        if not self._force:
-            raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
 
     @property
     def _pull(self) -> Vector:

@@ -4,10 +4,10 @@ from typing import Any
 
 from flint import fmpq
 
-from atlas.errors import DomainError
-from atlas.exact.bodies.body import float_text, ratio_of
+from atlas.exact.bodies.body import ratio_of
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.formulas import hyperbola
+from atlas.formulas.domain import check_asymptotes, check_curve
 from atlas.formulas.numbers import root
 
 
@@ -26,8 +26,7 @@ class Hyperbola:
     @property
     def asymptotes(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
         """Unit directions (omega2, omega3) of the asymptotes through -B': the pole's, and that of I^-1 B'."""
-        if self.B2 == 0 or self.B3 == 0:
-            raise DomainError("The curve (67) has asymptotes only if neither B2 nor B3 is zero.")
+        check_asymptotes(self.B2, self.B3)
         size = root((self.I * self.B2) ** 2 + self.B3**2)
         return (fmpq(0), fmpq(1)), (self.I * self.B2 / size, self.B3 / size)
 
@@ -87,8 +86,5 @@ class Hyperbola:
 
     def _off_the_pole(self, omega2: Any) -> fmpq:
         w2 = rational(omega2, "omega2")
-        if self.B2 == 0:
-            raise DomainError("With B2 = 0 the hyperbola (67) is the axis omega2 = 0, and omega3 is free on it.")
-        if w2 + self.B2 == 0:
-            raise DomainError(f"omega2 = -B2 = {float_text(w2)} is the pole of omega3(omega2), (71).")
+        check_curve(self.B2, w2)
         return w2

@@ -4,10 +4,10 @@ from typing import Any
 
 from flint import arb, fmpq
 
-from atlas.errors import DomainError
 from atlas.exact.bodies.body import ratio_of
 from atlas.exact.inputs import Real, rationals
 from atlas.formulas import quadric
+from atlas.formulas.domain import check_a2, check_a3, check_beta
 
 
 class Quadric:
@@ -31,7 +31,7 @@ class Quadric:
     @property
     def beta(self) -> Real:
         """The angle from e2 to I^-1 B', (53): tan beta = B3/(I B2)."""
-        self._needs_direction()
+        check_beta(self.B2, self.B3)
         if self.B3 == 0 and self.B2 > 0:
             return fmpq(0)
         return arb.atan2(arb(self.B3), arb(self.I * self.B2))
@@ -39,18 +39,14 @@ class Quadric:
     @property
     def a2(self) -> Real:
         """2 sin(beta)/(1 - sin(beta)), (54)."""
-        if self.B2 == 0 and self.B3 > 0:
-            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
-        self._needs_direction()
+        check_a2(self.B2, self.B3)
         found: Real = quadric.a2(*self._constants)
         return found
 
     @property
     def a3(self) -> Real:
         """2 sin(beta)/(1 + sin(beta)), (54)."""
-        if self.B2 == 0 and self.B3 < 0:
-            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
-        self._needs_direction()
+        check_a3(self.B2, self.B3)
         found: Real = quadric.a3(*self._constants)
         return found
 
@@ -76,7 +72,7 @@ class Quadric:
 
     def _angle(self) -> tuple[Real, Real]:
         """Return sine and cosine of beta/2 + pi/4."""
-        self._needs_direction()
+        check_beta(self.B2, self.B3)
         c, s = quadric.half_angle(*self._constants)
         return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
 
@@ -84,11 +80,6 @@ class Quadric:
     def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
         """I2 = 1, I3 = I and the field, as formulas take them."""
         return fmpq(1), self.I, self.B2, self.B3
-
-    def _needs_direction(self) -> None:
-        """Raise DomainError where I^-1 B' has no direction."""
-        if self.B2 == 0 and self.B3 == 0:
-            raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
 
     def residual(self, omega: Any) -> fmpq:
         """Return the left-hand side of (50) at a point."""

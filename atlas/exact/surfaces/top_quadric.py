@@ -9,6 +9,7 @@ from atlas.exact.arithmetic.surd import Polynomial, Surd, divided, evaluated, gc
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.surfaces.quadric import Quadric
 from atlas.formulas import top
+from atlas.formulas.domain import check_D, check_direction, check_moments
 from atlas.formulas.numbers import root
 
 
@@ -22,10 +23,8 @@ def given(
     I2, I3 = rationals(inertia, "inertia (I2, I3)", 2)
     k2, k3 = rationals(coupling, "coupling (k2, k3)", 2)
     n = rationals(direction, "direction (n2, n3)", 2)
-    if not (0 < I3 <= 2 * I2):
-        raise DomainError(f"No body has I2 = {float(I2)}, I3 = {float(I3)}: I3 lies in (0, 2 I2].")
-    if not any(x != 0 for x in n):
-        raise DomainError("The direction (n2, n3) must not be the zero vector.")
+    check_moments(I2, I3)
+    check_direction(*n)
     return I3 / I2, (k2 / I2, k3 / I2), n, (rational(linear, "linear") / I2, rational(quadratic, "quadratic") / I2)
 
 
@@ -67,8 +66,7 @@ class TopQuadric(Quadric):
     def D(self) -> Real:
         """D = A + kappa^2 + a0/n3, which is (I - 1) b^2 for the paper's body."""
         I, k2, k3, n2, n3, a0, A0 = self.top
-        if n3.is_zero and a0 != 0:
-            raise DomainError("With n3 = 0 and a linear potential D = A + kappa^2 + a0/n3 is infinite.")
+        check_D(self.B3, a0)
         one = n3.of(1)
         return (one.of(top.excess(I, k2, k3, n2, one, a0, A0)) if n3.is_zero else self._excess / n3).value
 
