@@ -116,7 +116,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def complain(sentence: str, status: int) -> int:
     """Print one line on standard error, without what a terminal would obey, and return the exit status."""
     words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
-    from atlas.plain import printable
+    from atlas.paper.plain import printable
 
     click.echo(f"atlas: {printable(' '.join(words))}", err=True)
     return status

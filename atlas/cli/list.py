@@ -112,7 +112,7 @@ def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str
 
 def report_title(name: str) -> str:
     """Return the title of a report in reports/."""
-    from atlas import toml
+    from atlas.report import toml
     from atlas.report.find import find
 
     try:

@@ -9,7 +9,7 @@ import click
 from atlas.cli.options import Command, examples
 from atlas.cli.present import Printout, dump, show
 from atlas.cli.progress import bar
-from atlas.plain import plain
+from atlas.paper.plain import plain
 
 COLUMNS = (
     "name",

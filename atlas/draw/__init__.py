@@ -25,8 +25,8 @@ __all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_p
 def figure(name: str, style: Any = None, target: str | None = None, **parameters: Any) -> "Figure":
     """Return the Matplotlib figure of a recipe in figures/, with these parameters and the defaults for the rest.
 
-    With a ``target``, such as "aps" or "beamer", see `atlas.targets`, it is laid out anew at that width, with the sizes
-    of type, widths of lines, fonts and resolution that are asked there, which `savefig` keeps.
+    With a ``target``, such as "aps" or "beamer", see `atlas.targets`, it is laid out anew at that width, with the
+    sizes of type, widths of lines, fonts and resolution that are asked there, which `savefig` keeps.
 
     ``style`` is what `matplotlib.style.use` takes (a name, a file, a dict, or a list of them), applied on top of the
     package's own sheet; a list that begins with "default" replaces it. The figure is one as any other: it is saved by

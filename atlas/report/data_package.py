@@ -18,7 +18,7 @@ import msgspec
 
 from atlas.libraries import of_sweeps
 from atlas.paper import EQUATIONS
-from atlas.plain import words
+from atlas.paper.plain import words
 from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.digits import MINUS, THIN
 from atlas.report.document import Document

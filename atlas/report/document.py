@@ -9,7 +9,7 @@ from typing import Any
 from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
-from atlas.plain import plain
+from atlas.paper.plain import plain
 from atlas.report.bibliography import Bibliography
 from atlas.report.blocks.figure import Figure
 from atlas.report.definition import Report

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from atlas import toml
 from atlas.errors import AtlasError, unknown
 from atlas.places import folder
+from atlas.report import toml
 
 
 def names() -> list[str]:

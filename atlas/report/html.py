@@ -15,8 +15,8 @@ from markupsafe import Markup, escape
 
 from atlas.errors import AtlasError, unknown
 from atlas.paper.equation import slug
+from atlas.paper.plain import plain
 from atlas.places import folder
-from atlas.plain import plain
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.ledger import LedgerView

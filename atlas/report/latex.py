@@ -12,7 +12,7 @@ from math import ceil
 from typing import Any
 
 import atlas
-from atlas.plain import words
+from atlas.paper.plain import words
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.prose import ProseView

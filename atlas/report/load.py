@@ -7,8 +7,8 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from atlas import toml
 from atlas.errors import AtlasError, unknown
+from atlas.report import toml
 from atlas.report.blocks import Block, Figure, Listing, Recorded, Table
 from atlas.report.definition import Report
 from atlas.report.find import names

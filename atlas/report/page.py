@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from hashlib import sha256
 from typing import Any
 
-from atlas import toml
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
+from atlas.report import toml
 from atlas.report.asked import Asked
 from atlas.report.body_and_field import body_and_field
 from atlas.report.digits import plain

@@ -10,7 +10,7 @@ import numpy as np
 
 from atlas.core.inputs import real
 from atlas.errors import AtlasError
-from atlas.plain import html_table, printable, table
+from atlas.paper.plain import html_table, printable, table
 from atlas.scene import Curve, Plane, Scene
 from atlas.study.drift import Drift, Drifts
 from atlas.study.grades import LINES, MOST, Column, Envelope, Errors, Grade, inverse_fits

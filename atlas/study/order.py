@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.plain import html_table, table
+from atlas.paper.plain import html_table, table
 from atlas.scene import Curve, Plane, Points, Scene
 from atlas.study.grades import LEAST, LINES
 

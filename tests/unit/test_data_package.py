@@ -20,7 +20,7 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.motions.elementary import ElementaryMotion as Balls
-from atlas.plain import words
+from atlas.paper.plain import words
 from atlas.report.data_package import ascii_name, package
 from atlas.scene import recipes
 from atlas.scene.data import table

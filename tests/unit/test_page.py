@@ -18,13 +18,14 @@ from click.testing import CliRunner
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas import processes, toml
+from atlas import processes
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
+from atlas.report import toml
 from atlas.report.asked import Asked
 from atlas.report.body_and_field import body_and_field
 from atlas.report.given import Body, Field

@@ -9,8 +9,8 @@ from atlas.build.appendices import title
 from atlas.families import FAMILIES
 from atlas.paper import EQUATIONS
 from atlas.paper.citation import cited
+from atlas.paper.plain import plain
 from atlas.places import folder
-from atlas.plain import plain
 from atlas.proof import recorded
 
 WORST = json.loads((folder("reports") / "data" / "worst_errors.json").read_text())["worst"]

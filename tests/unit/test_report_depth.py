@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from atlas import programs, toml
+from atlas import programs
 from atlas.cli.app import atlas
 from atlas.errors import AtlasError
-from atlas.report import pandoc
+from atlas.report import pandoc, toml
 from atlas.report.load import load
 from atlas.report.texts import DEEPEST, Link, Texts, deepest
 
