@@ -66,7 +66,7 @@ def scene(
         ),
         panels=tuple(panel(name, [frame(one) for one in motions], time, elevation) for name, frame in frames),
         columns=2,
-        named={"heavy": "trace", "light": "second_trace", "dot": "start"},
+        named={"heavy": "trace", "light": "thin_trace", "dot": "start"},
         size=(2 * SIZE, SIZE + 6.0),
     )
 
@@ -84,7 +84,7 @@ def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
         solids.sphere(quadric_panel.O, 1.0, fine),
         Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
     ]
-    for path, role in zip(paths, ("trace", "second_trace"), strict=True):
+    for path, role in zip(paths, ("trace", "thin_trace"), strict=True):
         points = curve(path, 0.0, time, fine, pieces=48)
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
         ends = np.stack([np.interp(HEAD, length, part) for part in points.T], axis=1)

@@ -69,8 +69,8 @@ def scene(
             "A row of quadrics at one scale, tubes of one sheet, then a double cone, then two bowls; below a plane "
             "with a curve that parts tops with one sheet from those with two, and six numbered points."
         ),
-        panels=(*lettered(stacked(cells, 1, azimuth, elevation)), plane),
-        narrow=(*lettered(stacked(cells, 2, azimuth, elevation)), plane),
+        panels=(*lettered(stacked(cells, 1, azimuth, elevation), "(a) six tops"), plane),
+        narrow=(*lettered(stacked(cells, 2, azimuth, elevation), "(a) six tops"), plane),
         named={"Heavy": "hyperbola", "dots": "start", "solid": "main"},
         size=(WIDTH, HEIGHT),
     )

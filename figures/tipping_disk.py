@@ -71,8 +71,8 @@ def scene(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
             f"time, three times from zero to {plain(round(far))} degrees and back."
         ),
-        panels=(*lettered(stacked(cells, 1, azimuth, elevation)), below),
-        narrow=(*lettered(stacked(cells, 2, azimuth, elevation)), below),
+        panels=(*lettered(stacked(cells, 1, azimuth, elevation), "(a) moments"), below),
+        narrow=(*lettered(stacked(cells, 2, azimuth, elevation), "(a) moments"), below),
         named={"dots": "start"},
         size=(WIDTH, HEIGHT),
         paths={

@@ -64,7 +64,7 @@ def scene(
         ),
         panels=(winding(*angles), sphere(orbit, out[1], back)),
         columns=2,
-        named={"thin line": "second_trace", "teal": "trajectory", "plum": "turn"},
+        named={"thin line": "fine_trajectory", "teal": "trajectory", "plum": "turn"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -88,7 +88,7 @@ def periods(
 
 def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     """Return the torus with lines by their two angles (N, 2)."""
-    roles = ("second_trace", "trajectory", "turn")
+    roles = ("fine_trajectory", "trajectory", "turn")
     layers = net()
     for line, role in zip((orbit, out, back), roles, strict=True):
         layers += seen(on_torus(*line.T), role)
@@ -101,7 +101,7 @@ def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     fine = quadric_panel.tolerance(1.4)
     layers = [
         solids.sphere(quadric_panel.O, 1.0, fine),
-        Curve(orbit / b, "second_trace"),
+        Curve(orbit / b, "fine_trajectory"),
         Curve(out / b, "trajectory"),
         Curve(back / b, "turn"),
         Points(orbit[:1] / b, "start"),

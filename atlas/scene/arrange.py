@@ -168,7 +168,7 @@ def stacked(
     return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
 
 
-def lettered(panels: Sequence[Space], title: str = "(a)") -> tuple[Space, ...]:
+def lettered(panels: Sequence[Space], title: str) -> tuple[Space, ...]:
     """Return panels of which the first has a title."""
     first, *others = panels
     return replace(first, title=title), *others

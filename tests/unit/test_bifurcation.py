@@ -231,7 +231,7 @@ def test_the_line_on_the_torus_is_straight_and_the_orbit_that_of_the_certified_m
     first, second = np.unwrap([np.arctan2(line[:, 1], line[:, 0]), np.arctan2(line[:, 2], np.hypot(*line.T[:2]) - 1)])
     slopes = np.diff(second) / np.diff(first)
     assert np.ptp(slopes) <= 1e-9 * abs(slopes[0])
-    orbit = next(layer.points for layer in right.layers if isinstance(layer, Curve) and layer.role == "second_trace")
+    orbit = next(layer.points for layer in right.layers if isinstance(layer, Curve) and layer.role == "fine_trajectory")
     motion = AsymmetricMotion(BODY, (0.6, 0.6, 0.5), (0.3, 0.7, 0.2))
     assert np.abs(orbit[-1] * np.sqrt(0.97) - motion.field_in_body(12.0)).max() <= 1e-8
 
