@@ -124,8 +124,10 @@ def free_spin(say: Ledger, p: Any) -> Any:
 
 
 def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
-    """Return the matrix of the unit quaternion, which has its scalar first in balls."""
-    w, x, y, z = motion(f, p).quaternion(p.t, **({} if f.name == "exact" else {"scalar_first": True}))
+    """Return the matrix of the unit quaternion, which has its scalar first in balls and is 1 at t = 0."""
+    order = {} if f.name == "exact" else {"scalar_first": True}
+    (one, *_), (w, x, y, z) = (motion(f, p).quaternion(t, **order) for t in (0.0, p.t))
+    w, x, y, z = (one * part for part in (w, x, y, z)) if one > 0 else (one, one, one, one)
     return [
         [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
