@@ -45,6 +45,20 @@ def certificate(options: dict[str, Any]) -> str:
     return f"All digits printed are proven; inputs: {taken}."
 
 
+IN_DOUBLES = "Computed in doubles: of a body whose axes are not principal ones no digit is proven."
+
+
+def written(value: Any) -> Any:
+    """Return numbers, in lists and dictionaries, as texts of so many digits as a table has."""
+    if isinstance(value, dict):
+        return {key: written(item) if key != "t" else item for key, item in value.items()}
+    if hasattr(value, "tolist"):
+        return written(value.tolist())
+    if isinstance(value, list | tuple):
+        return [written(item) for item in value]
+    return f"{value:.{TABLE_DIGITS}g}" if isinstance(value, float) else value
+
+
 def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
     """Evaluate a method of a kernel at all times at once."""
     import numpy as np

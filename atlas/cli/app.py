@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from atlas import __version__
+from atlas.cli.gone import GONE
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 
@@ -43,6 +44,14 @@ class FamilyCommand(LazyCommand):
 
 class Atlas(click.Group):
     """The group of all commands."""
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        """Find the command; say where one is that has gone."""
+        if args[0] in GONE:
+            raise click.UsageError(
+                f"atlas {args[0]} is part of atlas motion, with {GONE[args[0]]} and the same options."
+            )
+        return super().resolve_command(ctx, args)
 
     def invoke(self, context: click.Context) -> Any:
         """Run a command. Raises click.ClickException for a library that is not installed."""
@@ -82,7 +91,7 @@ for name, says in {
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))
 for family in FAMILIES.values():
-    if family.command:
+    if family.command and family.command.summary:
         atlas.add_command(FamilyCommand(family.command.name, short_help=family.command.summary))
 
 

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from atlas.cli.options import REAL, Typed, exactly, stack
-from atlas.cli.points import points, principal_moments, ratio_of_points
+from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -29,15 +29,18 @@ ROD_REASON = (
     "is not determined; give it a radius with --shape solid-cylinder."
 )
 
-body_options: Callable[[F], F] = stack(
+shape_options: Callable[[F], F] = stack(
     click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
-    click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
     click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
     click.option("--radius", type=REAL, help="Radius of the shape."),
     click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
     click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
     click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
+)
+body_options: Callable[[F], F] = stack(
+    click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
+    shape_options,
     click.option(
         "--points",
         type=click.Path(exists=True, dir_okay=False, path_type=Path),
@@ -87,14 +90,19 @@ any_body_options: Callable[[F], F] = stack(
         help="Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge; x, y, z are "
         "principal axes.",
     ),
+    shape_options,
     field_options_of("B1 B2 B3", " along the principal axes at t = 0"),
 )
 """Body and field where the three moments may differ."""
+tensor_option: Callable[[F], F] = click.option(
+    "--tensor", type=REAL, nargs=6, metavar="I11 I22 I33 I12 I13 I23", help="Inertia tensor in any axes of the body."
+)
+spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial angular velocity about e3 alone.")
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
-    names = (*BODY, *SIZES, "field", "magnetic", "mass", "charge", "mu")
+    names = (*BODY, "tensor", *SIZES, "field", "magnetic", "mass", "charge", "mu")
     given: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
     given |= {"points": str(options["points"])} if "points" in given else {}
     return given | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
@@ -108,15 +116,12 @@ def shapes() -> dict[str, list[str]]:
     return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
 
 
-def chosen_body(options: dict[str, Any]) -> Any:
+def chosen_body(options: Mapping[str, Any]) -> Any:
     """Return the ratio, or the body that --inertia, --shape or --points describes; one of the four is needed.
 
     Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
     """
-    given = [name for name in BODY if options[name] is not None]
-    if len(given) != 1:
-        found = " and ".join(f"--{name}" for name in given) or "none"
-        raise click.UsageError(f"the body is one of {', '.join(f'--{name}' for name in BODY)}; found {found}.")
+    _one_body(options)
     sizes = {name: options[name] for name in SIZES if options[name] is not None}
     if sizes and options["shape"] is None:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
@@ -150,21 +155,45 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any
 
 
 def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
-    """Return the principal moments of --inertia I1 I2 I3 or of --points.
+    """Return the principal moments of --inertia I1 I2 I3, of --points, or of a symmetric body about e3.
 
-    Raises click.UsageError unless one of the two is given, and for points whose axes x, y, z are not principal.
+    Raises click.UsageError unless one of them is given, and for points whose axes x, y, z are not principal.
     """
-    if (options["inertia"] is None) == (options["points"] is None):
-        raise click.UsageError("the body is one of --inertia I1 I2 I3 and --points.")
-    if options["points"] is None:
+    given = _one_body(options)
+    if given == "inertia":
         return tuple(options["inertia"])
-    return principal_moments(options["points"])
+    if given == "points":
+        return principal_moments(options["points"])
+    body = chosen_body(options)
+    return (1.0, 1.0, body) if given == "ratio" else body.inertia
+
+
+def given_tensor(options: Mapping[str, Any]) -> Any:
+    """Return the inertia tensor (3, 3) of --tensor, or of --points whose axes are not principal; None for others."""
+    if options.get("tensor") is not None:
+        _one_body(options)
+        a, b, c, d, e, f = options["tensor"]
+        return [[a, d, e], [d, b, f], [e, f, c]]
+    return oblique_tensor(options["points"]) if options.get("points") is not None else None
+
+
+def _one_body(options: Mapping[str, Any]) -> str:
+    """Return which option says what body it is. Raises click.UsageError unless it is one."""
+    given = [name for name in (*BODY, "tensor") if options.get(name) is not None]
+    if len(given) != 1:
+        known = [f"--{name}" for name in (*BODY, "tensor") if name in options]
+        found = " and ".join(f"--{name}" for name in given) or "none"
+        raise click.UsageError(f"the body is one of {', '.join(known)}; found {found}.")
+    return given[0]
 
 
 def exact_moments(options: dict[str, Any]) -> Any:
     """Return the moments of `chosen_moments` for the certified floor."""
     if options["decimal"] and options["points"] is not None:
         raise click.UsageError("--decimal goes with --inertia, not with --points.")
+    if options["inertia"] is None and options["points"] is None:
+        body = exact_body(options)
+        return (1, 1, body) if options["ratio"] is not None else (body.I2, body.I2, body.I3)
     return exactly(chosen_moments(options), options)
 
 

@@ -1,12 +1,12 @@
 """``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at given times."""
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import copy
 from typing import Any
 
 import click
 
-from atlas.cli.answers import along, answer, certificate, in_threes, samples
+from atlas.cli.answers import IN_DOUBLES, along, answer, certificate, in_threes, samples, written
 from atlas.cli.body import (
     any_body_options,
     body_options,
@@ -19,13 +19,16 @@ from atlas.cli.body import (
     exact_field,
     exact_moments,
     field_options,
+    given_tensor,
+    spin_option,
     system_of,
+    tensor_option,
     units_of,
 )
 from atlas.cli.options import (
     REAL,
     Command,
-    WithThreeMoments,
+    are_three,
     chosen_times,
     exactly,
     examples,
@@ -33,7 +36,7 @@ from atlas.cli.options import (
     stack,
     times_options,
 )
-from atlas.cli.present import Line, Printout, show
+from atlas.cli.present import Line, Printout, dump, show
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
@@ -48,7 +51,10 @@ UNKNOWN = (
     "symmetry of the motion."
 )
 
-OTHERWISE = {"top": ("inertia", "direction"), "particle": ("mu",)}
+STARTED = ("general", "asymmetric")
+"""Families that take --spin for --omega."""
+
+OTHERWISE = {"general": ("omega",), "asymmetric": ("omega",), "top": ("inertia", "direction"), "particle": ("mu",)}
 """Parameters that other options may stand for, by family: --heavy or --magnetic, --mass and --charge."""
 
 CHARGE = ("mass", "charge")
@@ -79,7 +85,50 @@ charge_options = stack(
 
 def command(name: str) -> click.Command:
     """Make the command of this name."""
-    return next(_made(one, one.command) for one in FAMILIES.values() if one.command and one.command.name == name)
+    made = {key: _made(one, one.command) for key, one in FAMILIES.items() if one.command and one.command.name == name}
+    return next(iter(made.values())) if len(made) == 1 else AnyMotion(name, made)
+
+
+class AnyMotion(click.Command):
+    """The command of several families: of that to which the options belong."""
+
+    def __init__(self, name: str, commands: Mapping[str, click.Command]) -> None:
+        first, *_ = commands.values()
+        params = dict[str, click.Parameter]()
+        for one in (copy(one) for each in commands.values() for one in each.params):
+            known = params.setdefault(str(one.name), one)
+            known.required = False
+            if one.metavar and one.metavar not in str(known.metavar):
+                known.metavar = f"{known.metavar} or {one.metavar}"
+        lines = [line for one in commands.values() for line in str(one.epilog).split("\n")[2:]]
+        super().__init__(
+            name, params=list(params.values()), help=first.help, epilog="\n".join(["\b", "Examples:", *lines])
+        )
+        self._commands = commands
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Let the command of a family read its arguments."""
+        if any(word in {"-h", "--help"} for word in args):
+            return super().make_context(info_name, args, parent, **extra)
+        return self._commands[family_of(args)].make_context(info_name, args, parent, **extra)
+
+
+def family_of(args: Sequence[str]) -> str:
+    """Return the family of motions to which options belong, by the body, the field and the start.
+
+    Raises click.UsageError where there is no start.
+    """
+    given = {word.partition("=")[0] for word in args}
+    if not given & {"--omega2", "--omega3", "--omega", "--spin"}:
+        raise click.UsageError(
+            "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
+        )
+    if given & {"--omega2", "--omega3"}:
+        return "elementary"
+    oblique = any(are_three(args, option) for option in ("--inertia", "--field", "--magnetic"))
+    return "asymmetric" if oblique or "--tensor" in given else "general"
 
 
 def _made(family: Family, described: Described) -> click.Command:
@@ -95,7 +144,7 @@ def _made(family: Family, described: Described) -> click.Command:
 
         def floats() -> dict[str, Any]:
             made = family.kernels()(*values_of(family, options, exact=False))
-            return _found(family, made, times, [along(s.at(made), times) for s in sampled], exact=False)
+            return named | _found(family, made, times, [along(s.at(made), times) for s in sampled], exact=False)
 
         def balls() -> dict[str, Any]:
             made = family.balls()(*values_of(family, options, exact=True))
@@ -103,24 +152,45 @@ def _made(family: Family, described: Described) -> click.Command:
             columns = [[sample(s, made, t, best) for t in at] for s in sampled if not s.uncertified]
             if at and not best:
                 raise NotCertifiedError(best.reason)
-            return _found(family, made, times, columns, exact=True)
+            return named | _found(family, made, times, columns, exact=True)
 
-        best = Best()
+        best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = body_parameters(options) if in_field(family) else {}
         parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
         parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
         if "c" in names:
             parameters |= {name: options[name] for name in CHARGE if options[name] is not None}
             parameters["units"] = system_of(options)
+        if (tensor := given_tensor(options) if family.name == "asymmetric" else None) is not None:
+            _in_doubles(tensor, options, parameters, times)
+            return
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
-            show(_printout(family, described, texts, options))
+            show(_printout(family, described, texts, options, certificate(options)))
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
-    if family.name == "general":
-        wider = partial(command, "asymmetric")
-        return click.command(described.name, cls=WithThreeMoments, wider=wider, **texts)(stack(*decorators)(run))
     return click.command(described.name, cls=Command, **texts)(stack(*decorators)(run))
+
+
+def _in_doubles(tensor: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
+    """Print the motion of a body whose axes are not principal ones, which is certified in no twin."""
+    from atlas.core.motions.chosen import body_of, motion
+
+    body = body_of(tensor)
+    if options["digits"] is not None or options["decimal"]:
+        axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in body.axes)
+        raise click.UsageError(
+            f"--digits and --decimal go with principal axes: those of this body are along {axes}, with the moments "
+            f"{', '.join(f'{x:.10g}' for x in body.moments)}; give --inertia, --field and --omega along them."
+        )
+    made = motion(tensor, chosen_field(options), _start(options))
+    family = FAMILIES[made.family]
+    columns = [along(s.at(made), times) for s in family.sampled if s.printed]
+    found = {"family": family.name} | _found(family, made, times, columns, exact=False)
+    if options["as_json"]:
+        dump({"parameters": parameters, "principal_moments": body.moments, "principal_axes": body.axes, **found})
+    elif family.command:
+        show(_printout(family, family.command, written(found), options, IN_DOUBLES))
 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:
@@ -135,6 +205,8 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
+        *([spin_option] if family.name in STARTED else []),
+        *([tensor_option] if family.name == "asymmetric" else []),
         *([top_options] if ways else []),
         *([charge_options, units_option] if "c" in names else []),
     ]
@@ -182,6 +254,8 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
             yield (exact_moments if exact else chosen_moments)(options)
         elif p.name == "field" and (not p.option or of_any_body(family)):
             yield (exact_field if exact else chosen_field)(options)
+        elif p.name == "omega" and "spin" in options:
+            yield exactly(_start(options), options) if exact else _start(options)
         elif p.name == "mu":
             yield _charge_to_mass(options, exact=exact)
         elif p.name == "c":
@@ -189,6 +263,13 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
         else:
             value = options[p.name]
             yield exactly(value, options) if exact and value is not None else value
+
+
+def _start(options: dict[str, Any]) -> Any:
+    """Return the initial angular velocity, of --omega or --spin."""
+    if (options["omega"] is None) == (options["spin"] is None):
+        raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")
+    return options["omega"] or (0.0, 0.0, options["spin"])
 
 
 def _charge_to_mass(options: dict[str, Any], *, exact: bool) -> Any:
@@ -259,7 +340,9 @@ def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[
     )
 
 
-def _printout(family: Family, described: Described, texts: dict[str, Any], options: dict[str, Any]) -> Printout:
+def _printout(
+    family: Family, described: Described, texts: dict[str, Any], options: dict[str, Any], worth: str
+) -> Printout:
     """Lay the certified texts out, three rows a time."""
     from atlas.exact.digits import NOT_CERTIFIED
 
@@ -270,7 +353,7 @@ def _printout(family: Family, described: Described, texts: dict[str, Any], optio
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
     rows = in_threes(texts.get("samples", []))
     heading = [name for s in family.sampled if s.printed and not s.uncertified for name in _heading(s, units)]
-    notes = [*dict.fromkeys(texts.get("missing", {}).values()), certificate(options)]
+    notes = [*dict.fromkeys(texts.get("missing", {}).values()), worth]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
     return Printout(described.title + case, lines, ("t", *heading) if rows else (), rows, notes)

@@ -115,7 +115,7 @@ class Command(click.Command):
         if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and are_three(args, "--inertia"):
             raise click.UsageError(
                 "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
-                "atlas asymmetric, which takes --inertia I1 I2 I3, and --field with three components, too; in a sweep "
+                "atlas motion --omega W1 W2 W3 or --spin W3, with --inertia I1 I2 I3 and --field B1 B2 B3; in a sweep "
                 "it is the family asymmetric, with --set I1=0.8 and so on."
             )
         try:

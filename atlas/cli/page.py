@@ -8,7 +8,8 @@ import click
 
 from atlas import files
 from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, system_of, units_of
-from atlas.cli.family import in_field, in_plane, object_options, values_of
+from atlas.cli.family import family_of, in_field, in_plane, object_options, values_of
+from atlas.cli.gone import GONE
 from atlas.cli.options import Command, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.progress import bar
@@ -30,18 +31,29 @@ def command_of(family: Family, name: str) -> click.Command:
     def run(**options: Any) -> int:
         return make(asked(family, options), options["out"], options["jobs"])
 
-    made = click.command(name, cls=Command, help=f"Make a page: {family.says}.")
+    made = click.command(name, cls=Command, help=f"Make a page: {family.says}.", hidden=name in GONE)
     return made(stack(*object_options(family), *more)(run))
 
 
-COMMANDS = {one.command.name: command_of(one, one.command.name) for one in FAMILIES.values() if one.command}
+COMMANDS = {
+    name: command_of(one, name)
+    for one in FAMILIES.values()
+    if one.command
+    for name in [one.command.name if one.command.summary else one.name]
+}
+"""By the name of the command; the families that are no command of their own have no name here, only options."""
 
 
 class ByOptions(click.Group):
     """A group that finds the command by the options, where none is named."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Put the command in front of its options."""
+        """Put the command in front of its options, and that of its family where several have one name."""
+        if args and args[0] in GONE:
+            raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
+        if args[:1] == ["motion"] and not set(args) & set(ctx.help_option_names):
+            family = family_of(args)
+            args = ["motion" if family == "elementary" else family, *args[1:]]
         named = not args or args[0] in self.commands or args[0] in ctx.help_option_names
         return super().parse_args(ctx, args if named or not args[0].startswith("--") else [best(args), *args])
 
@@ -53,7 +65,8 @@ def best(args: Sequence[str]) -> str:
     def misfit(name: str) -> tuple[int, int]:
         known = {opt: one for one in COMMANDS[name].params if isinstance(one, click.Option) for opt in one.opts}
         strange = sum(opt not in known or known[opt].nargs != count for opt, count in given.items())
-        return strange, sum(one.required for opt, one in known.items() if opt not in given)
+        starts = not {"--omega", "--spin"} & given.keys() if "--spin" in known else 0
+        return strange, starts + sum(one.required for opt, one in known.items() if opt not in given)
 
     return min(COMMANDS, key=misfit)
 

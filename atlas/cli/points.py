@@ -64,12 +64,20 @@ def points(path: Path) -> Points:
             f"{path}: the points are not symmetric about the axis z: {lacks} would be needed, to {SYMMETRIC:g} of the "
             f"largest, but about their centre of mass I1 = {inertia[0, 0]:.10g}, I2 = {inertia[1, 1]:.10g}, "
             f"I3 = {inertia[2, 2]:.10g}, I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, "
-            f"I23 = {inertia[1, 2]:.3g}. A body with three different moments is that of atlas asymmetric."
+            f"I23 = {inertia[1, 2]:.3g}. Another body has --field B1 B2 B3."
         )
     across = (g[0, 0] + g[1, 1]) / 2
     body = SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
     mu = None if read.charges is None else _one_ratio(path, read.masses, read.charges)
     return Points(body, mu, read.masses.sum())
+
+
+def oblique_tensor(path: Path) -> Any:
+    """Read the inertia tensor (3, 3) of points; None where x, y, z are their principal axes."""
+    import numpy as np
+
+    inertia = point_masses(path).inertia
+    return inertia if np.abs(np.triu(inertia, 1)).max() > SYMMETRIC * np.abs(inertia).max() else None
 
 
 def principal_moments(path: Path) -> tuple[float, float, float]:

@@ -58,16 +58,13 @@ FAMILY = Family(
         "asymmetric R(0) = 1": 0,
     },
     Command(
-        "asymmetric",
-        "Compute any motion of a body with three different moments.",
-        "Rotation matrix R(t) and angular velocity of a charged body with any three moments of inertia, from any "
-        "initial angular velocity (not in the paper): by theta functions of two variables, which are proved for this "
-        "motion or held against the certified one at a few times, or, with --digits, certified, every digit proven at "
-        "any time.",
+        "motion",
+        "",
+        "",
         (
-            "atlas asymmetric --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 0 1 100",
-            "atlas asymmetric --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 1e12 --digits 30",
-            "atlas asymmetric --inertia 0.8 1 1.3 --field 0 0 0 --omega 0.3 0.7 0.2 --times 1e6 --json",
+            "atlas motion --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 1e12 --digits 30",
+            "atlas motion --inertia 0.8 1 1.3 --field 0 0 0 --omega 0.3 0.7 0.2 --times 1e6 --json",
+            "atlas motion --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --times 0 1 100",
         ),
         "motion of a body with three moments: ",
         "kind",

@@ -107,8 +107,13 @@ FAMILY = Family(
     },
     Command(
         "motion",
-        "Compute an elementary motion.",
-        "Frequencies, rotation matrix R(t) and angular velocity of an elementary motion (71) to (85).",
+        "Compute any motion of any body.",
+        "Rotation matrix R(t), angular velocity and what else there is of a motion, whose family is named: the "
+        "elementary one (71) to (85) that starts with --omega2; any other, not in the paper, that starts with "
+        "--omega W1 W2 W3 or --spin W3, of a symmetric body in elliptic functions. A body of three moments (--inertia "
+        "I1 I2 I3, --points), a tensor in any axes, and any body in a field of three components, --field B1 B2 B3, all "
+        "along the axes of the body at t = 0, move by theta functions of two variables, proved for the motion or held "
+        "against the certified one; with --digits every digit is proven at any time.",
         (
             "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 --json",
             "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1e6 --digits 50",

@@ -61,14 +61,13 @@ FAMILY = Family(
         "general R(0) = 1": 4,
     },
     Command(
-        "general",
-        "Compute any motion of the body.",
-        "Nutation, rotation matrix R(t) and angular velocity from any initial angular velocity (not in the paper). "
-        "With --inertia I1 I2 I3 and --field B1 B2 B3 it is `atlas asymmetric`.",
+        "motion",
+        "",
+        "",
         (
-            "atlas general --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1 2.5 --json",
-            "atlas general --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 1e6 --digits 50",
-            "atlas general --ratio 2 --field 0 1 --omega 1e-4 0 -1 --grid 0 1 40",
+            "atlas motion --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1 2.5 --json",
+            "atlas motion --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 1e6 --digits 50",
+            "atlas motion --ratio 2 --field 0 1 --omega 1e-4 0 -1 --grid 0 1 40",
         ),
         "general motion: ",
         "kind",

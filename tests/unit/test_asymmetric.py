@@ -341,12 +341,12 @@ def test_what_is_no_motion_is_refused_in_one_line(case: tuple[Any, ...], words: 
     ],
 )
 def test_the_command_prints_proven_digits_or_one_line(more: list[str], words: str) -> None:
-    """`atlas asymmetric` prints its kind and digits, or raises what becomes one line and status 2."""
+    """`atlas motion` prints its kind and digits, or raises what becomes one line and status 2."""
     given = [w for name, v in zip(("inertia", "field", "omega"), QUICK, strict=True) for w in (f"--{name}", *v)]
-    found = CliRunner().invoke(command, ["asymmetric", *given, "--times", "0.5", "--digits", "25"])
+    found = CliRunner().invoke(command, ["motion", *given, "--times", "0.5", "--digits", "25"])
     assert found.exit_code == 0
     assert "on a torus" in found.output
-    refused = CliRunner().invoke(command, ["asymmetric", *given, *more])
+    refused = CliRunner().invoke(command, ["motion", *given, *more])
     assert isinstance(refused.exception, atlas.AtlasError)
     assert words in str(refused.exception)
     assert "\n" not in str(refused.exception)

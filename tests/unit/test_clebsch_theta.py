@@ -385,12 +385,8 @@ def test_a_matrix_asks_for_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "accuracy" not in vars(one.theta)
 
 
-def test_three_moments_are_taken_by_the_command_of_general_motions() -> None:
-    """`atlas general --inertia` with three numbers is `atlas asymmetric`, and a sweep names that family."""
-    words = "--inertia 4/5 1 1.25 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 2 --json".split()
-    runs = [CliRunner().invoke(command, [name, *words], catch_exceptions=False) for name in ("general", "asymmetric")]
-    assert [run.exit_code for run in runs] == [0, 0]
-    assert runs[0].stdout == runs[1].stdout
+def test_three_moments_belong_to_a_family_of_their_own_in_a_sweep() -> None:
+    """The error names it."""
     found = CliRunner().invoke(command, "sweep general --inertia 0.8 1 1.3 --set B2=1 --out x.csv".split())
     assert found.exit_code == 2
     assert "the family asymmetric, with --set I1=0.8" in found.output

@@ -407,7 +407,7 @@ def test_negative_numbers_are_numbers() -> None:
     "words",
     [
         "motion --ratio 1.5 --field -1 -2e0 --omega2 -7e-1 --times -1e-5 -2 3 --digits 30 --decimal",
-        "general --inertia 0.8 1 1.3 --field -0.2 1 0 --omega 0.3 -0.7 0.2",
+        "motion --inertia 0.8 1 1.3 --field -0.2 1 0 --omega 0.3 -0.7 0.2",
     ],
 )
 def test_the_minus_of_a_page_is_one(words: str) -> None:
@@ -474,9 +474,9 @@ def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, more: str
 
 
 def test_general_prints_its_numbers_once_as_floats_and_once_as_digits() -> None:
-    """`atlas general` agrees with itself: doubles in JSON, and thirty certified digits that round to them."""
+    """`atlas motion --omega` agrees with itself: doubles in JSON, and thirty certified digits that round to them."""
     words = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1e6".split()
-    floats, texts = record("general", *words), record("general", *words, "--digits", "30")
+    floats, texts = record("motion", *words), record("motion", *words, "--digits", "30")
     assert floats["kind"] == texts["kind"] == "nutation, four real roots"
     assert len(floats["roots"]) == 4
     for name in ("period", "precession_per_period", "spin_per_period", "modulus", "nome"):
@@ -488,10 +488,10 @@ def test_general_prints_its_numbers_once_as_floats_and_once_as_digits() -> None:
 
 def test_general_says_what_a_separatrix_has_not() -> None:
     """On a separatrix the period is infinite, and no angle belongs to it; at a triple root there is no nome."""
-    out = record("general", *"--ratio 3/4 --field 20 15 --omega 6 -24.5 -7".split())
+    out = record("motion", *"--ratio 3/4 --field 20 15 --omega 6 -24.5 -7".split())
     assert (out["kind"], out["period"], out["nome"]) == ("separatrix", "infinite", 1.0)
     assert "precession_per_period" not in out
-    out = record("general", *"--ratio 0.5 --field 1 -3 --omega 0 1.5 2".split())
+    out = record("motion", *"--ratio 0.5 --field 1 -3 --omega 0 1.5 2".split())
     assert out["kind"] == "separatrix, triple root"
     assert "nome" not in out
 
@@ -499,8 +499,8 @@ def test_general_says_what_a_separatrix_has_not() -> None:
 def test_general_says_why_a_number_has_no_digits() -> None:
     """What is zero by symmetry is printed as 0; what falls off as exp(-t) is not certified, and the table says why."""
     motion = "--ratio 2 --field 1 0.5 --omega 1 -1 -0.5 --times 1e5"
-    out = CliRunner().invoke(command, ["general", *motion.split()], catch_exceptions=False).stdout
+    out = CliRunner().invoke(command, ["motion", *motion.split()], catch_exceptions=False).stdout
     assert out.count("not certified") == 5
     assert "not certified: with 4096 binary digits" in out
     motion = "--ratio 1.5 --field 1 0 --omega 0.3 -1 0 --times 1"
-    assert "not certified" not in CliRunner().invoke(command, ["general", *motion.split()]).stdout
+    assert "not certified" not in CliRunner().invoke(command, ["motion", *motion.split()]).stdout

@@ -47,15 +47,14 @@ def numbers(*words: str) -> dict[str, Any]:
     return {name: value for name, value in json.loads(out).items() if name != "parameters"}
 
 
-@pytest.mark.parametrize("name", ["asymmetric", "general"])
-def test_points_and_tesla_are_moments_and_rates(tmp_path: Path, name: str) -> None:
+def test_points_and_tesla_are_moments_and_rates(tmp_path: Path) -> None:
     """Moved as a whole the points have their moments; B of 100, 200, 2000 T at 1e-3 C/kg is B' = (0.05, 0.1, 1) /s."""
-    typed = numbers("asymmetric", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
+    typed = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
     moved = POINTS + np.array([8.0, -4.0, 2.0, 0.0, 0.0])
     tesla = "--magnetic 100 200 2000".split()
-    assert numbers(name, "--points", written(tmp_path, moved), *tesla, *REST.split()) == typed
+    assert numbers("motion", "--points", written(tmp_path, moved), *tesla, *REST.split()) == typed
     units = "--magnetic 100 200 2000 --mass 2 --charge 2e-3".split()
-    assert numbers(name, "--inertia", "5", "3", "6", *units, *REST.split()) == typed
+    assert numbers("motion", "--inertia", "5", "3", "6", *units, *REST.split()) == typed
 
 
 def test_the_unit_of_time_is_a_second_where_the_field_is_in_tesla() -> None:
@@ -69,11 +68,12 @@ def test_the_unit_of_time_is_a_second_where_the_field_is_in_tesla() -> None:
 
 
 def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> None:
-    """Points turned by 30 degrees about z: the sentence has the axes, right-handed, and the moments 3, 5, 6."""
+    """Points turned by 30 degrees about z: asked for digits it says the axes, right-handed, and the moments 3, 5, 6."""
     c, s = np.sqrt(3) / 2, 0.5
     turned = POINTS.copy()
     turned[:, :3] = POINTS[:, :3] @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-    status, out = run("asymmetric", "--points", written(tmp_path, turned), "--field", "0", "1", "2", *REST.split())
+    words = "--points", written(tmp_path, turned), "--field", "0", "1", "2", *REST.split()
+    status, out = run("motion", *words, "--digits", "20")
     assert status == 2
     axes = np.array([[float(x) for x in axis.split(",")] for axis in re.findall(r"\(([-\d., ]+)\)", out)])
     assert np.linalg.det(axes) == pytest.approx(1, abs=1e-8)
@@ -85,7 +85,7 @@ def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> N
 def test_points_without_charges_are_a_body(tmp_path: Path) -> None:
     """They serve with --field."""
     file = written(tmp_path, names="x,y,z,mass")
-    assert numbers("asymmetric", "--points", file, "--field", "0", "1", "2", *REST.split())["kind"] == "on a torus"
+    assert numbers("motion", "--points", file, "--field", "0", "1", "2", *REST.split())["kind"] == "on a torus"
 
 
 def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
@@ -103,9 +103,49 @@ def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
 def test_frequencies_or_why_there_are_none() -> None:
     """A motion on a torus prints its three; a symmetric body by three moments says that it has no torus."""
     words = "--field 0.2 1 0.6 --omega 1 2 3"
-    status, out = run("asymmetric", *f"--inertia 1 1.2 1.3 {words}".split())
+    status, out = run("motion", *f"--inertia 1 1.2 1.3 {words}".split())
     assert status == 0
     assert re.search(r"^f3 +-1\.154812784 +1/time", out, re.MULTILINE)
-    found = numbers("asymmetric", *f"--inertia 1 1 1.3 {words} --json".split())
+    found = numbers("motion", *f"--inertia 1 1 1.3 {words} --json".split())
     assert "frequencies" not in found
     assert found["missing"]["frequencies"].startswith("There is no torus with three frequencies")
+
+
+def test_a_tensor_in_any_axes_is_that_of_its_principal_axes(tmp_path: Path) -> None:
+    """Points turned by 30 degrees about z, or their tensor, in a field turned with them: the turned motion."""
+    c, s = np.sqrt(3) / 2, 0.5
+    P = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    turned = POINTS.copy()
+    turned[:, :3] = POINTS[:, :3] @ P.T
+    B, omega = P @ (0.05, 0.1, 1.0), P @ (0.3, 0.7, 0.2)
+    J = P @ np.diag([5.0, 3.0, 6.0]) @ P.T
+    places = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    rest = ["--field", *map(repr, B.tolist()), "--omega", *map(repr, omega.tolist()), "--times", "1", "--json"]
+    found = [
+        numbers("motion", *words, *rest)
+        for words in (("--points", written(tmp_path, turned)), ("--tensor", *(repr(float(J[ij])) for ij in places)))
+    ]
+    true = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())["samples"][0]
+    for one in found:
+        assert one["family"] == "asymmetric"
+        assert one["principal_moments"] == pytest.approx([3, 5, 6], abs=1e-12)
+        R, Omega = (np.array(one["samples"][0][name]) for name in ("R", "Omega"))
+        assert pytest.approx(P @ np.array(true["R"]) @ P.T, abs=1e-12) == R
+        assert Omega == pytest.approx(P @ np.array(true["Omega"]), abs=1e-12)
+    status, out = run("motion", *"--tensor 1 1 1 0 0 0.2 --field 0 0 1 --spin 3 --times 0 1".split())
+    assert status == 0
+    assert "Computed in doubles" in out
+
+
+def test_one_command_takes_any_body_and_any_start() -> None:
+    """It says which family it found, and its help has the options of all."""
+    for words, family in (
+        ("--ratio 1.5 --field 1 2 --omega2 0.7", "elementary"), ("--ratio 1.5 --field 1 2 --omega 0 0.7 1", "general"),
+        ("--shape ring --radius 1 --field 1 2 --spin 3", "general"), ("--ratio 1 --field 1 1 2 --spin 3", "asymmetric"),
+        ("--tensor 1 1 1.5 0 0 0 --field 0 0 0 --spin 1", "free"),
+        ("--tensor 1 1 1.5 0 0 0 --field 0 1 1 --spin 1", "general"),
+    ):  # fmt: skip
+        assert numbers("motion", *words.split(), "--json")["family"] == family
+    shown = run("motion", "--help")[1]
+    for option in ("I2 I3 or I1 I2 I3", "--tensor", "--omega2", "--spin"):
+        assert option in shown

@@ -373,9 +373,9 @@ def test_a_neighbour_has_no_negative_zero() -> None:
 def test_a_long_name_of_a_page_ends_with_a_digest() -> None:
     """A hundred characters of it stay, so that files can have it, and two that begin alike are told apart."""
     whole, one, other = (
-        Asked(FAMILIES["general"], {"omega": ("1" * 82 + last,)}, {}).name for last in ("2222", "22223", "22224")
+        Asked(FAMILIES["general"], {"omega": ("1" * 83 + last,)}, {}).name for last in ("2222", "22223", "22224")
     )
-    assert whole == f"general-omega-{'1' * 82}2222"
+    assert whole == f"motion-omega-{'1' * 83}2222"
     assert len(whole) == 100
     assert [(name[:101], len(name)) for name in (one, other)] == [(f"{whole}-", 109)] * 2
     assert one != other

@@ -59,7 +59,7 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned
     shape = common_shape(body.moments.shape[:-1], B.shape[:-1], w.shape[:-1], R.shape[:-2])
     arguments = {"inertia": inertia, "field": B, "omega": w, "attitude": attitude}
     own, axes = _of_class(body, np.vecmat(B, R), w, shape)
-    return turned(own, R @ np.swapaxes(axes, -1, -2), axes, body.tensor, B, arguments)
+    return turned(own, R @ np.swapaxes(axes, -1, -2), axes, body.tensor, B, (R, w), arguments)
 
 
 def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) -> tuple[Any, FloatArray]:
@@ -233,4 +233,6 @@ def in_laboratory(of: type[Any], body: Any, field: Any, attitude: Any, omega: An
             )
         return found
     given = {"body": body, "field": B, "attitude": R, "angular_velocity": omega, **parameters}
-    return turned(own, R @ np.swapaxes(axes, -1, -2), axes, known.tensor, B, given, f"{of.__name__}.in_laboratory")
+    w = np.asarray(own.angular_velocity(0.0)) @ axes if omega is None else w
+    left, made_by = R @ np.swapaxes(axes, -1, -2), f"{of.__name__}.in_laboratory"
+    return turned(own, left, axes, known.tensor, B, (R, w), given, made_by)

@@ -10,6 +10,7 @@ import numpy as np
 from atlas.core.arithmetic.quaternions import of_matrix, product
 from atlas.core.inputs import FloatArray, finite
 from atlas.core.motions.motion import Motion
+from atlas.core.quantities import TIME, bare
 from atlas.core.shown import made
 
 
@@ -24,6 +25,7 @@ class Turned(Motion[Any]):
     _sides: tuple[FloatArray | None, FloatArray | None]
     _tensor: FloatArray
     _given_field: FloatArray
+    _start: tuple[FloatArray, FloatArray]
 
     if TYPE_CHECKING:
 
@@ -45,7 +47,17 @@ class Turned(Motion[Any]):
         left, right = self._sides
         if right is not None:
             np.matmul(found, right, out=found)
-        return found if left is None else np.matmul(left, found, out=found)
+        if left is not None:
+            np.matmul(left, found, out=found)
+        return self._started(found, self._start[0], 2, t)
+
+    def _started(self, found: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
+        """Return vectors or matrices, those at t = 0 as they were given."""
+        known = np.equal(bare(t, "The time", TIME), 0)
+        if known.any():
+            known = np.broadcast_to(known, found.shape[:-rank])
+            np.copyto(found, start, where=known.reshape(known.shape + (1,) * rank))
+        return found
 
     def column(self, j: int, t: Any) -> FloatArray:
         """Column j = 1, 2, 3 of R(t), as `Motion.column`."""
@@ -63,7 +75,7 @@ class Turned(Motion[Any]):
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body's given axes; shape (..., 3)."""
-        return self._in_body(self.own.angular_velocity(t))
+        return self._started(self._in_body(self.own.angular_velocity(t)), self._start[1], 1, t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body's given axes; shape (..., 3)."""
@@ -117,14 +129,15 @@ def turned(
     right: FloatArray,
     tensor: FloatArray,
     field: FloatArray,
+    start: tuple[FloatArray, FloatArray],
     arguments: Mapping[str, Any],
     made_by: str = "motion",
 ) -> Turned:
-    """Return a motion in given axes, see `Turned`; `made_by` is what made it of the arguments."""
+    """Return a motion in given axes, see `Turned`: `start` is its state at t = 0, `made_by` what made it."""
     of: Any = type(own)
     found = object.__new__(_class(of))
     found.__dict__.update({name: value for name, value in vars(own).items() if name != "arguments"})
     sides = tuple(None if (x == np.eye(3)).all() else x for x in (left, right))
-    found.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field)
+    found.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field, _start=start)
     found.made_by, found.arguments = made_by, arguments
     return found

@@ -88,7 +88,7 @@ def tables() -> str:
     field, (_, *rest) = _parameter("general", "field").default, _parameter("general", "omega").default
     pushes, found = np.linspace(0.0, _parameter("general", "omega").range[1], _PUSHES).tolist(), []
     for ratio, omega1 in product(_BODIES, pushes):
-        command = f"atlas general --ratio {ratio:g} --field {field[0]:g} {field[1]:g} --omega"
+        command = f"atlas motion --ratio {ratio:g} --field {field[0]:g} {field[1]:g} --omega"
         motion = GeneralMotion(ratio, field, (omega1, *rest))
         a, b = motion.precession_per_period / motion.period, motion.spin_per_period / motion.period
         t = np.arange(_NODES) * (motion.period / _NODES)
