@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
+from functools import cache
 from typing import Any
 
 import click
@@ -133,9 +134,8 @@ def family_of(args: Sequence[str]) -> str:
 
 def _made(family: Family, described: Described) -> click.Command:
     """Make the command of a family: its options, and what it does with them."""
-    names = [p.name for p in family.parameters]
-    given = [p for p in family.parameters if p.option]
-    ways = family.name == "top"
+    [p.name for p in family.parameters]
+    [p for p in family.parameters if p.option]
     decorators = [*object_options(family), *([times_options] if family.sampled else []), output_options]
 
     def run(**options: Any) -> None:
@@ -144,23 +144,29 @@ def _made(family: Family, described: Described) -> click.Command:
 
         def floats() -> dict[str, Any]:
             made = family.kernels()(*values_of(family, options, exact=False))
-            return named | _found(family, made, times, [along(s.at(made), times) for s in sampled], exact=False)
+            return named | _found(family, made, times, {s.name: along(s.at(made), times) for s in sampled}, exact=False)
+
+        @cache
+        def near() -> list[Any]:
+            """Return the quaternions in doubles, which have a sign; none where that is not known."""
+            try:
+                return list(along(family.kernels()(*values_of(family, options, exact=False)).quaternion, times))
+            except NotCertifiedError:
+                return [None for _ in times]
 
         def balls() -> dict[str, Any]:
             made = family.balls()(*values_of(family, options, exact=True))
             at = [exactly(t, options) for t in times]
-            columns = [[sample(s, made, t, best) for t in at] for s in sampled if not s.uncertified]
+            found = {s.name: [sample(s, made, t, best) for t in at] for s in sampled if not s.uncertified}
             if at and not best:
                 raise NotCertifiedError(best.reason)
+            if options["as_json"] and "R" in found:
+                found["q"] = [_quaternion(R, q) for R, q in zip(found["R"], near(), strict=True)]
+            columns = {s.name: found[s.name] for s in sampled if s.name in found}
             return named | _found(family, made, times, columns, exact=True)
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
-        parameters = body_parameters(options) if in_field(family) else {}
-        parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
-        parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
-        if "c" in names:
-            parameters |= {name: options[name] for name in CHARGE if options[name] is not None}
-            parameters["units"] = system_of(options)
+        parameters = _parameters(family, options)
         if (tensor := given_tensor(options) if family.name == "asymmetric" else None) is not None:
             _in_doubles(tensor, options, parameters, times)
             return
@@ -170,6 +176,19 @@ def _made(family: Family, described: Described) -> click.Command:
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
     return click.command(described.name, cls=Command, **texts)(stack(*decorators)(run))
+
+
+def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters as they were given."""
+    names = [p.name for p in family.parameters]
+    found = body_parameters(options) if in_field(family) else {}
+    found |= {p.name: options[p.name] for p in family.parameters if p.option and options[p.name] is not None}
+    found |= {"spin": options["spin"]} if options.get("spin") is not None else {}
+    found = parameters_of_top(names, options) if family.name == "top" and given_otherwise(options) else found
+    if "c" in names:
+        found |= {name: options[name] for name in CHARGE if options[name] is not None}
+        found["units"] = system_of(options)
+    return found
 
 
 def _in_doubles(tensor: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
@@ -185,7 +204,8 @@ def _in_doubles(tensor: Any, options: dict[str, Any], parameters: dict[str, Any]
         )
     made = motion(tensor, chosen_field(options), _start(options))
     family = FAMILIES[made.family]
-    columns = [along(s.at(made), times) for s in family.sampled if s.printed]
+    sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
+    columns = {s.name: along(s.at(made), times) for s in sampled}
     found = {"family": family.name} | _found(family, made, times, columns, exact=False)
     if options["as_json"]:
         dump({"parameters": parameters, "principal_moments": body.moments, "principal_axes": body.axes, **found})
@@ -314,7 +334,17 @@ def sample(s: Sampled, made: Any, t: Any, best: Best) -> Any:
     return best[s.name, t]
 
 
-def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[Any], *, exact: bool) -> dict[str, Any]:
+def _quaternion(R: Any, near: Any) -> Any:
+    """Return the quaternion of a matrix of balls, near to doubles; not certified where the matrix is not."""
+    from atlas.exact.digits import NOT_CERTIFIED
+    from atlas.exact.nutation.cayley_klein import quaternion
+
+    return [NOT_CERTIFIED] * 4 if near is None or isinstance(R[0][0], str) else quaternion(R, near)
+
+
+def _found(
+    family: Family, made: Any, times: Sequence[float], columns: Mapping[str, Any], *, exact: bool
+) -> dict[str, Any]:
     """Return the quantities and samples by name.
 
     One that may be missing is left out then; of others without a value the reason stands under their name.
@@ -332,11 +362,8 @@ def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[
         else:
             if q.unit == TIME and not found[q.name] < float("inf"):
                 found[q.name] = "infinite"
-    names = [s.name for s in family.sampled if s.printed and not (exact and s.uncertified)]
     return (
-        found
-        | ({"missing": missing} if missing else {})
-        | ({"samples": samples(times, **dict(zip(names, columns, strict=True)))} if names else {})
+        found | ({"missing": missing} if missing else {}) | ({"samples": samples(times, **columns)} if columns else {})
     )
 
 

@@ -282,6 +282,21 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
     return Solution(lattice, arb(0), alpha, beta, k, phi)
 
 
+def quaternion(R: Sequence[Sequence[Any]], near: Sequence[float]) -> list[arb]:
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix, that of the two which is near to some doubles."""
+    R = [[arb(x) for x in row] for row in R]
+    trace = R[0][0] + R[1][1] + R[2][2]
+    twice = [2 * R[i][i] - trace for i in range(3)]
+    xy, yz, xz = (R[i][j] + R[j][i] for i, j in ((0, 1), (1, 2), (0, 2)))
+    xw, yw, zw = (R[i][j] - R[j][i] for i, j in ((2, 1), (0, 2), (1, 0)))
+    i = max(range(4), key=lambda i: abs(near[i]))
+    row = ((1 + twice[0], xy, xz, xw), (xy, 1 + twice[1], yz, yw), (xz, yz, 1 + twice[2], zw), (xw, yw, zw, 1 + trace))[
+        i
+    ]
+    size = (-2 if near[i] < 0 else 2) * row[i].sqrt()
+    return [x / size for x in row]
+
+
 def matrix(q: Sequence[Number]) -> list[list[Number]]:
     """Return the rotation matrix of a quaternion that need not be normalised."""
     w, x, y, z = q
