@@ -51,7 +51,7 @@ def check_ratio(I: Number) -> None:
 def check_moments(I2: Number, I3: Number) -> None:
     """Raise DomainError for moments of inertia that no symmetric top has."""
     wrong = (I2 <= 0) | (I3 <= 0) | (I3 > 2 * I2)
-    refuse(wrong, "No body has I2 = {}, I3 = {}: both are positive, and I3 lies in (0, 2 I2].", I2, I3)
+    refuse(wrong, "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2.", I2, I3)
 
 
 def check_direction(n2: Number, n3: Number) -> None:

@@ -110,8 +110,8 @@ def test_each_frequency_keeps_its_bound(inputs: Any) -> None:
     """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
     found = GeneralMotion(*inputs)
     constants = GeneralRows(found._blocks).field
-    assert constants.sure.mean() > 0.3
-    for i in np.flatnonzero(constants.sure).tolist():
+    assert constants.is_certain.mean() > 0.3
+    for i in np.flatnonzero(constants.is_certain).tolist():
         with ctx.workprec(400):
             solution = Balls(*one(inputs, i)).trigonometric()
             true = [solution.alpha.rate / arb.pi(), solution.beta.rate / arb.pi(), 1 / solution.period]
@@ -146,7 +146,7 @@ def test_rest_and_spin_along_the_field_are_told_in_arrays() -> None:
         (np.array([none, B[1]]), np.array([none, none, B[0]]), "spin along the field"),
     ):
         motion = GeneralMotion(I, field, omega)
-        assert motion._scalars["kind"].sure.all()
+        assert motion._scalars["kind"].is_certain.all()
         assert (motion.kind == kind).all()
         assert kind not in GeneralMotion(I, field, omega + push).kind
 
@@ -281,7 +281,7 @@ def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
         out[made.extreme] = 0.0
         found.append(out)
     scalars = Scalars(blocks)
-    return found + [np.where(x.sure, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
+    return found + [np.where(x.is_certain, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
 
 
 def test_a_motion_does_not_depend_on_those_beside_it() -> None:

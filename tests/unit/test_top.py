@@ -253,7 +253,7 @@ def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:
 @pytest.mark.parametrize(
     ("case", "words"),
     [
-        (((1, 3), (0, 0), (1, 0), (0, 0, 0)), "I3 lies in"),
+        (((1, 3), (0, 0), (1, 0), (0, 0, 0)), "at most 2 I2"),
         (((1, 0), (0, 0), (1, 0), (0, 0, 0)), "both are positive"),
         (((1, 1), (0, 0), (0, 0), (0, 0, 0)), "must not be the zero vector"),
         (((1, 1), (0, float("nan")), (0, 1), (0, 0, 0)), "k3 must be finite"),

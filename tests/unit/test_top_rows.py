@@ -151,7 +151,7 @@ def test_most_ordinary_tops_have_their_period_in_arrays() -> None:
     still = [top._replace(omega=(0.0, *top.omega[1:])) for top in tops]
     for given in (tops, still):
         for quantity in ("period", "spin_per_period"):
-            assert np.count_nonzero(arrayed(given)._scalars[quantity].sure) >= 25
+            assert np.count_nonzero(arrayed(given)._scalars[quantity].is_certain) >= 25
 
 
 def in_units(top: Top, body: float, rate: float) -> Top:

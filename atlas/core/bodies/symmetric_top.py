@@ -15,7 +15,7 @@ PARALLEL = 1e-14
 """Sine of the angle up to which a weight counts as parallel to the field."""
 
 
-def given(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> list[FloatArray]:
+def inputs_of_top(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> list[FloatArray]:
     """Return I2, I3, k2, k3, n2, n3, a0, A0 of tops as arrays.
 
     Raises DomainError for moments that no body has and for a direction that is zero, AtlasError for what is no finite
@@ -35,7 +35,7 @@ def given(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: A
 
 
 def arguments_of(top: Sequence[Any]) -> dict[str, Any]:
-    """Return what `given` took, by name, from what it returns."""
+    """Return what `inputs_of_top` took, by name, from what it returns."""
     I2, I3, k2, k3, n2, n3, linear, quadratic = map(plain, top)
     return {
         "inertia": (I2, I3), "coupling": (k2, k3), "direction": (n2, n3), "linear": linear, "quadratic": quadratic,

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from flint import arb, fmpq
 
-from atlas.core.bodies.symmetric_top import given
+from atlas.core.bodies.symmetric_top import inputs_of_top
 from atlas.core.inputs import FloatArray, whole
 from atlas.core.maps.bifurcation import Bifurcation
 from atlas.core.maps.wells import Wells
@@ -82,7 +82,7 @@ def monodromy(
     Raises AtlasError for what are no numbers; DomainError for no body, a spin that is stable or no isolated value,
     rates out of the range of floats, and too few points; NotCertifiedError where the balls tell nothing.
     """
-    given(inertia, coupling, (0.0, 1.0), linear, quadratic)
+    inputs_of_top(inertia, coupling, (0.0, 1.0), linear, quadratic)
     unit = float(inertia[0])
     I, twist = inertia[1] / unit, (coupling[0] / unit, coupling[1] / unit)
     along, weight, lean = M3 / unit, linear / unit, quadratic / unit

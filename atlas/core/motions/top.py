@@ -10,7 +10,7 @@ from atlas.core.arithmetic.double_double import over
 from atlas.core.bodies.body import SymmetricBody
 from atlas.core.bodies.charge import ChargeMoments
 from atlas.core.bodies.laboratory import anisotropy
-from atlas.core.bodies.symmetric_top import along, given, moments_of_one
+from atlas.core.bodies.symmetric_top import along, inputs_of_top, moments_of_one
 from atlas.core.bodies.units import system
 from atlas.core.inputs import FloatArray, components, finite, kept, number, plain, positive
 from atlas.core.motions.nutating import NutatingMotion, ends_of, padded
@@ -88,7 +88,7 @@ class TopMotion(NutatingMotion[SingleTop]):
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
     ) -> None:
-        *top, a0, A0 = given(inertia, coupling, direction, linear, quadratic)
+        *top, a0, A0 = inputs_of_top(inertia, coupling, direction, linear, quadratic)
         parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE), a0, A0]
         super().__init__(lambda *row: SingleTop(balls(*row), np.eye(3)), *parts)
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
@@ -210,7 +210,7 @@ class TopMotion(NutatingMotion[SingleTop]):
         omega1 = 0 start it. None with the axis along n, see `sleeping_bands`. AtlasError for an array; DomainError
         where every rate is one.
         """
-        found = enclosed(lambda: [tuple(x) for x in self._one.steady_precessions], BITS)
+        found = enclosed(lambda: [tuple(x) for x in self._twin.steady_precessions], BITS)
         return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in found]
 
     @property
@@ -220,11 +220,11 @@ class TopMotion(NutatingMotion[SingleTop]):
         M3^2 < 4 (a + A), with the sign of a reversed for "hanging", theorem-sleeping-top; of Lagrange's top (I3
         omega3)^2 < 4 I2 m g l. None where it is stable at any spin. At an end see `stable`. AtlasError for an array.
         """
-        found = enclosed(lambda: list(self._one.sleeping_bands.items()), BITS)
+        found = enclosed(lambda: list(self._twin.sleeping_bands.items()), BITS)
         return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in found}
 
     @property
-    def _one(self) -> Balls:
+    def _twin(self) -> Balls:
         """One top in balls. Raises AtlasError for an array."""
         if self.shape:
             raise AtlasError("This is asked of one top: give its parameters as numbers, not as arrays.")

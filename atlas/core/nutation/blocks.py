@@ -50,7 +50,7 @@ class Constants(NamedTuple):
     tilt: FloatArray
     azimuth: FloatArray
     sizes: FloatArray
-    sure: Any
+    is_certain: Any
 
 
 @dataclass(frozen=True)

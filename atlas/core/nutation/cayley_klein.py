@@ -39,7 +39,7 @@ class Evaluation:
     """
 
     def __init__(self, parameters: CayleyKlein, size: int, *, signed: bool = False) -> None:
-        self.of, self.signed = parameters, signed
+        self.parameters, self.signed = parameters, signed
         count = parameters.phases.words.shape[1]
         self.table = parameters.values
         self.work = room(count, size)
@@ -52,8 +52,8 @@ class Evaluation:
 
         `low` (m,) is what the times t lack, None for nothing.
         """
-        if self.of.by_balls:
-            return self.of.in_balls(t, low)
+        if self.parameters.by_balls:
+            return self.parameters.in_balls(t, low)
         m = t.size
         u = self._phases(t, low)
         if self.signed:
@@ -73,7 +73,7 @@ class Evaluation:
         pairs *= sin
         turned[:, 0] -= pairs[:, 1]
         turned[:, 1] += pairs[:, 0]
-        if self.of.faint:
+        if self.parameters.faint:
             result /= np.abs(result[:4]).max(axis=0)
         if self.signed:
             result *= 1.0 - 2.0 * (self.odd & 1)
@@ -81,7 +81,7 @@ class Evaluation:
 
     def _phases(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Fill the rows; return half the sum and half the difference of the phases of alpha and beta, (2, m)."""
-        m, functions = t.size, self.of.functions
+        m, functions = t.size, self.parameters.functions
         rows = self.rows[:, :m]
         if isinstance(functions, Hyperbolic) and functions.periodic:
             u, e = self._reduced(t, low)
@@ -89,8 +89,8 @@ class Evaluation:
             functions.fill(rows, x, rest)
             u, v = u[:2], u[2]
             u += functions.twist * v
-            if self.of.swing:
-                u[1] += self.of.swing.half_on_line(x, rest, v, e[2])
+            if self.parameters.swing:
+                u[1] += self.parameters.swing.half_on_line(x, rest, v, e[2])
             return np.asarray(u)
         if isinstance(functions, Trigonometric):
             return self._on_circle(functions, t, low)
@@ -101,20 +101,20 @@ class Evaluation:
         near = np.clip(t, -functions.line.longest, functions.line.longest)
         x, rest = functions.line.at(near, 0.0 if low is None else low)
         functions.fill(rows, x, rest)
-        if self.of.swing:
-            u[1] = self.of.swing.along(u[1], x, rest)
+        if self.parameters.swing:
+            u[1] = self.parameters.swing.along(u[1], x, rest)
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Do the same where the functions are trigonometric."""
-        swing = self.of.swing
+        swing = self.parameters.swing
         if swing and swing.is_large:
             u, e = self._reduced(t, low)
             u[1] += swing.half_at(functions.multiple, u[2], e[2])
         else:
             u = self._halves(t, low)
         u, w = u[:2], u[2]
-        if self.signed and self.of.alternates:
+        if self.signed and self.parameters.alternates:
             self.odd += np.rint(w * PER_TURN).astype(np.int64)
         np.tan(w, out=w)
         functions.fill(self.rows[:, : t.size], w)
@@ -124,25 +124,25 @@ class Evaluation:
 
     def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
         """Return half the phases, reduced, and what rounding left out; keep how many whole turns that is."""
-        half, rest, whole, _ = self.of.phases.reduced(t, self.work[..., : t.size], low)
+        half, rest, whole, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
         self._keep(whole)
         return half, rest
 
     def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Return the same, rounded."""
-        turns = np.empty((len(self.of.frequencies), t.size)) if self.signed else None
-        half = self.of.phases.halves_of(t, self.work, low, turns)
+        turns = np.empty((len(self.parameters.frequencies), t.size)) if self.signed else None
+        half = self.parameters.phases.halves_of(t, self.work, low, turns)
         self._keep(turns)
         return half
 
     def _keep(self, whole: FloatArray | None) -> None:
         """Keep the number of whole turns, of which each is a last digit."""
         if self.signed and whole is not None:
-            self.odd = whole.view(np.int64)[: 3 if self.of.alternates else 2].sum(axis=0)
+            self.odd = whole.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
 
-    def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+    def products_at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return the ten products at times t + low, (10, m)."""
-        return self.products.of(self.parts(t, low))
+        return self.products.of_pair(self.parts(t, low))
 
 
 def combined(products: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
@@ -157,7 +157,7 @@ class Products:
     def __init__(self, size: int) -> None:
         self.unit, self.square, self.out = np.empty((4, size)), np.empty(size), np.empty((10, size))
 
-    def of(self, q: FloatArray) -> FloatArray:
+    def of_pair(self, q: FloatArray) -> FloatArray:
         """Return the products of q (4, m), shape (10, m)."""
         m = q.shape[1]
         unit, square, out = self.unit[:, :m], self.square[:m], self.out[:, :m]

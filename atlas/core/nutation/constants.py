@@ -47,7 +47,7 @@ class CayleyKlein:
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
         self.precision, self.sloping, self._solution = FIRST, slopes, solution
-        while not self._made(solution, self.precision):
+        while not self._are_constants_known(solution, self.precision):
             self._refine()
 
     def _refine(self) -> None:
@@ -80,7 +80,7 @@ class CayleyKlein:
                     return [float(x.mid()) for four in parts for x in four]
             self._refine()
 
-    def _made(self, solution: Callable[[], Solution], precision: int) -> bool:
+    def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
         """Take the constants at one precision; return whether it suffices."""
         with workprec(precision):
             found = solution()
@@ -95,7 +95,7 @@ class CayleyKlein:
             self.by_balls = bool(self.swing and self.swing.is_coarse)
             tables = _weights(found, self.functions, slopes=self.sloping)
             largest = max(abs(x).mid() for row in tables[0] for x in row)
-            if not all(_known(x, largest) for table in tables for row in table for x in row):
+            if not all(_is_known(x, largest) for table in tables for row in table for x in row):
                 return False
             if self.swing and not self.swing.is_known:
                 return False
@@ -186,7 +186,7 @@ def _radius(x: arb) -> float:
     return float(x.rad()) if x.is_finite() else float("inf")
 
 
-def _known(x: acb, largest: arb) -> bool:
+def _is_known(x: acb, largest: arb) -> bool:
     """Whether a weight is known to itself, or too small to matter."""
     radius = max(_radius(x.real), _radius(x.imag))
     return radius <= WEIGHT * float(abs(x).mid()) or radius <= WEIGHT**2 * float(largest)

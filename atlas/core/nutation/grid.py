@@ -55,23 +55,23 @@ TINY = 2.0**-900
 """Last digit of the times from which on none of their products is lost."""
 
 
-def fill_grid(one: SingleMotion, start: float, step: float, out: FloatArray) -> None:
+def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) -> None:
     """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
     count = len(out)
     if not count:
         return
-    check_grid(start, step, count, one.parts.phases.reach)
-    grid = Grid(one, start, step)
+    check_grid(start, step, count, motion.parts.phases.reach)
+    grid = Grid(motion, start, step)
     length = window(grid, count) if count >= SHORT else 0
     if length:
         fill_windows(grid, length, out)
         return
-    sums = one.exponentials if count >= FEW else None
+    sums = motion.exponentials if count >= FEW else None
     if sums is None:
         fill_each(grid, out)
         return
     blocks, rest = divmod(count, FINE)
-    fill_products(one, sums, rational(start), rational(step), out[: blocks * FINE])
+    fill_products(motion, sums, rational(start), rational(step), out[: blocks * FINE])
     if rest:
         fill_each(grid, out[count - rest :], blocks * FINE)
     if step and 0 <= (first := -rational(start) / rational(step)) < count:
@@ -83,14 +83,14 @@ def fill_grid(one: SingleMotion, start: float, step: float, out: FloatArray) -> 
 class Grid:
     """A motion at the times start + i step."""
 
-    one: SingleMotion
+    motion: SingleMotion
     start: float
     step: float
 
     def fill(self, evaluation: Evaluation, index: FloatArray, rows: FloatArray) -> None:
         """Fill rows (m, 9) with the matrices of the numbers i, the first and last of which are the extreme ones."""
-        times = moments(self.one.parts.phases, self.start, self.step, index)
-        combined(evaluation.at(*times), self.one.entries, rows)
+        times = moments(self.motion.parts.phases, self.start, self.step, index)
+        combined(evaluation.products_at(*times), self.motion.entries, rows)
 
 
 def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
@@ -126,7 +126,7 @@ def fill_each(grid: Grid, out: FloatArray, first: int = 0) -> None:
     rows = out.reshape(len(out), 9)
 
     def fill(low: int, high: int) -> None:
-        evaluation = Evaluation(grid.one.parts, min(high - low, BLOCK))
+        evaluation = Evaluation(grid.motion.parts, min(high - low, BLOCK))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
             grid.fill(evaluation, first + np.arange(float(i), float(j)), rows[i:j])
@@ -158,7 +158,7 @@ class Windows:
     def __init__(self, grid: Grid, length: int, size: int) -> None:
         self.grid, self.length = grid, length
         self.nodes, self.table, self.last = interpolation(length)
-        self.evaluation = Evaluation(grid.one.parts, NODES * size)
+        self.evaluation = Evaluation(grid.motion.parts, NODES * size)
         self.values = np.empty((NODES * size, 9))
 
     def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
@@ -172,7 +172,7 @@ class Windows:
 
 def window(grid: Grid, count: int) -> int:
     """Return how many times a polynomial may serve, by what the first windows show; zero if too few to be worth it."""
-    angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.one.parts.frequencies)
+    angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.parts.frequencies)
     for length in LENGTHS:
         size = min(count // length, TRIED)
         if length * angle <= TURNED and Windows(grid, length, size).at(0, size)[1]:
@@ -199,7 +199,7 @@ def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
 
 
 def fill_products(
-    one: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
+    motion: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
 ) -> None:
     """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE."""
     phases = [x.coarse(start, step * FINE) for x in sums]
@@ -217,8 +217,8 @@ def fill_products(
                 for place, (functions, table) in enumerate(zip(coarse, tables, strict=True)):
                     for part in (0, 1):
                         np.matmul(functions[k - i : k - i + m], table[part], out=q[place + 2 * part, :m])
-                found = products.of(q[:, :m].reshape(4, m * FINE))
-                combined(found, one.entries, rows[k * FINE : (k + m) * FINE])
+                found = products.of_pair(q[:, :m].reshape(4, m * FINE))
+                combined(found, motion.entries, rows[k * FINE : (k + m) * FINE])
 
     shared(fill, len(out) // FINE, GROUP, FINE)
 

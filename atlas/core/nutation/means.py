@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
-from atlas.core.nutation.roots import Turning, constant, part
+from atlas.core.nutation.roots import Turning, component, constant
 
 MEANS = 12
 """Steps of the means in two words."""
@@ -39,7 +39,7 @@ class Level:
         return self.a, self.g, self.difference, self.product, self.sum
 
     @cached_property
-    def one(self) -> Any:
+    def is_merged(self) -> Any:
         """Where both means are one."""
         return ~(self.difference.hi > ENOUGH * self.a.hi)
 
@@ -50,7 +50,7 @@ class Means:
     def __init__(self, roots: Turning) -> None:
         self.roots = roots
         r, (f0, f1, f2) = roots, roots.f
-        low, high = part(r.ends, 0), part(r.ends, 1)
+        low, high = component(r.ends, 0), component(r.ends, 1)
         self.N = (low * high).sqrt().scaled(-2)
         S = -(f0 + f1.scaled(-1) * (r.low + r.high) + f2 * r.low * r.high).scaled(-1)
         D = r.width * r.width * r.discriminant.scaled(-2)
@@ -68,13 +68,13 @@ class Means:
         both = a + g
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
         levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / both, larger * smaller, both)]
-        while len(levels) < MEANS and not levels[-1].one.all():
+        while len(levels) < MEANS and not levels[-1].is_merged.all():
             last = levels[-1]
             a, g = last.sum.scaled(-1), last.product.sqrt()
             both, square = a + g, last.difference * last.difference
             more = Level(a, g, (square / both).scaled(-2), a * g, both)
             # means that are one stay as they are: no motion depends on those beside it
-            levels.append(Level(*(chosen(last.one, x, y) for x, y in zip(last.parts, more.parts, strict=True))))
+            levels.append(Level(*(chosen(last.is_merged, x, y) for x, y in zip(last.parts, more.parts, strict=True))))
         return levels
 
     def level(self, n: int) -> Level:
@@ -106,14 +106,14 @@ class Means:
         product = constant(1.0, self.N)
         for n in range(len(self.levels) - 1, 0, -1):
             further = (product * self.level(n).a / self.level(n + 1).a).sqrt()
-            product = chosen(self.level(n).one, product, further)
+            product = chosen(self.level(n).is_merged, product, further)
         return abs(self.minus).sqrt().scaled(-3) / self.levels[0].sum.scaled(-1) * product
 
     @cached_property
     def start(self) -> Circle:
         """Cosine and sine of M t, t the time since Omega3 was `low`, at the start: cot of twice it is (c - a g/c)/2."""
         r = self.roots
-        square, below = part(r.ends, 0).scaled(-2) * r.high, -r.low
+        square, below = component(r.ends, 0).scaled(-2) * r.high, -r.low
         scaled = self.N * below
         C, D = square - scaled, (square * below).sqrt().scaled(1)
         whole = _unit(C, self.levels[0].a * D)
@@ -128,7 +128,7 @@ class Means:
         for m, turn in zip(reversed(self.levels), reversed(turns), strict=True):
             cos, sin = _half(_turned(turn, rest))
             # once the means are one nothing is added, and what C and D have lost by then does not count
-            rest = chosen(m.one, one, cos), chosen(m.one, zero, sin)
+            rest = chosen(m.is_merged, one, cos), chosen(m.is_merged, zero, sin)
         cos, sin = _half(_turned(whole, rest))
         return cos, chosen(r.rate.hi < 0, -sin, sin)
 

@@ -14,7 +14,7 @@ import numpy as np
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, ONE, Circle, Level, Means
-from atlas.core.nutation.roots import better, constant, joined, part, signed, stacked, taken
+from atlas.core.nutation.roots import better, component, constant, joined, signed, stacked, taken
 from atlas.core.nutation.spheres import Sphere
 
 STEPS = 60
@@ -73,7 +73,7 @@ class Pair:
         """p^2, and after the first step p and p - a, (2, m)."""
         m, k = self.means, self.sphere
         r, first = m.roots, m.levels[0]
-        square = stacked(part(r.ends, 0), part(r.ends, 1)).scaled(-2) * abs(k.near) / k.far
+        square = stacked(component(r.ends, 0), component(r.ends, 1)).scaled(-2) * abs(k.near) / k.far
         p = square.sqrt()
         after = (square + m.N) / p.scaled(1)
         both = (after + chosen(m.four, first.a, first.g)) * abs(k.near) * k.far
@@ -181,7 +181,7 @@ class Pair:
         """Return |alpha|^2 + |beta|^2 where the sums are these."""
         x, y = self.sums.start
         both = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
-        return part(both, 0) + part(both, 1)
+        return component(both, 0) + component(both, 1)
 
     @cached_property
     def factors(self) -> tuple[Any, FloatArray]:

@@ -213,13 +213,13 @@ def roots_of_tops(*given: DoubleDouble) -> Roots:
         twisted=twisted,
         linear=linear / (I2 * b),
         quadratic=potential,
-        A=_sure(A, given),
+        A=_exact_where_it_cancels(A, given),
         rates=np.max(rates, axis=0),
     )
     return roots_of(I2, I3, (n2, n3), (w1, w2, w3), (across, chosen(twisted, along, across)), top)
 
 
-def _sure(A: DoubleDouble, given: Sequence[DoubleDouble]) -> DoubleDouble:
+def _exact_where_it_cancels(A: DoubleDouble, given: Sequence[DoubleDouble]) -> DoubleDouble:
     """Return A, from exact numbers where it cancels: its sign says how many roots there are."""
     hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
     for i in np.flatnonzero(~(rel < 0.5)).tolist():
@@ -315,7 +315,7 @@ def stacked(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
     return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in pair]) for pair in pairs))
 
 
-def part(x: DoubleDouble, i: int) -> DoubleDouble:
+def component(x: DoubleDouble, i: int) -> DoubleDouble:
     """Return one of two stacked arrays."""
     return DoubleDouble(x.hi[i], None if x.lo is None else x.lo[i], x.rel[i] if np.ndim(x.rel) else x.rel)
 

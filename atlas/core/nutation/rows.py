@@ -1,6 +1,6 @@
 """Many motions in arrays at a few times each: matrices, fields and angular velocities; none is made by itself.
 
-What two words do not hold for certain is not `sure`, and is left to the motion made by itself: next to a separatrix or
+What two words do not hold for certain is not certain, and is left to the motion made by itself: next to a separatrix or
 a triple root, where the sums are long or cancel; where theta is constant, for the matrix; where the inputs are of very
 different sizes.
 """
@@ -20,7 +20,7 @@ from atlas.core.nutation.spheres import sphere_of_velocity
 from atlas.core.nutation.swing_rows import TURN_ERROR, Swings
 
 CANCELLING = 6.0
-"""By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `At`."""
+"""By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `Pairs`."""
 
 SMALL = 3.0
 """By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
@@ -48,7 +48,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
         r = block.roots
         pair = Pair(block.means, sphere_of_velocity(r))
         found, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
-        return *found._replace(sure=found.sure & (change.size.rel < KNOWN)), *Third(
+        return *found._replace(is_certain=found.is_certain & (change.size.rel < KNOWN)), *Third(
             np.ldexp(r.omega[2].hi, block.exponents),
             np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
             np.ldexp(change.size.hi, block.exponents),
@@ -84,12 +84,12 @@ class GeneralRows:
         found = map(constants, self.blocks)
         return [np.concatenate(x, axis=-1) for x in zip(*found, strict=True)]
 
-    def at(self, index: Any, t: FloatArray) -> "At":
+    def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
         """Return motions by their index at the times t that go with them."""
-        return At(self, index, t)
+        return MotionsAtTimes(self, index, t)
 
 
-class At:
+class MotionsAtTimes:
     """Motions in a row, each at one time; `extreme` are the places of those that have to be made alone."""
 
     def __init__(self, rows: GeneralRows, index: Any, t: FloatArray) -> None:
@@ -122,14 +122,14 @@ class At:
         out[:, 2] = pair.third(third)
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * largest(out)))
 
-    def _pair(self, constants: Constants) -> "PairAt":
+    def _pair(self, constants: Constants) -> "Pairs":
         """Return a pair, and keep which motions it does not hold."""
-        pair = PairAt(Constants(*(x[..., self._index] for x in constants)), self._times)
+        pair = Pairs(Constants(*(x[..., self._index] for x in constants)), self._times)
         self.extreme = pair.extreme
         return pair
 
 
-class PairAt:
+class Pairs:
     """Pairs in a row, each at one time; `extreme` are the places of those that have to be made alone.
 
     alpha and beta are known to 4 u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and
@@ -138,7 +138,7 @@ class PairAt:
     """
 
     def __init__(self, constants: Constants, t: FloatArray) -> None:
-        self.of = c = constants
+        self.constants = c = constants
         with np.errstate(all="ignore"):
             cos, sin, self.half = _circles(c.words, t)
             start = cos[2] * c.start[0] - sin[2] * c.start[1], sin[2] * c.start[0] + cos[2] * c.start[1]
@@ -150,20 +150,22 @@ class PairAt:
             self.pair = sums * self.turned
             self.square = (self.pair.real**2 + self.pair.imag**2).sum(axis=0)
             sizes = abs(c.rates)
-            good = c.sure & (c.weight <= CANCELLING * np.sqrt(self.square)) & (abs(c.sizes) > 1 / REACH).all(axis=0)
+            good = (
+                c.is_certain & (c.weight <= CANCELLING * np.sqrt(self.square)) & (abs(c.sizes) > 1 / REACH).all(axis=0)
+            )
             good &= ((c.lack * abs(t) <= LOST) & (sizes * abs(t) <= LIMIT) & (sizes < REACH)).all(axis=0)
             self.extreme = np.flatnonzero(~good)
 
     def column(self, j: int, out: FloatArray) -> None:
         """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
         x, y, z = (self._entry(i, j - 1) for i in range(3))
-        (cos, sin), side = self.of.tilt, self.of.azimuth[0]
+        (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
         first, third = (side, 1.0) if j == 3 else (1.0, side)
         out[:, 0], out[:, 1], out[:, 2] = x * first, (cos * y + sin * z) * first, (cos * z - sin * y) * third
 
     def quaternion(self, out: FloatArray) -> None:
         """Write the quaternions into (m, 4): that of the pair after the tilt at the start, turned back."""
-        (cos, sin), side = self.of.tilt, self.of.azimuth[0]
+        (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
         longer = np.sqrt((1 + abs(cos)) / 2)
         shorter = sin / (2 * longer)
         C, S = np.where(cos < 0, (abs(shorter), np.copysign(longer, sin)), (longer, shorter)) / np.sqrt(self.square)
@@ -172,7 +174,7 @@ class PairAt:
 
     def vector(self, out: FloatArray, first: int = 0) -> None:
         """Write the vector into (m, 3), its first two components from the `first` on."""
-        (cos, sin), (across, along) = self.of.azimuth, self.of.sizes
+        (cos, sin), (across, along) = self.constants.azimuth, self.constants.sizes
         x, y, z = (self._entry(2, j) for j in range(3))
         out[:, first], out[:, 1 - first], out[:, 2] = (
             across * (cos * x + sin * y),
@@ -182,7 +184,7 @@ class PairAt:
 
     def third(self, third: Third) -> FloatArray:
         """Return the third component of the angular velocity, (m,)."""
-        count, (cos, sin), (c, s) = self.of.terms.max(initial=1), self.turn, third.start
+        count, (cos, sin), (c, s) = self.constants.terms.max(initial=1), self.turn, third.start
         product = third.size / self.square
         for start in ((cos, sin), (cos * c - sin * s, sin * c + cos * s)):
             product = product * sum(a * x for a, (_, x) in zip(third.weights, multiples(*start, count), strict=False))
@@ -243,12 +245,12 @@ class TopRows(GeneralRows):
         """Largest rate of each."""
         return self._constants[2]
 
-    def at(self, index: Any, t: FloatArray) -> "TopAt":
+    def at(self, index: Any, t: FloatArray) -> "TopsAtTimes":
         """Return tops by their index at the times t that go with them."""
-        return TopAt(self, index, t)
+        return TopsAtTimes(self, index, t)
 
 
-class TopAt(At):
+class TopsAtTimes(MotionsAtTimes):
     """Tops in a row, each at one time."""
 
     _rows: TopRows
@@ -257,20 +259,20 @@ class TopAt(At):
         """Write Omega into (m, 3): twice the vector part of the quaternion's logarithmic derivative."""
         pair = self._pair(self._rows.field)
         bound = velocity(pair, out)
-        out *= np.stack([pair.of.azimuth[0], pair.of.azimuth[0], np.ones(len(out))], -1)
+        out *= np.stack([pair.constants.azimuth[0], pair.constants.azimuth[0], np.ones(len(out))], -1)
         slow = bound > FAST * self._rows.largest[self._index]
         self.extreme = np.union1d(self.extreme, np.flatnonzero(slow))
 
-    def _pair(self, constants: Constants) -> "TopPairAt":
+    def _pair(self, constants: Constants) -> "TopPairs":
         """Return the pair with the whole turn about the axis, and keep which tops it does not hold."""
         swings = self._rows.swings
         own = swings and Swings(*(x[..., self._index] for x in swings))
-        pair = TopPairAt(Constants(*(x[..., self._index] for x in constants)), self._times, own)
+        pair = TopPairs(Constants(*(x[..., self._index] for x in constants)), self._times, own)
         self.extreme = pair.extreme
         return pair
 
 
-class TopPairAt(PairAt):
+class TopPairs(Pairs):
     """Pairs of tops in a row, with the turn that the integral of nu adds; `kappa` as it is in Omega3."""
 
     def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None) -> None:
@@ -288,9 +290,9 @@ class TopPairAt(PairAt):
         self.extreme = np.union1d(self.extreme, np.flatnonzero(swings.twisted & (long | ~(error < TURN_ERROR))))
 
 
-def velocity(pair: TopPairAt, out: FloatArray) -> FloatArray:
+def velocity(pair: TopPairs, out: FloatArray) -> FloatArray:
     """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
-    c, rates = pair.of, pair.of.rates
+    c, rates = pair.constants, pair.constants.rates
     with np.errstate(all="ignore"):
         circles = multiples(*pair.circle, c.terms.max(initial=1))
         terms = zip(range(1, 2 * len(circles), 2), c.even, c.odd, circles, strict=False)

@@ -135,7 +135,7 @@ class SingleMotion:
         def prepare(size: int) -> Any:
             """Return what fills a block."""
             evaluation = Evaluation(parts or self.parts, size)
-            return lambda times, rows: combined(evaluation.at(times), weights, rows)
+            return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
 
         return evaluate(t, shape, out, prepare)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.roots import ONE, Roots, Turning, better, constant, part, stacked
+from atlas.core.nutation.roots import ONE, Roots, Turning, better, component, constant, stacked
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Sphere:
     @cached_property
     def far(self) -> DoubleDouble:
         """Distances of the poles from the turning point that is farther away, (2, m)."""
-        return stacked(part(self.poles, 0) - self.roots.low, self.roots.high - part(self.poles, 1))
+        return stacked(component(self.poles, 0) - self.roots.low, self.roots.high - component(self.poles, 1))
 
     @cached_property
     def near(self) -> DoubleDouble:
@@ -47,7 +47,7 @@ class Sphere:
         Where that cancels, since the vector all but meets the pole, they are the square of the torque over -f far.
         """
         f0, f1, f2 = self.roots.f
-        plain = stacked(part(self.poles, 0) - self.roots.high, self.roots.low - part(self.poles, 1))
+        plain = stacked(component(self.poles, 0) - self.roots.high, self.roots.low - component(self.poles, 1))
         beyond = -((f2 * self.poles + f1) * self.poles + f0)
         by_torque = self.torques * self.torques / (beyond * self.far)
         return better(plain, by_torque)

@@ -62,7 +62,7 @@ class Swing:
         odd = odd if merged else [x * size for x in odd]
         count = max(self._needed(odd), self._needed(even))
         odd, even = odd[:count], even[:count]
-        known = all(_known(x, max(abs(y).mid() for y in weights)) for weights in (odd, even) for x in weights)
+        known = all(_is_known(x, max(abs(y).mid() for y in weights)) for weights in (odd, even) for x in weights)
         self.is_known = known and bool(largest.is_finite())
         self.odd, self.even = (np.array([self._number(x) for x in weights], dtype=self.type) for weights in (odd, even))
         self.depth = self._number(exact.depth)
@@ -169,6 +169,6 @@ class Crossing:
         return np.asarray(self.sense * (np.where(s < 0, -half, half) + bent))
 
 
-def _known(x: arb, largest: arb) -> bool:
+def _is_known(x: arb, largest: arb) -> bool:
     """Whether a weight is known to itself, or too small to matter."""
     return bool(x.rad() <= ACCURATE * abs(x.mid()) or x.rad() <= ACCURATE**2 * largest)

@@ -19,7 +19,7 @@ from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, ONE, Circle, Means
 from atlas.core.nutation.pair import TERMS
-from atlas.core.nutation.roots import Roots, constant, part, signed
+from atlas.core.nutation.roots import Roots, component, constant, signed
 
 STEPS = 60
 """Most steps of the means."""
@@ -167,10 +167,10 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()
     roots = fourth * fourth
-    both = part(roots, 0) + part(roots, 1)
+    both = component(roots, 0) + component(roots, 1)
     p = both.scaled(-2)
     slope = r.f[1] + r.f[2] * (r.low + r.high)
-    lean = (abs(slope) * r.width / (both * (part(fourth, 0) + part(fourth, 1)))).scaled(-1)
+    lean = (abs(slope) * r.width / (both * (component(fourth, 0) + component(fourth, 1)))).scaled(-1)
     broad = r.width / (p + chosen(means.four, m[0].a, m[0].g)).sqrt().scaled(2)
     # a p is that of the larger mean plus A e^2 less than it, and that of the smaller one plus h^2
     e, h = chosen(means.four, broad, lean / size), chosen(means.four, lean, size * broad)
@@ -181,7 +181,7 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
         twice, product = p.scaled(1), e * h
         unit = (twice * after.sum).sqrt()
         turns.append(((p + after.g) / unit, -(product / unit)))
-        ended.append(level.one & (abs(turns[-1][1].hi) * size.hi < ENOUGH))
+        ended.append(level.is_merged & (abs(turns[-1][1].hi) * size.hi < ENOUGH))
         if ended[-1].all():
             break
         root = twice.sqrt()

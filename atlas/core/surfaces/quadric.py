@@ -6,7 +6,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import BLOCK, over
 from atlas.core.bodies.body import kept_ratio, moments
-from atlas.core.bodies.symmetric_top import arguments_of, given
+from atlas.core.bodies.symmetric_top import arguments_of, inputs_of_top
 from atlas.core.inputs import FloatArray, common_shape, components, kept, plain, vectors
 from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
@@ -184,7 +184,7 @@ class TopQuadric(Quadric):
     made_by = "Quadric.of_top"
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> None:
-        self._top = given(inertia, coupling, direction, linear, quadratic)
+        self._top = inputs_of_top(inertia, coupling, direction, linear, quadratic)
         self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
         self.shape = common_shape(*map(np.shape, self._top))
         self.direction = self._inputs[2:]

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.double_double import over
-from atlas.core.bodies.symmetric_top import arguments_of, given
+from atlas.core.bodies.symmetric_top import arguments_of, inputs_of_top
 from atlas.core.inputs import FloatArray, number, plain, positive, real, whole
 from atlas.core.motions.top import TopMotion
 from atlas.core.quantities import ENERGY, RATE
@@ -44,7 +44,7 @@ class TopHyperbola(Shown):
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: float, quadratic: float) -> None:
         linear, quadratic = number(linear, "linear", ENERGY), number(quadratic, "quadratic", ENERGY)
-        self._top = [number(x, "A parameter") for x in given(inertia, coupling, direction, linear, quadratic)]
+        self._top = [number(x, "A parameter") for x in inputs_of_top(inertia, coupling, direction, linear, quadratic)]
         self.arguments = arguments_of(self._top)
         I2, I3, k2, k3, n2, n3, *_ = self._top
         self.given = (I2, I3), (k2, k3), (n2, n3), linear, quadratic

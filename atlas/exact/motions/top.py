@@ -23,7 +23,7 @@ from atlas.exact.nutation.nutating import Nutating, attitude
 from atlas.exact.nutation.quartic import TopQuartic
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.exact.nutation.swing import crossing, swing
-from atlas.exact.surfaces.top_quadric import given
+from atlas.exact.surfaces.top_quadric import inputs_of_top
 from atlas.formulas.top import constants
 
 
@@ -37,7 +37,9 @@ class TopMotion(Nutating):
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0, quadratic: Any = 0
     ) -> None:
-        self.I, self.coupling, self.direction, self.potential = given(inertia, coupling, direction, linear, quadratic)
+        self.I, self.coupling, self.direction, self.potential = inputs_of_top(
+            inertia, coupling, direction, linear, quadratic
+        )
         self.omega = rationals(omega, "omega", 3)
         self.field = fmpq(0), *self.direction
         self.quartic: TopQuartic = TopQuartic(self.I, self.coupling, self.direction, self.omega, self.potential)

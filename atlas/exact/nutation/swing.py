@@ -39,7 +39,7 @@ class Swing:
 
     def at(self, t: arb, s: arb) -> arb:
         """Return kappa times the integral of nu from a turning point, at time t, which is s in its own period."""
-        return self.kappa * (self.rate * t + self.twist * s + self.bent(s))
+        return self.kappa * (self.rate * t + self.twist * s + self.oscillation(s))
 
     @property
     def steepest(self) -> arb:
@@ -53,16 +53,16 @@ class Swing:
         unit = 8 / self.lattice.rate if infinite(half) else half
 
         def found() -> arb:
-            sizes = [abs(self.kappa * self.bent(unit * k / 8)) / 2 for k in range(1, 9)]
+            sizes = [abs(self.kappa * self.oscillation(unit * k / 8)) / 2 for k in range(1, 9)]
             return max(sizes, key=lambda x: float(x.mid()))
 
         with workprec(ROUGH):
             rough = found()
         return rough if rough.rel_accuracy_bits() > ROUGH // 4 else found()
 
-    def bent(self, s: arb) -> arb:
+    def oscillation(self, s: arb) -> arb:
         """Return the part that is no multiple of time."""
-        return bent(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
+        return turn_of(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Crossing:
         return self.kappa * self.sense * (x + (1 + (-2 * x).exp()).log()) / self.slope
 
 
-def bent(odd: arb, even: arb, A: arb) -> arb:
+def turn_of(odd: arb, even: arb, A: arb) -> arb:
     """Return 2 at(odd/even sqrt(|A|))/sqrt(|A|)."""
     if A == 0:
         return 2 * odd / even
@@ -96,28 +96,28 @@ def bent(odd: arb, even: arb, A: arb) -> arb:
     return 2 * arb.atan2(odd * size, even) / size
 
 
-def swing(of: Nutation, quartic: TopQuartic) -> Swing:
+def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
     """Return the constants of the integral of nu for a motion of that quartic, but for the `crossing` of n and -n."""
-    lattice, A = of.lattice, arb(quartic.A)
-    sense = 1 if of.start.place == quartic.low else -1
+    lattice, A = nutation.lattice, arb(quartic.A)
+    sense = 1 if nutation.start.place == quartic.low else -1
     depth = arb(0)
     if quartic.A > 0:
-        outermost = of.turning(0 if sense > 0 else len(of.real) - 1)
+        outermost = nutation.turning(0 if sense > 0 else len(nutation.real) - 1)
         depth = lattice.rate * outermost.real_time_to_infinity()
         odd, even = _apart(lattice, depth, sense / A.sqrt())
     elif quartic.A < 0:
-        odd, even = _across(lattice, of.start.imaginary_time_to_infinity(), sense / (-A).sqrt())
+        odd, even = _across(lattice, nutation.start.imaginary_time_to_infinity(), sense / (-A).sqrt())
     elif quartic.a.is_zero:
-        amplitude = of.roots[of.other].value.real - of.start.u
+        amplitude = nutation.roots[nutation.other].value.real - nutation.start.u
         like = Sum(lattice, (), (), arb(0), doubled=True)
         odd, even = _split(like, [arb(0), amplitude / (8 * lattice.rate)], [arb(1), arb(0)])
     else:
         odd, even = _merged(lattice, lattice.rate / arb(quartic.a.value))
     # nu is that of the turning point at s = 0
-    whole = -of.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
-    twist, width = arb(0), abs(of.roots[of.other].value.real - of.start.u)
+    whole = -nutation.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
+    twist, width = arb(0), abs(nutation.roots[nutation.other].value.real - nutation.start.u)
     if lattice.form == "hyperbolic" and not infinite(lattice.half):
-        twist = -bent(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
+        twist = -turn_of(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
     return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth, width)
 
 

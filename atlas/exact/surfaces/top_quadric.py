@@ -13,7 +13,7 @@ from atlas.formulas.domain import check_D, check_direction, check_moments
 from atlas.formulas.numbers import root
 
 
-def given(
+def inputs_of_top(
     inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any
 ) -> tuple[fmpq, tuple[fmpq, ...], tuple[fmpq, ...], tuple[fmpq, ...]]:
     """Return I = I3/I2, the coupling over I2, the direction as given, and the potential (a0, A0) over I2.
@@ -32,7 +32,7 @@ def constants(
     inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any
 ) -> tuple[fmpq, fmpq, fmpq, Surd, Surd, fmpq, fmpq]:
     """Return what the formulas of `atlas.formulas.top` take, exactly."""
-    I, (k2, k3), (n2, n3), potential = given(inertia, coupling, direction, linear, quadratic)
+    I, (k2, k3), (n2, n3), potential = inputs_of_top(inertia, coupling, direction, linear, quadratic)
     N = n2 * n2 + n3 * n3
     size = Surd.root(N)
     return I, k2, k3, size * (n2 / N), size * (n3 / N), *potential
@@ -42,7 +42,7 @@ class TopQuadric(Quadric):
     """The surface n3 (omega1^2 + w^2) - I n2 w v = -n2^2 n3 D of starts at which nu'' = 0."""
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0, quadratic: Any = 0) -> None:
-        self.I, _, (self.B2, self.B3), _ = given(inertia, coupling, direction, linear, quadratic)
+        self.I, _, (self.B2, self.B3), _ = inputs_of_top(inertia, coupling, direction, linear, quadratic)
         self.top = constants(inertia, coupling, direction, linear, quadratic)
 
     @property
