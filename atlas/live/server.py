@@ -32,6 +32,7 @@ PAGES = {
     "": ("explore.html", "text/html"),
     "explore.js": ("explore.js", "text/javascript"),
     "scene.js": ("scene.js", "text/javascript"),
+    "sliders.js": ("sliders.js", "text/javascript"),
     "style.css": ("style.css", "text/css"),
     "explore.css": ("explore.css", "text/css"),
     "icon.svg": ("icon.svg", "image/svg+xml"),

@@ -3,36 +3,17 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import log10
 from typing import Any
 
 from atlas.errors import AtlasError, nearest
 from atlas.families import FAMILIES, Family
+from atlas.families.sliders import Slider, sliders_of, step_of
 from atlas.scene import recipes
 from atlas.scene.layers import Scene
 from atlas.scene.parameters import MEANINGS
 from atlas.scene.recipes import Recipe
 
-STEPS = 300
-"""About so many has a slider from end to end, each a power of ten."""
-LAST = 60.0
-"""Units of time on the slider of t."""
-
-
-@dataclass(frozen=True)
-class Slider:
-    """A number to choose: its name, what it is, its ends, its step and where it starts."""
-
-    name: str
-    says: str
-    low: float
-    high: float
-    step: float
-    start: float
-
-
 FIGURE = "figure:"
-TIME = Slider("t", "time", 0.0, LAST, 0.05, 0.0)
 
 
 @dataclass(frozen=True)
@@ -59,12 +40,7 @@ class OfFamily:
     @cached_property
     def sliders(self) -> list[Slider]:
         """The sliders of all parameters that have a start in the register, and of the time."""
-        found = [
-            Slider(name, p.says, *p.range, _step(*p.range), start)
-            for p in self.family.parameters
-            for name, start in zip(p.names, p.default, strict=bool(p.default))
-        ]
-        return [*found, *([TIME] if self.moves else [])]
+        return sliders_of(self.family)
 
     def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
         """Return the parameters of the class, in its order."""
@@ -136,7 +112,7 @@ class OfRecipe:
         low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or _around(parts)
         low, high = min(low, *parts), max(high, *parts)
         for name, start in zip(names, parts, strict=True):
-            step = 1 if type(start) is int else _step(low, high)
+            step = 1 if type(start) is int else step_of(low, high)
             yield Slider(name, MEANINGS.get(key, key), low, high, step, start)
 
     def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
@@ -171,11 +147,6 @@ Subject = OfFamily | OfRecipe
 @lru_cache(maxsize=1)
 def _made(kernels: Any, arguments: tuple[Any, ...]) -> Any:
     return kernels(*arguments)
-
-
-def _step(low: float, high: float) -> float:
-    """Return the step of a slider."""
-    return float(10.0 ** round(log10((high - low) / STEPS)))
 
 
 def _around(parts: tuple[float, ...]) -> tuple[float, float]:

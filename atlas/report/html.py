@@ -26,7 +26,7 @@ from atlas.report.fonts import FACES, Recall, all_subsets, anew
 from atlas.report.templates import templates
 from atlas.report.versions import versions
 
-SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "explorer.js")
+SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
 turns figures in space, what lets figures move in time, and what moves an elementary motion."""
 

@@ -3,11 +3,11 @@
 "use strict";
 (() => {
 const REST = 350, MOVING = 1500, byId = id => document.getElementById(id), [title, choice, stage, form, error, numbers, command] = ["title", "subject", "stage", "sliders", "error", "numbers", "command"].map(byId);
-const make = (tag, attributes, ...inside) => { const made = document.createElement(tag); Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value)); made.append(...inside); return made; };
+const {Sliders, make} = window.atlasSliders;
 const ask = async (place, query = {}) => { const answer = await fetch(`${place}?${new URLSearchParams(query)}`); if (!answer.ok) throw new Error(await answer.text()); return answer.json(); };
-let sliders = [], viewer, busy = false, wanted = false, rest, playing = false, shown = 0;
+let sliders, viewer, busy = false, wanted = false, rest, shown = 0;
 
-const values = () => ({subject: choice.value, ...Object.fromEntries(sliders.map(one => [one.name, one.value]))});
+const values = () => ({subject: choice.value, ...Object.fromEntries(sliders.entries())});
 const show = (proven, {scene, alt, size, numbers: rows, command: line}) => {
   error.textContent = ""; command.textContent = line; stage.style.aspectRatio = `${size[0]} / ${size[1]}`;
   if (scene && viewer?.panels.length === scene.wide.panels.length) {
@@ -33,36 +33,19 @@ const update = async (proven = 0) => {
   try {
     const state = values(), found = await ask("state", {...state, proven});
     if (state.subject === choice.value) { if (found.error) error.textContent = found.error; else show(proven, found); }
-  } catch (problem) { error.textContent = `The server does not answer: ${problem.message}`; playing = false; }
+  } catch (problem) { error.textContent = `The server does not answer: ${problem.message}`; sliders.playing && sliders.go(false); }
   busy = false;
-  if (wanted) { wanted = false; update(); } else if (!proven && !playing) rest = setTimeout(() => { update(1); keep(); }, REST);
+  if (wanted) { wanted = false; update(); } else if (!proven && !sliders.playing) rest = setTimeout(() => { update(1); keep(); }, REST);
 };
 const keep = () => history.replaceState(null, "", `#${new URLSearchParams(values())}`);
-const control = ({name, says, low, high, step, start}) => {
-  const range = make("input", {type: "range", min: low, max: high, step: "any", "aria-label": says}), exact = make("input", {type: "number", step: "any", "aria-label": `${says}, typed`});
-  const one = {name, value: start, set(value) { one.value = value; range.value = value; exact.value = Number(Number(value).toPrecision(12)); }};
-  range.step = step; one.set(start);
-  range.addEventListener("input", () => { one.set(Number(range.value)); update(); });
-  exact.addEventListener("change", () => { if (exact.value !== "") { one.value = Number(exact.value); range.value = exact.value; update(); } });
-  form.append(make("label", {title: says}, make("span", {}, name), range, exact));
-  return one;
-};
 const open = async given => {
   const found = await ask("sliders", {subject: choice.value});
   if (found.error) { error.textContent = found.error; return; }
-  title.textContent = found.title[0].toUpperCase() + found.title.slice(1); document.title = `${title.textContent} · atlas explore`; form.replaceChildren(); playing = false;
-  sliders = found.sliders.map(control);
-  for (const one of sliders) if (given.has(one.name) && Number.isFinite(Number(given.get(one.name)))) one.set(Number(given.get(one.name)));
-  const time = sliders.find(one => one.name === "t");
-  if (time) {
-    const button = make("button", {type: "button"}, "Play"), last = Number(found.sliders.at(-1).high); let clock = null;
-    const tick = now => { if (!playing) return; if (clock !== null) { time.set(Math.round((time.value + Math.min(now - clock, 200) * 1e-3) % last * 1e3) / 1e3); update(); } clock = now; requestAnimationFrame(tick); };
-    button.addEventListener("click", () => { playing = !playing; button.textContent = playing ? "Pause" : "Play"; clock = null; if (playing) requestAnimationFrame(tick); else update(); });
-    form.append(button);
-  }
+  title.textContent = found.title[0].toUpperCase() + found.title.slice(1); document.title = `${title.textContent} · atlas explore`;
+  sliders?.playing && sliders.go(false);
+  sliders = new Sliders(form, found.sliders, () => update()); sliders.read(given);
   viewer?.close(); viewer = null; stage.replaceChildren(); update();
 };
-form.addEventListener("submit", event => event.preventDefault());
 choice.addEventListener("change", () => open(new URLSearchParams()));
 ask("subjects").then(({start, ...groups}) => {
   for (const [label, entries] of Object.entries(groups)) choice.append(make("optgroup", {label}, ...entries.map(([name, says]) => make("option", {value: name}, `${name}: ${says}`))));

@@ -87,33 +87,26 @@ const write = panel => {
   });
 };
 for (const section of document.querySelectorAll(".explorer")) {
-  const sliders = [...section.querySelectorAll("input[type=range]")], out = section.querySelector("output"), line = section.querySelector("code"), play = section.querySelector("button"), box = section.querySelector(".stage"), calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const all = section.dataset.tables && JSON.parse(section.dataset.tables), [first, second] = section.dataset.field.split(" ").map(Number), b = Math.hypot(first, second), value = name => Number(sliders.find(one => one.name === name).value), time = sliders.find(one => one.name === "t");
+  const form = section.querySelector("form"), out = section.querySelector("output"), line = section.querySelector("code"), box = section.querySelector(".stage"), calm = matchMedia("(prefers-reduced-motion: reduce)");
+  const all = section.dataset.tables && JSON.parse(section.dataset.tables), [first, second] = section.dataset.field.split(" ").map(Number), b = Math.hypot(first, second), value = name => sliders.value(name);
+  let seen = false, viewer;
   const state = () => {
     if (all) {
       const off = ([I, , , omega1]) => Math.abs(I - value("I")) + Math.abs(omega1 - value("omega1")), of = ({command}) => command.match(/-?[\d.]+(e-?\d+)?(?= |$)/g).map(Number);
       const table = all.reduce((best, one) => off(of(one)) < off(of(best)) ? one : best), [I, B2, B3] = of(table);
       return {I, B2, B3, at: tabled(table, B2, B3), span: 6 * table.period, says: table.says, command: table.command};
     }
-    const I = value("I"), angle = value("angle") * Math.PI / 180, omega2 = value("omega2"), turned = sliders.find(one => one.name === "angle"), still = turned.value === turned.defaultValue, B2 = still ? first : b * Math.cos(angle), B3 = still ? second : b * Math.sin(angle), {omega3, k, phi, stability} = motion(I, B2, B3, omega2), spin = Number.isFinite(phi) ? phi : 0;
+    const I = value("I"), angle = value("angle") * Math.PI / 180, omega2 = value("omega2"), still = value("angle") === sliders.find("angle").start, B2 = still ? first : b * Math.cos(angle), B3 = still ? second : b * Math.sin(angle), {omega3, k, phi, stability} = motion(I, B2, B3, omega2), spin = Number.isFinite(phi) ? phi : 0;
     const digits = x => Number.isFinite(x) ? String(Number(x.toPrecision(6))).replace("-", "−") : "none, at the pole", says = `${kind(I)}; ω₃ = ${digits(omega3)}, k = ${digits(k)}, φ = ${digits(phi)}; ${stability > 0 ? "stable" : "unstable"}`;
     return {I, B2, B3, omega2, at: t => rotation(B2, B3, k, spin, t), span: 2 * Math.PI / Math.abs(k || 1), says, command: `atlas motion --ratio ${I} --field ${Number(B2.toPrecision(12))} ${Number(B3.toPrecision(12))} --omega2 ${omega2}`};
   };
-  let last = null, asked, playing = !calm.matches, seen = false, viewer;
-  const read = () => {  // the state that the address names
-    if (!location.hash.startsWith("#motion:")) return;
-    for (const [name, value] of new URLSearchParams(location.hash.slice(8))) { const one = sliders.find(slider => slider.name === name); if (one && Number.isFinite(Number(value))) one.value = value; }
-  };
-  const say = () => { const {says, command} = state(); for (const one of sliders) one.nextElementSibling.textContent = String(Number(Number(one.value).toFixed(2))); out.textContent = says; line.textContent = command; };
+  const read = () => { if (location.hash.startsWith("#motion:")) sliders.read(new URLSearchParams(location.hash.slice(8))); };  // the state that the address names
+  const say = () => { const {says, command} = state(); out.textContent = says; line.textContent = command; };
   const panels = all ? [() => right(state(), value("t"))] : [() => left(state()), () => right(state(), value("t"))];
-  const show = which => { (which ?? panels.keys()).forEach(i => viewer.panels[i].set(panels[i]())); viewer.hurry(playing && seen ? 1500 : 250); };
-  let now = 0;
-  const tick = clock => {
-    if (!playing || !seen) { last = null; return; }
-    now = last === null ? value("t") : now + Math.min(clock - last, 100) * 1e-3; now = now > Number(time.max) ? 0 : now;
-    last = clock; time.value = now; time.nextElementSibling.textContent = time.value; show([panels.length - 1]); asked = requestAnimationFrame(tick);
-  };
-  const go = wanted => { playing = wanted; play.textContent = playing ? "Pause" : "Play"; play.setAttribute("aria-pressed", String(playing)); cancelAnimationFrame(asked); last = null; if (playing) asked = requestAnimationFrame(tick); };
+  const show = which => { (which ?? panels.keys()).forEach(i => viewer.panels[i].set(panels[i]())); viewer.hurry(sliders.playing && seen ? 1500 : 250); };
+  const changed = name => { if (!viewer) return; if (name === "t") show([panels.length - 1]); else { say(); show(); } };
+  const keep = () => history.replaceState(null, "", `#motion:${new URLSearchParams(sliders.entries())}`);
+  const sliders = new root.atlasSliders.Sliders(form, JSON.parse(form.dataset.sliders), changed, keep, () => seen);
   read(); section.hidden = false;
   const narrow = matchMedia("(max-width: 36rem)"), half = (x, y, width, height) => [x, y, width, height, 300, 300, 300, 150, 150];
   const places = () => all ? [half(narrow.matches ? 0 : 0.25, 0, narrow.matches ? 1 : 0.5, 1)] : narrow.matches ? [half(0, 0, 1, 0.5), half(0, 0.5, 1, 0.5)] : [half(0, 0, 0.5, 1), half(0.5, 0, 0.5, 1)];
@@ -124,12 +117,8 @@ for (const section of document.querySelectorAll(".explorer")) {
   box.classList.toggle("single", Boolean(all)); narrow.addEventListener("change", () => { viewer.shown.places = places(); viewer.hurry(); });
   for (const panel of viewer.panels) { panel.write = () => write(panel); panel.write(); }
   say(); viewer.hurry();
-  for (const one of sliders) {
-    one.addEventListener("input", () => { if (one === time) { now = value("t"); last = null; } say(); show(); });
-    one.addEventListener("change", () => history.replaceState(null, "", `#motion:${new URLSearchParams(sliders.map(slider => [slider.name, slider.value]))}`));
-  }
-  play.addEventListener("click", () => go(!playing)); calm.addEventListener("change", () => go(!calm.matches));
+  sliders.go(!calm.matches); calm.addEventListener("change", () => sliders.go(!calm.matches));
   addEventListener("hashchange", () => { read(); say(); show(); });
-  new IntersectionObserver(([{isIntersecting}]) => { seen = isIntersecting; if (seen) go(playing); }).observe(box);
+  new IntersectionObserver(([{isIntersecting}]) => { seen = isIntersecting; if (seen) sliders.go(sliders.playing); }).observe(box);
 }
 })(globalThis);

@@ -117,7 +117,7 @@ def test_general_motions_are_tabled_at_each_place_of_their_sliders() -> None:
     body, push, time = view(Explorer("x", motion="general"), Texts()).sliders  # type: ignore[arg-type]
     assert (body.low, body.step, body.high) == (0.5, 0.5, 2.0)
     assert (push.low, push.step, push.high) == (0.0, pytest.approx(0.6), 3.0)
-    assert (time.low, time.step, time.high, time.start) == (0.0, 0.01, 60.0, 0.0)
+    assert (time.low, time.step, time.high, time.start) == (0.0, 0.05, 60.0, 0.0)
     places = [np.arange(one.low, one.high + one.step / 2, one.step) for one in (body, push)]
     assert all(np.abs(at - one.start).min() < 1e-12 for at, one in zip(places, (body, push), strict=True))
     made = json.loads(tables())
@@ -133,7 +133,7 @@ def test_sliders_have_the_ranges_of_the_register() -> None:
     made: Any = view(Explorer("x"), Texts())  # type: ignore[arg-type]
     sliders = {one.name: one for one in made.sliders}
     assert (sliders["angle"].low, sliders["angle"].high) == (1.0, 89.0)
-    assert {one.step for one in made.sliders} == {0.01}
+    assert {one.step for one in made.sliders if one.name != "t"} == {0.01}
     assert (sliders["I"].low, sliders["I"].high) == known["ratio"].range
     assert (sliders["omega2"].low, sliders["omega2"].high) == known["omega2"].range
     angle = np.radians(sliders["angle"].start)

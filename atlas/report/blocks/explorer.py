@@ -1,18 +1,18 @@
 """The elementary motions with sliders: the pages show them as they move, in print there is only a sentence."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from itertools import product
 from math import atan2, degrees, hypot
 from typing import Any, Literal
 
 from atlas.families import FAMILIES
+from atlas.families.sliders import TIME, Slider, sliders_of
 from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
 
-_STEP, _OBLIQUE = 0.01, (1.0, 89.0)
-"""Of all sliders; and the angle between field and e2 in degrees, for which (71) has a pole and both asymptotes."""
-_LAST, RATIO = 60.0, "ratio of the moments of inertia, I3/I2"
+_OBLIQUE, _STEP = (1.0, 89.0), 0.01
+"""The angle between field and e2 in degrees, for which (71) has a pole and both asymptotes, and its step."""
 _BODIES, _PUSHES, _NODES, _PLACES = (0.5, 1.0, 1.5, 2.0), 6, 60, 4
 """General motions: of these I, from so many starts, so many moments of a period, and decimals: what is drawn."""
 
@@ -29,19 +29,6 @@ class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
 
 
 @dataclass(frozen=True)
-class Slider:
-    """A number that is chosen: its name in the address, its symbol, what it is, its ends, and where it starts."""
-
-    name: str
-    symbol: str
-    says: str
-    low: float
-    high: float
-    start: float
-    step: float = _STEP
-
-
-@dataclass(frozen=True)
 class ExplorerView:
     """The number of its text, its sliders, and for the script the tables of motions and the field (B2, B3).
 
@@ -54,25 +41,27 @@ class ExplorerView:
     field: tuple[float, float]
     tables: str = ""
 
+    @property
+    def described(self) -> str:
+        """The sliders for the script."""
+        return json.dumps([asdict(one) for one in self.sliders], ensure_ascii=False)
+
 
 def view(block: Explorer, composer: Composer) -> ExplorerView:
     """Take in the text; the ranges and starts of the sliders are those of the register."""
     text, (B2, B3) = composer.paragraphs(block.text), _parameter("elementary", "field").default
-    time = Slider("t", "t", "time", 0.0, _LAST, 0.0)
+    known = {one.name: one for one in sliders_of(FAMILIES[block.motion])}
+    ratio, time = replace(known["ratio"], name="I", symbol="I"), TIME
     if block.motion == "general":
-        high = _parameter("general", "omega").range[1]
-        says, step = "first component of the initial angular velocity", high / (_PUSHES - 1)
-        body = Slider("I", "I", RATIO, _BODIES[0], _BODIES[-1], 1.5, _BODIES[1] - _BODIES[0])
-        push = Slider("omega1", "ω₁", says, 0.0, high, 2.0 * step, step)
+        high = known["omega1"].high
+        step = high / (_PUSHES - 1)
+        body = replace(ratio, low=_BODIES[0], high=_BODIES[-1], step=_BODIES[1] - _BODIES[0], start=1.5)
+        push = replace(known["omega1"], low=0.0, step=step, start=2.0 * step, symbol="ω₁")
         return ExplorerView(text, block.motion, (body, push, time), (B2, B3), tables())
-    ratio, omega2 = _parameter("elementary", "ratio"), _parameter("elementary", "omega2")
-    angle = round(degrees(atan2(B3, B2)), 2)
-    chosen = (
-        Slider("I", "I", RATIO, *ratio.range, *ratio.default),
-        Slider("angle", "∠(e₂, B)", "angle of the field with e2, in degrees", *_OBLIQUE, angle),
-        Slider("omega2", "ω₂", "second component of the initial angular velocity", *omega2.range, *omega2.default),
-    )
-    return ExplorerView(text, block.motion, (*chosen, time), (B2, B3))
+    turned = "angle of the field with e2, in degrees"
+    angle = Slider("angle", turned, *_OBLIQUE, _STEP, round(degrees(atan2(B3, B2)), 2), "∠(e₂, B)")
+    chosen = ratio, angle, replace(known["omega2"], symbol="ω₂"), time
+    return ExplorerView(text, block.motion, chosen, (B2, B3))
 
 
 def tables() -> str:

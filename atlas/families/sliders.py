@@ -1,0 +1,40 @@
+"""Sliders for the numbers of a family: names, ends and starts are those of the register, for pages and the explorer."""
+
+from dataclasses import dataclass
+from math import log10
+
+from atlas.families.family import Family
+
+STEPS = 300
+"""About so many has a slider from end to end, each a power of ten."""
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A number to choose: its name, what it is, its ends, its step, where it starts, and its symbol if it has one."""
+
+    name: str
+    says: str
+    low: float
+    high: float
+    step: float
+    start: float
+    symbol: str = ""
+
+
+TIME = Slider("t", "time", 0.0, 60.0, 0.05, 0.0)
+
+
+def sliders_of(family: Family) -> list[Slider]:
+    """Return the sliders of all parameters that have a start in the register, and of the time, if it has any."""
+    found = [
+        Slider(name, p.says, *p.range, step_of(*p.range), start)
+        for p in family.parameters
+        for name, start in zip(p.names, p.default, strict=bool(p.default))
+    ]
+    return [*found, *([TIME] if any(one.name == "R" for one in family.sampled) else [])]
+
+
+def step_of(low: float, high: float) -> float:
+    """Return the step of a slider."""
+    return float(10.0 ** round(log10((high - low) / STEPS)))
