@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import cache
+from math import hypot, isfinite, pi
 from typing import Any
 
 import click
@@ -42,7 +43,7 @@ from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
-from atlas.families.family import TIME
+from atlas.families.family import RATE, TIME
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
@@ -378,8 +379,10 @@ def _printout(
     units = top_units(options) if family.name == "top" else units
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
+    lines += _in_hertz(shown, texts, options) if units else []
     rows = in_threes(texts.get("samples", []))
     heading = [name for s in family.sampled if s.printed and not s.uncertified for name in _heading(s, units)]
+    worth = worth.replace("printed", "printed, but of rounded lines,") if units else worth
     notes = [*dict.fromkeys(texts.get("missing", {}).values()), worth]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
@@ -394,6 +397,25 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
     for (symbol, words), part in zip(q.lines or [(q.symbol or q.name, says)], parts, strict=True):
         unit = "" if part is None else units.get(q.unit, q.unit)
         yield Line(symbol, words, "-" if part is None else q.text(part), unit, equation)
+
+
+def _in_hertz(shown: Sequence[Quantity], texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
+    """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits."""
+    rates = {q.name: float(texts[q.name]) for q in shown if q.unit == RATE and _is_number(texts[q.name])}
+    if options.get("magnetic") is not None and "direction" not in options:
+        larmor = hypot(*chosen_field(options))
+        yield Line("larmor", "Larmor frequency |B'|, rounded", f"{larmor:.6g}", "1/s", "(27)")
+        rates["larmor"] = larmor
+    for name, rate in rates.items():
+        yield Line(f"{name}/2 pi", "in turns a second, rounded", f"{rate / (2 * pi):.6g}", "Hz")
+
+
+def _is_number(text: Any) -> bool:
+    """Whether a text is one number."""
+    try:
+        return isinstance(text, str) and isfinite(float(text))
+    except ValueError:
+        return False
 
 
 def _heading(s: Sampled, units: dict[str, str]) -> list[str]:

@@ -1,5 +1,6 @@
 """``atlas page``: a page for one object in the user's own numbers, as one file to mail, and a PDF."""
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ def command_of(family: Family, name: str) -> click.Command:
         out_option("build/pages"),
         click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
         click.option("--title", help="Title of the page."),
+        click.option("--name", metavar="NAME", help="Name of its files, in the place of its options."),
         jobs_option,
     ]
 
@@ -107,7 +109,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
     from atlas.report.asked import Asked
 
-    context, own = click.get_current_context(), {"out", "digits", "title", "jobs"}
+    context, own = click.get_current_context(), {"out", "digits", "title", "name", "jobs"}
     typed = {
         one.opts[0].removeprefix("--"): _texts(options[one.name])
         for one in context.command.params
@@ -132,7 +134,9 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     if in_plane(family):
         records["field"] = _field(options)
     title, digits = options["title"] or "", options["digits"]
-    return Asked(family, typed, values, **records, digits=digits, title=title)
+    if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
+        raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
+    return Asked(family, typed, values, **records, digits=digits, title=title, called=called)
 
 
 def _texts(value: Any) -> tuple[str, ...]:

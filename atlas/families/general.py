@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.family import RATE, TIME, Command, Family, Quantity, Sampled
-from atlas.families.shared import FIELD, OMEGA, RATIO, integrals, rotation
+from atlas.families.shared import FIELD, OMEGA, RATIO, integrals, rates, rotation
 
 
 def _kernels() -> Any:
@@ -44,8 +44,11 @@ FAMILY = Family(
             text=lambda roots: ", ".join(_complex(*z) for z in roots) or "none",
         ),
         Quantity("period", "period of nutation", TIME, certified=True),
-        Quantity("precession_per_period", "turn about B in one period", missing="no period", certified=True),
-        Quantity("spin_per_period", "turn about the body's axis in one period", missing="no period", certified=True),
+        Quantity("precession_per_period", "turn about B in one period", "rad", missing="no period", certified=True),
+        Quantity(
+            "spin_per_period", "turn about the body's axis in one period", "rad", missing="no period", certified=True
+        ),
+        *rates("B"),
         Quantity("modulus", "of the elliptic functions", missing="triple root", certified=True),
         Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
         *integrals("M"),

@@ -50,6 +50,20 @@ def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
     )  # fmt: skip
 
 
+def rates(axis: str) -> tuple[Quantity, ...]:
+    """Return the mean rates of a motion that nutates."""
+    return tuple(
+        Quantity(
+            f"{name}_rate", says, RATE, exact=partial(_mean, f"{name}_per_period"), missing="no period", certified=True
+        )
+        for name, says in (("precession", f"mean, about {axis}"), ("spin", "mean, about the body's axis"))
+    )
+
+
+def _mean(name: str, made: Any) -> Any:
+    return getattr(made, name) / made.period
+
+
 def in_brackets(parts: Any) -> str:
     """Write a vector."""
     return f"({', '.join(parts)})"

@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
-from atlas.families.shared import OMEGA, rotation
+from atlas.families.shared import OMEGA, rates, rotation
 
 
 def _kernels() -> Any:
@@ -67,8 +67,11 @@ FAMILY = Family(
             certified=True,
         ),
         Quantity("period", "period of nutation", TIME, certified=True),
-        Quantity("precession_per_period", "turn about n in one period", missing="no period", certified=True),
-        Quantity("spin_per_period", "turn about the body's axis in one period", missing="no period", certified=True),
+        Quantity("precession_per_period", "turn about n in one period", "rad", missing="no period", certified=True),
+        Quantity(
+            "spin_per_period", "turn about the body's axis in one period", "rad", missing="no period", certified=True
+        ),
+        *rates("n"),
         Quantity(
             "steady_precessions", "rates of steady precession at this inclination and omega3", RATE,
             "theorem-top-precession", get=_rates, exact=_rates, text=_rates_text, tabled=False,

@@ -22,6 +22,7 @@ class Asked:
     options   the options that say which object it is, each with what was typed, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
     values    the other parameters of the family
+    called    the name of its files, if it has one of its own
     """
 
     family: Family
@@ -32,6 +33,7 @@ class Asked:
     time: str = "time"
     digits: int = 10
     title: str = ""
+    called: str = ""
 
     @property
     def words(self) -> list[str]:
@@ -43,11 +45,14 @@ class Asked:
     def command(self) -> str:
         """The command that makes the page."""
         digits = ["--digits", str(self.digits)] if self.digits != 10 else []
-        return shlex.join(["atlas", "page", *self.words, *digits])
+        own = ["--name", self.called] if self.called else []
+        return shlex.join(["atlas", "page", *self.words, *digits, *own])
 
     @property
     def name(self) -> str:
         """The name of its files, made of what was typed."""
+        if self.called:
+            return self.called
         name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in self.words)
         return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:8]}"
 
@@ -58,7 +63,9 @@ class Asked:
             name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
         }
         first = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
-        return replace(self, family=FAMILIES[family], options=kept | new if "ratio" in kept else first | kept | new)
+        return replace(
+            self, called="", family=FAMILIES[family], options=kept | new if "ratio" in kept else first | kept | new
+        )
 
 
 def _texts(value: Any) -> tuple[str, ...]:

@@ -85,6 +85,7 @@ CASES = [
     ("motion --points {place}/plain.csv --field 0 1 2 --omega 1 2 3 --digits 5 --decimal", "not with --points"),
     ("general --ratio 1.5", "part of atlas motion, with --omega W1 W2 W3"),
     ("page general --ratio 1.5", "is atlas page motion"),
+    ("page --ratio 1.5 --field 1 2 --name a/b", "a name has letters, digits and"),
     ("motion --ratio 1.5 --field 1 2", "the start is one of --omega2"),
     ("motion --ratio 1.5 --field 1 2 --omega 1 2 3 --spin 1", "the start is one of --omega W1 W2 W3 and --spin W3"),
     ("motion --tensor 1 1 1 0 0 0 --ratio 1 --field 0 0 1 --spin 1", "found --ratio and --tensor"),

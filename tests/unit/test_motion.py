@@ -185,3 +185,20 @@ def test_what_is_no_motion_is_refused(given: Any, says: str) -> None:
     """In one line that says what would be right."""
     with pytest.raises(atlas.AtlasError, match=says):
         atlas.motion(*given)
+
+
+@pytest.mark.parametrize("field", [(1.0, 2.0), (-0.4, 0.3)])
+def test_mean_rates_are_what_the_axis_and_the_body_turn_by(field: tuple[float, float]) -> None:
+    """Over 50 periods the azimuth of the axis about B grows by the rate; without nutation they are k and phi."""
+    m = atlas.GeneralMotion(1.5, field, (0.3, 0.7, 0.2))
+    t = np.linspace(0, 50 * m.period, 20001)
+    n = np.array([0.0, *field]) / np.hypot(*field)
+    x, y = m.third_axis(t) @ [1.0, 0.0, 0.0], m.third_axis(t) @ np.cross(n, [1.0, 0.0, 0.0])
+    turned = np.unwrap(np.arctan2(y, x))
+    assert abs((turned[-1] - turned[0]) / t[-1] - m.precession_rate) <= 1e-9
+    one = atlas.ElementaryMotion(1.5, field, 0.7)
+    same = atlas.GeneralMotion(1.5, field, (0.0, 0.7, one.omega3))
+    assert abs(same.precession_rate - one.precession_rate) <= 16 * EPS * abs(one.k)
+    assert abs(same.spin_rate - one.spin_rate) <= 16 * EPS * max(abs(one.k), abs(one.phi))
+    ball = atlas.BallMotion(1.0, 0.5, (0.3, -0.7))
+    assert (ball.precession_rate, ball.spin_rate) == (-0.5, -ball.gamma)

@@ -58,6 +58,16 @@ class BallMotion(DoubleTurn[Ball]):
         """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
         return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._frequencies)
 
+    @property
+    def precession_rate(self) -> Any:
+        """Rate of the turn about the field, -alpha, (28)."""
+        return plain(-np.asarray(self.larmor))
+
+    @property
+    def spin_rate(self) -> Any:
+        """Rate of the turn about the axis k_hat in the body, -gamma, (28)."""
+        return plain(-np.asarray(self.gamma))
+
     @kept
     def k_hat(self) -> tuple[Any, Any]:
         """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""

@@ -119,6 +119,16 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return self._scalars[2]
 
     @property
+    def precession_rate(self) -> Any:
+        """Rate of precession about the field, of a free body about m, k."""
+        return self.k
+
+    @property
+    def spin_rate(self) -> Any:
+        """Rate at which the body turns about its own axis, phi."""
+        return self.phi
+
+    @property
     def period(self) -> Any:
         """Time 2 pi/|k| of one precession, after which the axis is back; inf without one. See `Hyperbola.closed`."""
         return turn_time(self.k)
@@ -257,6 +267,16 @@ class FreeMotion(DoubleTurn[Free]):
     def phi(self) -> Any:
         """Frequency of proper rotation phi = (1 - I) omega3, (87)."""
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._frequencies)
+
+    @property
+    def precession_rate(self) -> Any:
+        """Rate of precession about m, k."""
+        return self.k
+
+    @property
+    def spin_rate(self) -> Any:
+        """Rate at which the body turns about its own axis, phi."""
+        return self.phi
 
     @property
     def period(self) -> Any:

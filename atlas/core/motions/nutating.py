@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, finite, kept
+from atlas.core.inputs import FloatArray, finite, kept, plain
 from atlas.core.motions.motion import Motion
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
@@ -40,7 +40,7 @@ class NutatingMotion(Motion[Nutation]):
 
     @kept
     def precession_per_period(self) -> Any:
-        """Angle of precession about the field in one period; a passage through a pole counts as half a turn less.
+        """Angle of precession about the field in one period, radians; a passage through a pole counts half a turn less.
 
         It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b;
         for a top n stands for the field, and k2/I2 for b.
@@ -50,11 +50,21 @@ class NutatingMotion(Motion[Nutation]):
 
     @kept
     def spin_per_period(self) -> Any:
-        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt.
+        """Angle by which the body turns about its own axis in one period, radians: the integral of Omega3 - nu dpsi/dt.
 
         Where the period is infinite there is none, as for `precession_per_period`.
         """
         return self._scalar("spin_per_period")
+
+    @property
+    def precession_rate(self) -> Any:
+        """Mean rate of precession about the field, `precession_per_period` over `period`; none where that has none."""
+        return plain(np.divide(self.precession_per_period, self.period))
+
+    @property
+    def spin_rate(self) -> Any:
+        """Mean rate at which the body turns about its own axis, `spin_per_period` over `period`."""
+        return plain(np.divide(self.spin_per_period, self.period))
 
     @kept
     def modulus(self) -> Any:
