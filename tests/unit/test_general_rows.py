@@ -14,6 +14,7 @@ from stress.regimes import GENERAL
 from stress.run import PROMISES
 from ulps import ONE, absolute, error
 
+import atlas
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.motions import general
 from atlas.core.motions.general import GeneralMotion
@@ -296,3 +297,21 @@ def test_a_motion_does_not_depend_on_those_beside_it() -> None:
     for rows in (*np.array_split(order, 5), order[:1], np.arange(300)):
         for all_rows, some in zip(whole, motions(inputs, t, rows), strict=True):
             assert np.array_equal(some, all_rows[rows])
+
+
+def test_a_body_in_a_field_is_a_top_bit_for_bit() -> None:
+    """M = II (Omega + K) is the coupling k = |B'| II: where |B'| is a double, so are matrix and scalars the same."""
+    rng = np.random.default_rng(5)
+    sides = np.array([(3, 4, 5), (5, 12, 13), (8, 15, 17), (7, 24, 25), (20, 21, 29)])[rng.integers(0, 5, 500)].T
+    B2, B3, b = sides * 2.0 ** rng.integers(-8, 8, 500) * rng.choice([-1, 1], (3, 500))
+    b, I = abs(b), rng.integers(20, 250, 500) / 128
+    omega = tuple(rng.uniform(-1, 1, (3, 500)) * b * 2.0 ** rng.integers(-6, 6, 500))
+    body = GeneralMotion(I, (B2, B3), omega)
+    top = atlas.TopMotion((np.ones(500), I), (b, I * b), (B2, B3), omega)
+    for name in ("period", "modulus", "nome", "precession_per_period", "spin_per_period"):
+        np.testing.assert_array_equal(getattr(body, name), getattr(top, name))
+    np.testing.assert_array_equal(body.rotation(3.7 / b), top.rotation(3.7 / b))
+    for i in range(3):
+        one = GeneralMotion(I[i], (B2[i], B3[i]), [w[i] for w in omega])
+        other = atlas.TopMotion((1.0, I[i]), (b[i], I[i] * b[i]), (B2[i], B3[i]), [w[i] for w in omega])
+        np.testing.assert_array_equal(one.rotation([1.3, 1e9]), other.rotation([1.3, 1e9]))

@@ -61,7 +61,7 @@ def test_the_further_turn_of_a_top_is_that_of_balls() -> None:
             forms.add((swing.form, swing.sign))
             ends = (half, exact.depth / rate if swing.form == "hyperbolic" and swing.sign > 0 else half / 3)
             for s in (end * k / 7 for end in ends for k in (-7, -5, 1, 2, 4, 6, 8) if abs(end * k / 7) <= half):
-                x, true = rate * s, exact.kappa * exact.bent(s) / 2
+                x, true = rate * s, exact.kappa * exact.oscillation(s) / 2
                 if swing.form == "trigonometric":
                     parts = (2 * x).cos(), (2 * x).sin()
                     found = swing.of_circle(*(np.asarray(swing._number(part)) for part in parts))

@@ -1,6 +1,5 @@
 """The general motion of a charged symmetric body, from any initial angular velocity (not in the paper)."""
 
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -10,16 +9,13 @@ from atlas.core.arithmetic.double_double import over
 from atlas.core.bodies.body import SymmetricBody, kept_ratio, moments
 from atlas.core.inputs import FloatArray, components, finite, kept, plain, real, vector
 from atlas.core.motions.integrals import integrals, shape_factors
-from atlas.core.motions.nutating import NutatingMotion, ends_of, padded
-from atlas.core.nutation.blocks import Blocks
+from atlas.core.motions.nutating import SymmetricMotion
 from atlas.core.nutation.constants import FIRST
-from atlas.core.nutation.rows import GeneralRows
-from atlas.core.nutation.scalars import IN_ARRAYS, KINDS, Scalars
-from atlas.core.nutation.single import BITS, SingleGeneral
+from atlas.core.nutation.scalars import IN_ARRAYS, KINDS
+from atlas.core.nutation.single import SingleGeneral
 from atlas.core.quantities import RATE
 from atlas.errors import DomainError
 from atlas.exact.bodies.body import ratio_of
-from atlas.exact.digits import enclosed
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.integrals import NAMES, constants
@@ -42,7 +38,7 @@ def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
         return Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega)
 
 
-class GeneralMotion(NutatingMotion[SingleGeneral]):
+class GeneralMotion(SymmetricMotion[SingleGeneral]):
     """Motion R(t), R(0) = 1, of a charged symmetric body from any initial angular velocity (not in the paper).
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in (32); `omega` =
@@ -110,35 +106,6 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
             "ratio": motion.ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
         }  # fmt: skip
         return motion
-
-    @kept
-    def roots(self) -> Any:
-        """Roots of Q in Omega3, complex, shape (..., 4): the real ones ascending, then the complex pair.
-
-        Those that have gone to infinity (two for I = 1, all for B = 0) are inf.
-        """
-        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
-
-    @kept
-    def turning_points(self) -> tuple[Any, Any]:
-        """Least and largest Omega3; one of them is approached and never reached on a separatrix."""
-        ends = self._each("turning_points", ends_of)
-        return ends[..., 0] if self.shape else ends[0], ends[..., 1] if self.shape else ends[1]
-
-    @cached_property
-    def _blocks(self) -> Blocks:
-        """All motions in arrays, by blocks."""
-        return Blocks(self._inputs, self.shape)
-
-    @cached_property
-    def _scalars(self) -> Scalars:
-        """Scalars of all motions in arrays."""
-        return Scalars(self._blocks)
-
-    @cached_property
-    def _rows(self) -> GeneralRows:
-        """All motions in arrays, for a few times each."""
-        return GeneralRows(self._blocks)
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3).

@@ -1,12 +1,16 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
 from collections.abc import Callable, Container, Sequence
+from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
 
 from atlas.core.inputs import FloatArray, finite, kept, plain
 from atlas.core.motions.motion import Motion
+from atlas.core.nutation.blocks import Blocks
+from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.scalars import Scalars
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
@@ -126,6 +130,42 @@ class NutatingMotion(Motion[Nutation]):
         from atlas.core.nutation.grid import fill_grid
 
         fill_grid(one, start, step, out)
+
+
+class SymmetricMotion(NutatingMotion[Nutation]):
+    """Motions of bodies with I1 = I2, in arrays too: by blocks, from which scalars and rows are made."""
+
+    _blocks_of: type[Blocks] = Blocks
+    _rows_of: type[GeneralRows] = GeneralRows
+
+    @cached_property
+    def _blocks(self) -> Blocks:
+        """All motions in arrays, by blocks."""
+        return self._blocks_of(self._inputs, self.shape)
+
+    @cached_property
+    def _scalars(self) -> Scalars:
+        """Scalars of all motions in arrays."""
+        return Scalars(self._blocks)
+
+    @cached_property
+    def _rows(self) -> GeneralRows:
+        """All motions in arrays, for a few times each."""
+        return self._rows_of(self._blocks)
+
+    @kept
+    def roots(self) -> Any:
+        """Roots of Q in Omega3, of tops in nu, complex, shape (..., 4): the real ones ascending, then the others.
+
+        Those that have gone to infinity (two for I = 1, all for B = 0) are inf, and come last.
+        """
+        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
+
+    @kept
+    def turning_points(self) -> tuple[Any, Any]:
+        """Least and largest Omega3, of tops nu = cos theta; on a separatrix one is approached and never reached."""
+        ends = self._each("turning_points", ends_of)
+        return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
 
 
 def ends_of(exact: Any) -> list[float]:

@@ -1,6 +1,5 @@
 """Motions of a symmetric top in a uniform field, from any start (not in the paper)."""
 
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -13,11 +12,11 @@ from atlas.core.bodies.laboratory import anisotropy
 from atlas.core.bodies.symmetric_top import along, inputs_of_top, moments_of_one
 from atlas.core.bodies.units import system
 from atlas.core.inputs import FloatArray, components, finite, kept, number, plain, positive
-from atlas.core.motions.nutating import NutatingMotion, ends_of, padded
+from atlas.core.motions.nutating import SymmetricMotion
 from atlas.core.nutation.blocks import TopBlocks
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.rows import TopRows
-from atlas.core.nutation.scalars import IN_ARRAYS, TOP_KINDS, Scalars
+from atlas.core.nutation.scalars import IN_ARRAYS, TOP_KINDS
 from atlas.core.nutation.single import BITS, SingleTop
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
 from atlas.core.surfaces.quadric import TopQuadric
@@ -50,7 +49,7 @@ def _rounded(x: fmpq) -> float:
         raise DomainError("A moment or the weight of this top is too large for a float: choose other units.") from error
 
 
-class TopMotion(NutatingMotion[SingleTop]):
+class TopMotion(SymmetricMotion[SingleTop]):
     """Motion R(t), R(0) = 1, of a symmetric top in a uniform field, from any start (not in the paper).
 
     `inertia` (I2, I3) across and along the axis; `coupling` (k2, k3), so that M = I Omega + k b, in the unit of inertia
@@ -84,6 +83,7 @@ class TopMotion(NutatingMotion[SingleTop]):
 
     family = "top"
     _in_arrays, _kinds = IN_ARRAYS, TOP_KINDS
+    _blocks_of, _rows_of = TopBlocks, TopRows
 
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
@@ -166,32 +166,6 @@ class TopMotion(NutatingMotion[SingleTop]):
             a3 = a3 + anisotropy(susceptibility, volume, demagnetization, c != 1)
         quadratic = -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
-
-    @cached_property
-    def _blocks(self) -> TopBlocks:
-        """All tops by blocks."""
-        return TopBlocks(self._inputs, self.shape)
-
-    @cached_property
-    def _rows(self) -> TopRows:
-        """All tops in arrays, for a few times each."""
-        return TopRows(self._blocks)
-
-    @cached_property
-    def _scalars(self) -> Scalars:
-        """Scalars of all tops in arrays."""
-        return Scalars(self._blocks)
-
-    @kept
-    def roots(self) -> Any:
-        """Roots in nu of (dnu/dt)^2, complex, shape (..., 4): the real ones ascending, the others, and inf."""
-        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
-
-    @kept
-    def turning_points(self) -> tuple[Any, Any]:
-        """Least and largest nu = cos theta; one of them is approached and never reached on a separatrix."""
-        ends = self._each("turning_points", ends_of)
-        return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
 
     @kept
     def stable(self) -> Any:
