@@ -25,7 +25,7 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     What you put into the folder stays. Beside a file that you edited the new one is written, as paper.new.tex, and
     then the exit status is 2.
     """
-    from atlas.build.tex import build_tex
+    from atlas.build.composed import build_tex
 
     with bar(f"{Path(name).stem} as LaTeX", every=10) as tell:
         place = build_tex(name, out, tell, jobs=jobs)

@@ -13,9 +13,8 @@ from typing import Any, NamedTuple
 
 from atlas.errors import AtlasError
 from atlas.report import pandoc
-from atlas.report.leading import kept
 from atlas.report.mathml import mend_all
-from atlas.report.pandoc import FormulaError, Target, Tree
+from atlas.report.pandoc import FormulaError, Target, Tree, kept
 
 _CITED = re.compile(
     r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\(\d+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL

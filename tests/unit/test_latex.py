@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from pypdf import PdfReader
 
-from atlas.build.tex import build_tex
+from atlas.build.composed import build_tex
 from atlas.exact.digits import certified
 from atlas.exact.motions.elementary import ElementaryMotion as Balls
 from atlas.report.blocks.table import Cell, ColumnView, TableView

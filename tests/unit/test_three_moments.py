@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from atlas.build.tex import build_tex
+from atlas.build.composed import build_tex
 from atlas.exact.digits import certified
 from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.clebsch_periods import real_periods
