@@ -12,12 +12,19 @@ NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 """What an elementary motion conserves, in this order."""
 
 
-def integrals(I: Number, Omega: Vector, K: Vector) -> tuple[Number, Number, Number, Number]:
-    """Return E', (36), K^2, (37), c3, (40), and c5, (41)."""
-    (w1, w2, w3), (K1, K2, K3) = Omega, K
-    c3 = w3 + K3
-    spin = c3 * w3
-    return w1 * w1 + w2 * w2 + I * w3 * w3, dot(K, K), c3, w1 * K1 + w2 * K2 - w3 * w3 + spin + spin - I * spin
+def integrals(
+    I: Number, Omega: Vector, K: Vector, factors: tuple[Number, Number] | None = None
+) -> tuple[Number, Number, Number, Number]:
+    """Return E', (36), K^2, (37), c3, (40), and c5, (41); `factors` are 1 - I and 2 - I where they have lost no digit.
+
+    c5 is written as Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is gone and I = 1 exact.
+
+        >>> integrals(1, (0, 2, 3), (0, 5, 7))
+        (13, 74, 10, 31)
+    """
+    (w1, w2, w3), (K1, K2, K3), (less, further) = Omega, K, factors or (1 - I, 2 - I)
+    c5 = w1 * K1 + w2 * K2 + w3 * (less * w3 + further * K3)
+    return w1 * w1 + w2 * w2 + I * w3 * w3, dot(K, K), w3 + K3, c5
 
 
 def along_field(I: Number, Omega: Vector, K: Vector) -> Number:
@@ -29,7 +36,8 @@ def along_field(I: Number, Omega: Vector, K: Vector) -> Number:
 def constants(I2: Number, I3: Number, *state: Number) -> tuple[Number, ...]:
     """Return E', K^2, c3, c5 and (M, B')/I2 of a state, the components of Omega and of K."""
     I, Omega, K = I3 / I2, state[:3], state[3:]
-    return *integrals(I, Omega, K), along_field(I, [w + k for w, k in zip(Omega, K, strict=True)], K)
+    factors = (I2 - I3) / I2, (I2 + I2 - I3) / I2
+    return *integrals(I, Omega, K, factors), along_field(I, [w + k for w, k in zip(Omega, K, strict=True)], K)
 
 
 def clebsch(*given: Number) -> tuple[Number, ...]:

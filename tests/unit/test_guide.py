@@ -4,6 +4,7 @@ import doctest
 import re
 import shlex
 import tomllib
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -92,6 +93,18 @@ def test_examples_in_docstrings_give_what_they_show() -> None:
     for example in examples.values():
         doctest.DocTestRunner(optionflags=FLAGS, verbose=False).run(example, out=failures.append)
     assert not failures, "".join(failures)
+
+
+def test_examples_in_the_kernels_give_what_they_show() -> None:
+    """So do those of formulas, of balls and of doubles."""
+    homes = (Path(atlas.__file__).parent / floor for floor in ("formulas", "exact", "core"))
+    files = [path for home in homes for path in home.rglob("*.py") if ">>>" in path.read_text("utf-8")]
+    names = (
+        ".".join(("atlas", *path.relative_to(Path(atlas.__file__).parent).with_suffix("").parts)) for path in files
+    )
+    results = [doctest.testmod(import_module(name), extraglobs={"atlas": atlas}, optionflags=FLAGS) for name in names]
+    assert not any(result.failed for result in results)
+    assert sum(result.attempted for result in results) > 9
 
 
 def test_a_docstring_is_shown_as_it_is_written() -> None:

@@ -63,6 +63,13 @@ class Phases:
     (2, 1, n, 1) are those of P0. `radians` (2, n, 1) are half the frequency in radians: a head of 26 digits and the
     rest; `head` is that of P0 + P1, and `table` sums `halves_of`. `rounder` (n, 1) rounds to the half turns that are
     left out: EVEN ones for whole turns.
+
+        >>> t, cos, sin = np.array([1e15]), np.empty((1, 1)), np.empty((1, 1))
+        >>> with workprec():
+        ...     turns = [1 / TURN]
+        >>> Phases(turns).circle(t, room(1, 1), cos, sin, np.empty(1))
+        >>> 2 * float(cos[0, 0])  # that of 1e15
+        -0.51319373778697...
     """
 
     def __init__(

@@ -32,21 +32,15 @@ class Integrals:
 def integrals(ratio: Any, Omega: Any, K: Any) -> Integrals:
     """Return the integrals E', K^2, c3 and c5 of a state, (36), (37), (40), (41).
 
-    `Omega`, `K` (..., 3), both in the body and in 1/time; at t = 0, K = (0, B2, B3). c5 is written as
-    Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is gone and I = 1 exact.
+    `Omega`, `K` (..., 3), both in the body and in 1/time; at t = 0, K = (0, B2, B3).
     Raises DomainError where a term is too large for a float.
     """
     I, one_less, two_less = shape_factors(ratio)
     Omega, K = vectors(Omega, "Omega"), vectors(K, "K")
     common_shape(np.shape(I), Omega.shape[:-1], K.shape[:-1])
-    (u1, u2, u3), (k1, k2, k3) = np.moveaxis(Omega, -1, 0), np.moveaxis(K, -1, 0)
+    state = np.moveaxis(Omega, -1, 0), np.moveaxis(K, -1, 0)
     with np.errstate(over="ignore", invalid="ignore"):
-        values = (
-            u1 * u1 + u2 * u2 + I * u3 * u3,
-            k1 * k1 + k2 * k2 + k3 * k3,
-            k3 + u3,
-            u1 * k1 + u2 * k2 + u3 * (one_less * u3 + two_less * k3),
-        )
+        values = formulas.integrals(I, *state, (one_less, two_less))
     if not all(np.isfinite(value).all() for value in values):
         raise DomainError("Omega and K are too large: their squares are beyond the largest float; choose larger units.")
     return Integrals(*map(plain, values))

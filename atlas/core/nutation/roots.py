@@ -168,6 +168,12 @@ def roots_of(
 
     where what stands in the field at rest does not cancel. A = 0 leaves a cubic, whose fourth root is not asked for
     anywhere. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K).
+
+        >>> I2, I3, B2, B3, *omega = (DoubleDouble(np.array([x])) for x in (1.0, 1.5, 1.0, 2.0, 0.3, 0.7, 0.2))
+        >>> found = roots_of(I2, I3, (B2, B3), omega)
+        >>> [0.2 + float(x.hi[0]) for x in (found.low, found.high)] == list(
+        ...     atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).turning_points)
+        True
     """
     I, less = I3 / I2, (I2 - I3) / I2
     (n2, n3), (w1, w2, w3), (across, along) = n, omega, couplings
