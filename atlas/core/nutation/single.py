@@ -42,7 +42,8 @@ class SingleMotion:
     @cached_property
     def parts(self) -> CayleyKlein:
         """Constants of the pair. Raises DomainError where floats do not hold it."""
-        parts = CayleyKlein(lambda: self.exact.solution)
+        exact = self.exact  # not of self, which holds the parts: memory would wait for the collector of garbage
+        parts = CayleyKlein(lambda: exact.solution)
         if parts.lost:
             raise DomainError(
                 "The body's axis passes the line of the field at an angle too small for a float: give a larger "
