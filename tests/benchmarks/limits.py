@@ -1,7 +1,6 @@
 """Is it as fast as it should be? The limits of speed, as ratios within one run, against what a record holds."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from msgspec.structs import replace
 
@@ -21,65 +20,55 @@ LIMITS = (
 """Nanoseconds that a row of many may take, by quantity and method."""
 
 
-@dataclass(frozen=True)
-class Measured:
-    """What the limits are held against."""
-
-    machine: Machine
-    setups: list[Setup]
-    costs: list[Cost]
-    rows: list[Rows]
-
-
-def targets(record: Measured) -> list[Limit]:
-    """Return every limit with its verdict; what the record does not hold is not measured.
+def targets(machine: Machine, setups: list[Setup], costs: list[Cost], rows: list[Rows]) -> list[Limit]:
+    """Return every limit with its verdict; what is not there is not measured.
 
     Speed is worth nothing where a value is wrong: then no limit is met.
     """
-    every = [*_speed(record), *_never_slower(record), *_latency(record)] if record.costs else []
-    every += _many(record)
-    wrong = any((cost.error or 0.0) > LIMIT for cost in record.costs if cost.method in OURS)
+    every = [*_speed(machine, costs), *_never_slower(costs), *_latency(setups, costs)] if costs else []
+    every += _many(rows)
+    wrong = any((cost.error or 0.0) > LIMIT for cost in costs if cost.method in OURS)
     return [replace(item, verdict="wrong values") if wrong and item.found is not None else item for item in every]
 
 
-def _speed(record: Measured) -> Iterator[Limit]:
+def _speed(machine: Machine, costs: list[Cost]) -> Iterator[Limit]:
     count = 1_000_000
-    yield _below("uniform grid of 1e6, over filling the memory", _ratio(record, "grid_out", count, "to_fill"), 2.2)
-    yield _below("uniform grid of 1e4, a matrix (ns)", _ratio(record, "grid_out", 10_000, "nanoseconds"), 20.0)
-    wide = record.machine.avx512
+    yield _below("uniform grid of 1e6, over filling the memory", _ratio(costs, "grid_out", count, "to_fill"), 2.2)
+    yield _below("uniform grid of 1e4, a matrix (ns)", _ratio(costs, "grid_out", 10_000, "nanoseconds"), 20.0)
+    wide = machine.avx512
     for says, method, factor in (
         ("1e6 arbitrary times, plain formula over ours", "ours_out_far", 3.0 if wide else 2.0),
         ("1e6 times below 1e8, plain formula over ours", "ours_out", 4.0 if wide else 2.0),
     ):
-        slower = _ratio(record, method, count, "to_plain")
+        slower = _ratio(costs, method, count, "to_plain")
         yield _above(says, 1 / slower if slower else None, factor)
 
 
-def _never_slower(record: Measured) -> Iterator[Limit]:
+def _never_slower(costs: list[Cost]) -> Iterator[Limit]:
     """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below; a grid over its times."""
     for least, most, limit in ((1_000, 10**9, 1.0), (1, 999, 1.5)):
         found = [
             cost.to_plain
-            for cost in record.costs
+            for cost in costs
             if cost.method in {"ours_out", "ours_out_far"} and least <= cost.count <= most and cost.threads == 1
         ]
         measured = [ratio for ratio in found if ratio is not None]
         where = f"from N = {least} up" if limit == 1.0 else "below N = 1000"
         yield _below(f"ours over the plain formula, {where}, at worst", max(measured, default=None), limit)
-    grids = [cost.to_times for cost in record.costs if cost.to_times is not None]
+    grids = [cost.to_times for cost in costs if cost.to_times is not None]
     yield _below("uniform grid over the same times one by one, at worst", max(grids, default=None), 1.0)
 
 
-def _latency(record: Measured) -> Iterator[Limit]:
-    single = _ratio(record, "ours", 1, "nanoseconds")
+def _latency(setups: list[Setup], costs: list[Cost]) -> Iterator[Limit]:
+    single = _ratio(costs, "ours", 1, "nanoseconds")
     yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
-    made = [item.again for item in record.setups if item.case == "elementary" and item.method == "ours" and item.again]
+    made = [item.again for item in setups if item.case == "elementary" and item.method == "ours" and item.again]
     yield _below("a motion made (ms)", made[0] * 1e3 if made else None, 1.0)
 
 
-def _many(record: Measured) -> Iterator[Limit]:
+def _many(rows: list[Rows]) -> Iterator[Limit]:
     """Measure a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
-    found = {(row.quantity, row.method): row.nanoseconds for row in record.rows}
+    found = {(row.quantity, row.method): row.nanoseconds for row in rows}
     for quantity, method, limit in LIMITS:
         if (quantity, method) in found:
             yield _below(f"{quantity} (ns)", found.get((quantity, method)), limit)
@@ -89,10 +78,10 @@ def _many(record: Measured) -> Iterator[Limit]:
             yield _above(f"{quantity}, heyoka's dense output over ours", theirs and theirs / ours, factor)
 
 
-def _ratio(record: Measured, method: str, count: int, field: str) -> float | None:
+def _ratio(costs: list[Cost], method: str, count: int, field: str) -> float | None:
     """Return a number of one row on one thread, if it was measured."""
-    rows = (cost for cost in record.costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
-    return next((getattr(cost, field) for cost in rows), None)
+    found = (cost for cost in costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
+    return next((getattr(cost, field) for cost in found), None)
 
 
 def _below(says: str, found: float | None, limit: float) -> Limit:

@@ -46,14 +46,6 @@ class Rows(Item, frozen=True):
     to_plain: float
 
 
-class ReferenceCheck(Item, frozen=True):
-    """The reference on trial: its largest distance from a Taylor integration in ball arithmetic up to ``until``."""
-
-    case: str
-    until: float
-    distance: float
-
-
 def machine() -> Machine:
     """Describe this machine without its name."""
     import numpy as np

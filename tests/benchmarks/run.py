@@ -1,25 +1,23 @@
 """The whole benchmark in one call: error against time, set-up, cost against the count and the memory limit."""
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias, TypeVar
+from typing import Any
 
 from msgspec.structs import replace
 
 from atlas import files
-from atlas.cli.progress import bar
 from atlas.errors import AtlasError
 from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, measured, stored
 from benchmarks import arrays, asymmetric, ball, dense, elementary, general, heavy, particle
-from benchmarks.case import Case
 from benchmarks.cost import costs
-from benchmarks.integrators import Integrator, integrators
-from benchmarks.limits import Measured, targets
+from benchmarks.integrators import integrators
+from benchmarks.limits import targets
 from benchmarks.oracle import check
 from benchmarks.precision import Bench, Plan, closed, stepping
-from benchmarks.results import ReferenceCheck, Rows, Setup, machine, today, versions, write
+from benchmarks.results import Rows, Setup, machine, today, versions, write
 
 NEAR = 1e-35
 """How near the reference must be to an integration of the equations of motion."""
@@ -35,11 +33,6 @@ CASES = {
     "heavy": heavy.case,
     "asymmetric": asymmetric.case,
 }
-
-Row = TypeVar("Row", ReferenceCheck, Run, Setup, Cost, Rows)
-
-Progress: TypeAlias = Callable[[int, int, str], None]
-"""Called with the number of steps done, of all steps, and what comes next."""
 
 
 @dataclass(frozen=True)
@@ -82,58 +75,53 @@ QUICK = Scope(
 )
 
 
-def run(
-    cases: Sequence[str | Case] | None = None,
-    quick: bool = False,
-    progress: Progress | None = None,
-    *,
-    command: str = "make bench",
-    scope: Scope | None = None,
-    peers: Sequence[Integrator] | None = None,
-) -> Results:
-    """Run the benchmark and return its record.
+def main() -> None:
+    """Measure, print what was measured, and keep the record."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.run", description=__doc__)
+    parser.add_argument("--case", action="append", choices=CASES, help="all when left out")
+    parser.add_argument("--quick", action="store_true", help="the short form, under half a minute")
+    parser.add_argument("--out", type=Path, default=stored(), help="keep the record here")
+    options = parser.parse_args()
+    files.check(options.out)
+    found = []
+    # where true values take long, only if it is asked for or there is time
+    names = options.case or [name for name in CASES if not options.quick or name != "asymmetric"]
+    for item in measure(names, QUICK if options.quick else FULL):
+        print(item, flush=True)  # noqa: T201  the record holds what is shown, the terminal the rest, and what failed
+        found.append(_short(item))
+    runs, prices, setups, rows = ([x for x in found if isinstance(x, kind)] for kind in (Run, Cost, Setup, Rows))
+    limits = targets(machine(), setups, prices, rows)
+    done = [cost for cost in prices if cost.status == "done"]
+    record = Results(FORMAT, "make bench", today(), machine(), versions(), shown(runs), done, limits)
+    for limit in limits:
+        print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
+    print(measured(record, record.versions))  # noqa: T201
+    write(record, options.out)
 
-    `cases` are names of `CASES` (all by default) or cases of one's own; the cost against the count is that of the
-    elementary motion and is measured when it is among them. `quick` covers less, in under 20 seconds,
-    and leaves out cases whose true values take long unless they are named. Raises
-    AtlasError for an unknown name.
+
+def measure(names: Sequence[str], scope: Scope) -> Iterator[Any]:
+    """Yield what is measured: of each case closed forms and integrators, the cost of matrices, and of many motions.
+
+    Raises AtlasError where a reference is none.
     """
-    chosen = [_case(item) for item in (CASES if cases is None else cases)]
-    if cases is None and quick:
-        chosen = [case for case in chosen if case.samples is None]
-    scope = scope or (QUICK if quick else FULL)
-    peers = integrators() if peers is None else peers
-    counts = scope.counts if any(case.name == "elementary" for case in chosen) else ()
-    wide = any(case.name == "general" for case in chosen)
-    total, done = len(chosen) * (len(peers) + 2) + len(counts) + bool(counts) + wide, 0
-
-    def say(what: str) -> None:
-        nonlocal done
-        if progress is not None:
-            progress(done, total, what)
-        done += 1
-
-    found = [*_cases(chosen, scope, peers, say), *_many(counts, wide, scope, say)]
-    if progress is not None:
-        progress(total, total, "done")
-
-    def of(kind: type[Row]) -> list[Row]:
-        return [_short(row) for row in found if isinstance(row, kind)]
-
-    costs_found, machine_here = of(Cost), machine()
-    for item in found:
-        if not isinstance(item, Run | Cost) or item.status != "done":
-            print(item)  # noqa: T201  the record holds what is shown, the terminal the rest, and what failed
-    return Results(
-        format=FORMAT,
-        command=command,
-        date=today(),
-        machine=machine_here,
-        versions=versions(),
-        runs=shown(of(Run)),
-        costs=[cost for cost in costs_found if cost.status == "done"],
-        limits=targets(Measured(machine_here, of(Setup), costs_found, of(Rows))),
-    )
+    for name in names:
+        case = CASES[name]()
+        distance = check(case, scope.check_until)
+        print(f"{case_title(name)}: the reference is within {distance:.0e} up to {scope.check_until:g}")  # noqa: T201
+        if not distance < NEAR:
+            raise AtlasError(f"The reference of {name} is {distance:.0e} from its equations: it is no reference.")
+        bench = Bench.of(case, scope.plan)
+        yield from closed(bench)
+        for peer in integrators():
+            yield from stepping(bench, peer)
+    if "elementary" in names:
+        prices = list[Cost]()
+        for count in scope.counts:
+            prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
+        yield from prices
+        yield from arrays.rows(scope.rows, scope.rounds(scope.rows))
+    if "general" in names:
+        yield from dense.rows(scope.rows, scope.rounds(scope.rows))
 
 
 def shown(runs: Sequence[Run]) -> list[Run]:
@@ -151,69 +139,10 @@ def shown(runs: Sequence[Run]) -> list[Run]:
     ]
 
 
-def main() -> None:
-    """Measure and keep the record."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.run", description=__doc__)
-    parser.add_argument("--case", action="append", choices=CASES, help="all when left out")
-    parser.add_argument("--quick", action="store_true", help="the short form, under half a minute")
-    parser.add_argument("--out", type=Path, default=stored(), help="keep the record here")
-    options = parser.parse_args()
-    files.check(options.out)
-    with bar("bench") as tell:
-        found = run(options.case, options.quick, tell, command="make bench")
-    for limit in found.limits:
-        print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
-    for each in found.runs:
-        print(f"{each.case} to {each.horizon:g} by {each.method}: {each.error:.2g}, {each.seconds:.2g} s")  # noqa: T201
-    print(measured(found, found.versions))  # noqa: T201
-    write(found, options.out)
-
-
-def _cases(
-    cases: Sequence[Case], scope: Scope, peers: Sequence[Integrator], say: Callable[[str], None]
-) -> Iterator[ReferenceCheck | Setup | Run]:
-    """Yield what is measured of each case: the reference, closed forms, integrators."""
-    for case in cases:
-        say(f"{case_title(case.name)}: the reference")
-        distance = check(case, scope.check_until)
-        if not distance < NEAR:
-            raise AtlasError(f"The reference of {case.name} is {distance:.0e} from its equations: it is no reference.")
-        yield ReferenceCheck(case.name, scope.check_until, distance)
-        bench = Bench.of(case, scope.plan)
-        say(f"{case_title(case.name)}: closed forms")
-        yield from closed(bench)
-        for peer in peers:
-            say(f"{case_title(case.name)}: {peer.name}")
-            yield from stepping(bench, peer)
-
-
-def _many(counts: Sequence[int], general: bool, scope: Scope, say: Callable[[str], None]) -> Iterator[Cost | Rows]:
-    """Yield the cost against the count of matrices, and that of many motions."""
-    prices = list[Cost]()
-    for count in counts:
-        say(f"the cost of {count} matrices")
-        prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
-    yield from prices
-    if counts:
-        say(f"{scope.rows} motions at once")
-        yield from arrays.rows(scope.rows, scope.rounds(scope.rows))
-    if general:
-        say(f"{scope.rows} matrices of the general motion")
-        yield from dense.rows(scope.rows, scope.rounds(scope.rows))
-
-
-def _case(item: str | Case) -> Case:
-    if isinstance(item, Case):
-        return item
-    if item not in CASES:
-        raise AtlasError(f"There is no benchmark case {item!r}; the cases are {', '.join(CASES)}.")
-    return CASES[item]()
-
-
-def _short(item: Row) -> Row:
+def _short(item: Any) -> Any:
     """Round what was measured to four digits: more would say nothing."""
-    measured = ((name, getattr(item, name)) for name in item.__struct_fields__)
-    return replace(item, **{name: float(f"{value:.4g}") for name, value in measured if isinstance(value, float)})
+    numbers = ((name, getattr(item, name)) for name in item.__struct_fields__)
+    return replace(item, **{name: float(f"{value:.4g}") for name, value in numbers if isinstance(value, float)})
 
 
 if __name__ == "__main__":
