@@ -118,15 +118,32 @@ def test_a_damaged_part_is_made_again(
 
 def test_parts_under_wrong_names_are_not_taken(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     """A part named as if it held other rows or were of another sweep, rows twice, or between others: one of each."""
-    for wrong in ("000000000020-000000000040", "000000000030-000000000050", "000000000000-000000000154"):
+    for rows in ("000000000020-000000000040", "000000000030-000000000050", "000000000000-000000000154"):
         parts = stopped(tmp_path / "t.csv", monkeypatch)
-        first, second, *_ = sorted(parts.iterdir())
-        (parts / f"part-{wrong}-{first.name[31:]}").write_bytes(second.read_bytes())
+        first, second, _ = sorted(parts.iterdir())
+        second.unlink()
+        (parts / f"part-{rows}-{first.name[31:]}").write_bytes(first.read_bytes())
+        (parts / f"{first.name[:31]}{'0' * 16}{first.name[47:]}").write_bytes(first.read_bytes())
         made(monkeypatch)
         sweep(tmp_path / "t.csv")
         assert (tmp_path / "t.csv").read_bytes() == whole
         assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
         (tmp_path / "t.csv").unlink()
+
+
+def test_rows_that_are_in_two_parts_are_taken_once(
+    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A worker that nobody waited for may leave a part whose rows are in others: the table has each row once."""
+    parts = stopped(tmp_path / "t.csv", monkeypatch)
+    table = Table(tmp_path / "t.csv", next(parts.iterdir()).name.split("-")[3])
+    monkeypatch.setattr(Plan, "rows", ROWS)
+    with table.held():
+        for start, stop in ((0, 30), (10, 45), (130, 154)):
+            run.make(Plan.of("elementary", GRID, NAMES), start, stop, table)
+    sweep(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert list(tmp_path.iterdir()) == [tmp_path / "t.csv"]
 
 
 def test_parts_of_another_sweep_or_another_program_are_not_taken(

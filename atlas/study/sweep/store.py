@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from datetime import datetime
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from tempfile import gettempdir
 from typing import IO, Any
@@ -25,7 +25,7 @@ from atlas.places import own_folder
 from atlas.study.sweep.tables import check_format
 
 PART = re.compile(r"part-(\d{12})-(\d{12})-([0-9a-f]{16})-([0-9a-f]{32})\.(csv|npz|parquet)", re.ASCII)
-"""First row, the one behind the last, key of the sweep, digest of the contents."""
+"""First row, the one behind the last, key of the sweep; digest of these and of the contents."""
 MARK = "atlas sweep"
 Span = tuple[int, int]
 """A row and the one behind the last."""
@@ -85,8 +85,9 @@ class Folder:
 
     def holds(self, name: str) -> bool:
         """Return whether a part has the contents that its name says."""
+        rows, _, digest = name.rpartition(".")[0].rpartition("-")
         with suppress(OSError), self.open(name) as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()[:32] in name  # type: ignore[arg-type]  # a file
+            return hashlib.file_digest(file, partial(hashlib.sha256, rows.encode())).hexdigest()[:32] == digest  # type: ignore[arg-type]  # a file
         return False
 
     def open(self, name: str) -> IO[bytes]:
@@ -155,8 +156,8 @@ class Table:
 
     def name(self, span: Span, data: bytes) -> str:
         """Return the name of a part."""
-        digest = hashlib.sha256(data).hexdigest()[:32]
-        return f"part-{span[0]:012d}-{span[1]:012d}-{self.key}-{digest}.{self.ending}"
+        rows = f"part-{span[0]:012d}-{span[1]:012d}-{self.key}"
+        return f"{rows}-{hashlib.sha256(rows.encode() + data).hexdigest()[:32]}.{self.ending}"
 
     def path(self, name: str) -> Path:
         """Return where a part of a table on this machine is."""
