@@ -1,13 +1,16 @@
 """The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
 
 from collections.abc import Callable, Mapping
+from math import pi
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.options import REAL, Typed, exactly, stack
+from atlas.cli.measured import RATE, WANTED
+from atlas.cli.options import REAL, Measured, Typed, exactly, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
+from atlas.errors import nearest
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -23,6 +26,12 @@ SECONDS = {
 }
 """Units where the field is given as B, in gauss or tesla."""
 
+LIKE = {
+    "disc": "disk", "cylinder": "solid-cylinder or cylindrical-shell", "tube": "cylindrical-shell", "ball": "sphere",
+    "loop": "ring", "ellipsoid": "spheroid", "solenoid": "cylindrical-shell",
+}  # fmt: skip
+"""Other names of shapes."""
+
 ROD = "thin-rod"
 ROD_REASON = (
     "a thin rod has I3 = 0 and so no ratio I = I3/I2 > 0: its turn about its own axis carries no inertia, and Omega3 "
@@ -37,6 +46,7 @@ shape_options: Callable[[F], F] = stack(
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
     click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
     click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
+    click.option("--density", type=REAL, help="Density of a solid shape, for --mass."),
 )
 body_options: Callable[[F], F] = stack(
     click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
@@ -70,7 +80,12 @@ def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
         ),
         click.option("--mass", type=REAL, help="Mass of the body, with --charge."),
         click.option("--charge", type=REAL, help="Charge of the body, either sign; with --magnetic."),
-        click.option("--mu", type=REAL, help="Charge-to-mass ratio mu = e/m instead, either sign."),
+        click.option(
+            "--mu", "--charge-to-mass", type=REAL, help="Charge-to-mass ratio mu = e/m instead (no magnetic moment)."
+        ),
+        click.option(
+            "--angle", type=REAL, help="Angle between field and axis: --magnetic or --field is one number then."
+        ),
         click.option(
             "--units",
             type=click.Choice(["natural", "gaussian", "si"]),
@@ -102,7 +117,7 @@ spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
-    names = (*BODY, "tensor", *SIZES, "field", "magnetic", "mass", "charge", "mu")
+    names = (*BODY, "tensor", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
     given: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
     given |= {"points": str(options["points"])} if "points" in given else {}
     return given | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
@@ -128,7 +143,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     if options["ratio"] is not None:
         return options["ratio"]
     if options["shape"] is not None:
-        return _of_shape(options["shape"].replace("_", "-"), sizes, options.get("mass"))
+        return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options))
     if options["points"] is not None:
         return points(options["points"]).body
     from atlas.core.bodies.body import SymmetricBody
@@ -144,7 +159,8 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any
     if shape == ROD:
         raise click.UsageError(ROD_REASON)
     if shape not in known:
-        raise click.UsageError(f"there is no shape {shape!r}; the shapes are {', '.join(known)}.")
+        meant = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, known)
+        raise click.UsageError(f"there is no shape {shape!r}{meant}; the shapes are {', '.join(known)}.")
     if set(sizes) != set(known[shape]):
         wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
         raise click.UsageError(f"the shape {shape} takes {wanted}; found {found}.")
@@ -207,6 +223,7 @@ def exact_body(options: dict[str, Any]) -> Any:
     if options["shape"] is not None:
         sizes = {name: options[name] for name in ("mass", *SIZES) if options.get(name) is not None}
         sizes = {name: exactly(size, options) for name, size in sizes.items()}
+        sizes |= {"mass": mass_of(options)} if options.get("density") is not None else {}
         return Moments(*shape_moments(options["shape"].replace("-", "_"), **({"mass": 1} | sizes)))
     if options["decimal"]:
         typed = options["ratio"] if options["inertia"] is None else options["inertia"]
@@ -214,15 +231,42 @@ def exact_body(options: dict[str, Any]) -> Any:
     return body
 
 
+def mass_of(options: Mapping[str, Any]) -> Any:
+    """Return the mass of a shape, given or by its density, None where neither is said."""
+    if options.get("density") is None:
+        return options.get("mass")
+    shape, sizes = str(options["shape"]).replace("_", "-"), {name: options[name] for name in SIZES}
+    r, h, a, c = (float(sizes[name] or 0) for name in ("radius", "height", "equatorial", "polar"))
+    volume = {"sphere": 4 / 3 * pi * r**3, "solid-cylinder": pi * r * r * h, "spheroid": 4 / 3 * pi * a * a * c}
+    if options.get("mass") is not None or not volume.get(shape):
+        raise click.UsageError(
+            f"--density is of a solid --shape, {', '.join(volume)}, with its sizes and without --mass."
+        )
+    return options["density"] * volume[shape]
+
+
+def measured(options: Mapping[str, Any]) -> list[tuple[str, Measured]]:
+    """Return the numbers that were typed with a unit, each with the name of its option."""
+    values = ((name, value if isinstance(value, tuple) else (value,)) for name, value in options.items())
+    return [(name, x) for name, several in values for x in several if isinstance(x, Measured)]
+
+
 def system_of(options: Mapping[str, Any]) -> str:
-    """Return the system of units of --magnetic: SI where a charge is given and nothing is said."""
+    """Return the system of units of --magnetic: SI where a charge or a unit is given and nothing is said.
+
+    Raises click.UsageError for a unit beside another system.
+    """
     charged = options["charge"] is not None or options.get("points") is not None
-    return options["units"] or ("si" if charged else "natural")
+    typed = measured(options)
+    if typed and options["units"] not in {None, "si"}:
+        raise click.UsageError(f"{typed[0][1].text} is in SI: leave out --units {options['units']}.")
+    return options["units"] or ("si" if charged or typed else "natural")
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
     """Return what the units of times and rates are, where they are known."""
-    return SECONDS if options.get("magnetic") is not None and system_of(options) != "natural" else {}
+    known = options.get("magnetic") is not None and system_of(options) != "natural"
+    return SECONDS if known or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 
 
 def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> float:
@@ -230,7 +274,8 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
 
     Raises click.UsageError where none of them or several are given.
     """
-    both = [f"--{name}" for name in ("mass", "charge") if options[name] is not None]
+    mass = mass_of(options)
+    both = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
     if options.get("points") is not None:
         if both or options["mu"] is not None:
             raise click.UsageError(
@@ -246,7 +291,7 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
         raise click.UsageError(f"{needs} needs {missing}, for the charge-to-mass ratio.")
     from atlas.core.bodies.units import charge_to_mass
 
-    return charge_to_mass(options["charge"], options["mass"])
+    return charge_to_mass(options["charge"], mass)
 
 
 def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:

@@ -22,6 +22,7 @@ from atlas.cli.body import (
     exact_moments,
     field_options,
     given_tensor,
+    measured,
     spin_option,
     system_of,
     tensor_option,
@@ -383,7 +384,8 @@ def _printout(
     rows = in_threes(texts.get("samples", []))
     heading = [name for s in family.sampled if s.printed and not s.uncertified for name in _heading(s, units)]
     worth = worth.replace("printed", "printed, but of rounded lines,") if units else worth
-    notes = [*dict.fromkeys(texts.get("missing", {}).values()), worth]
+    turns = [f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text]
+    notes = [*turns, *dict.fromkeys(texts.get("missing", {}).values()), worth]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
     return Printout(described.title + case, lines, ("t", *heading) if rows else (), rows, notes)

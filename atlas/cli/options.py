@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import click
 
+from atlas.cli.measured import in_si, split
+from atlas.errors import AtlasError
+
 if TYPE_CHECKING:
     from fractions import Fraction
 
@@ -51,6 +54,29 @@ class Typed(float):
         return _fraction(float(self) if "0x" in self.text.lower() else self.text)
 
 
+class Measured(Typed):
+    """A number that was typed with a unit, in SI."""
+
+    exact: "Fraction | None"
+
+    @classmethod
+    def of(cls, text: str, option: str) -> Self | None:
+        """Read a number with a unit; None where there is none. AtlasError for a unit that does not fit the option."""
+        parts = split(text) if len(text) <= LONGEST else None
+        if parts is None:
+            return None
+        value, exact = in_si(_fraction(parts[0]), parts[1], option)
+        number = float.__new__(cls, value)
+        number.text, number.exact = text, exact
+        return number
+
+    def exactly(self) -> "Fraction":
+        """Return the number, exact. Raises click.UsageError for one with pi in it."""
+        if self.exact is None:
+            raise click.UsageError(f"{self.text} has pi in it and is no decimal: leave out --decimal.")
+        return self.exact
+
+
 def _fraction(value: str | float) -> "Fraction":
     from fractions import Fraction
 
@@ -66,7 +92,9 @@ class Real(click.ParamType[Typed]):
         """Turn what was typed into a number, or say what is wrong with it."""
         text = str(value).replace("\N{MINUS SIGN}", "-")  # as it is copied from a page
         try:
-            number = Typed(text)
+            number: Typed = Measured.of(text, str(param.name) if param else "") or Typed(text)
+        except AtlasError as error:
+            self.fail(str(error), param, ctx)
         except OverflowError:
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
         except (ValueError, ZeroDivisionError):
@@ -111,6 +139,8 @@ class Command(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
+        if "--angle" in args:
+            args = _inclined(args)
         many = {name for param in self.params if isinstance(param, Many) for name in param.opts}
         if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and are_three(args, "--inertia"):
             raise click.UsageError(
@@ -125,6 +155,23 @@ class Command(click.Command):
             if hint:
                 raise click.UsageError(f"{error.format_message().rstrip('.')}: {hint}", ctx) from error
             raise
+
+
+def _inclined(args: list[str]) -> list[str]:
+    """Return arguments with a field of one number and its angle to the axis, --angle, as its two components."""
+    at = args.index("--angle")
+    option = next((one for one in ("--magnetic", "--field") if one in args), "")
+    if at + 1 == len(args) or not option:
+        raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
+    angle = REAL.convert(args[at + 1], click.Option(["--angle"]), None)
+    args = args[:at] + args[at + 2 :]
+    strength = args.index(option) + 1
+    following = list(takewhile(LIKE_A_NUMBER.fullmatch, args[strength:]))
+    if len(following) != 1:
+        raise click.UsageError(f"with --angle {option} is one number, the strength of the field, not {len(following)}.")
+    size, unit = split(following[0]) or (following[0], "")
+    parts = [f"{float(Typed(size)) * x!r}{unit}" for x in (math.sin(angle), math.cos(angle))]
+    return [*args[:strength], *parts, *args[strength + 1 :]]
 
 
 def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:

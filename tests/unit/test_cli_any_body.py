@@ -149,3 +149,37 @@ def test_one_command_takes_any_body_and_any_start() -> None:
     shown = run("motion", "--help")[1]
     for option in ("I2 I3 or I1 I2 I3", "--tensor", "--omega2", "--spin"):
         assert option in shown
+
+
+def test_units_are_those_of_si() -> None:
+    """A cylinder in um, kg/m3, e, T and degrees is that in SI by hand, and turns a second are 2 pi as many radians."""
+    typed = (
+        "motion --shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e --magnetic 0.8T "
+        "--angle 30deg --spin 2MHz --times 1ms --json"
+    )
+    mass = 1850 * np.pi * 1.2e-6**2 * 3e-6
+    b = 5000 * 1.602176634e-19 / mass * 0.8 / 2
+    ratio = 1 / (0.5 + (3 / 1.2) ** 2 / 6)
+    by_hand = f"motion --ratio {ratio!r} --field {b / 2!r} {b * 0.75**0.5!r} --spin {4e6 * np.pi!r} --times 1e-3 --json"
+    found, true = numbers(*typed.split()), numbers(*by_hand.split())
+    assert found["precession_rate"] == pytest.approx(true["precession_rate"], rel=1e-9)
+    assert found["spin_rate"] == pytest.approx(true["spin_rate"], rel=1e-14)
+    assert np.array(found["samples"][0]["R"]) == pytest.approx(np.array(true["samples"][0]["R"]), abs=1e-9)
+    assert "2MHz is 12566370.61 rad/s." in run(*typed.removesuffix("--json").split())[1]
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("--ratio 1.5 --field 5/s 3e-3/s", "--ratio 1.5 --field 5 3e-3"),
+        ("--ratio 1.5 --mu 2C/kg --magnetic 0.5T 10000G", "--ratio 1.5 --charge-to-mass 2 --magnetic 0.5 1 --units si"),
+        ("--inertia 2g*m^2 3g*m2 --field 1 2", "--inertia 2e-3 3e-3 --field 1 2"),
+        ("--ratio 1.5 --field 90deg/s 1rad/s", f"--ratio 1.5 --field {np.pi / 2!r} 1"),
+        ("--ratio 1.5 --field 2 --angle 90deg", "--ratio 1.5 --field 2 1.2246467991473532e-16"),
+    ],
+)
+def test_what_is_typed_with_units_is_the_same_without(one: str, other: str) -> None:
+    """Prefixes, powers and quotients; a bare number beside a unit is in SI."""
+    rest = "--omega2 0.7 --times 1 --json"
+    found, true = (numbers("motion", *words.split(), *rest.split()) for words in (one, other))
+    assert found["k"] == pytest.approx(true["k"], rel=1e-15)

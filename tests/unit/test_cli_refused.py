@@ -3,6 +3,7 @@
 import ast
 import re
 from pathlib import Path
+from traceback import walk_tb
 from typing import Any
 
 import click
@@ -85,6 +86,15 @@ CASES = [
     ("motion --points {place}/plain.csv --field 0 1 2 --omega 1 2 3 --digits 5 --decimal", "not with --points"),
     ("general --ratio 1.5", "part of atlas motion, with --omega W1 W2 W3"),
     ("page general --ratio 1.5", "is atlas page motion"),
+    ("motion --shape ring --radius 1kg --field 1 2 --omega2 1", "--radius is in m, or what can be made of it"),
+    ("motion --shape ring --radius 1xx --field 1 2 --omega2 1", "there is no unit 'xx'"),
+    ("motion --shape ring --radius 1m+ --field 1 2 --omega2 1", "there is no unit 'm+'"),
+    ("motion --shape disc --radius 1 --field 1 2 --omega2 1", "did you mean disk?"),
+    ("motion --ratio 1 --field 1Hz 2 --omega2 1 --digits 9 --decimal", "1Hz has pi in it"),
+    ("motion --ratio 1 --field 1 --omega2 1 --angle", "--angle goes with --magnetic B"),
+    ("motion --ratio 1 --field 1 2 --omega2 1 --angle 1", "--field is one number, the strength of the field, not 2"),
+    ("motion --shape ring --radius 1 --density 1 --magnetic 1 2 --charge 1 --omega2 1", "--density is of a solid"),
+    ("motion --ratio 1 --mu 1C/kg --magnetic 1 2 --units gaussian --omega2 1", "1C/kg is in SI"),
     ("page --ratio 1.5 --field 1 2 --name a/b", "a name has letters, digits and"),
     ("motion --ratio 1.5 --field 1 2", "the start is one of --omega2"),
     ("motion --ratio 1.5 --field 1 2 --omega 1 2 3 --spin 1", "the start is one of --omega W1 W2 W3 and --spin W3"),
@@ -185,8 +195,10 @@ def told(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
     """Return what the command line says to words that it refuses, and the lines of code that were on the way."""
     with pytest.raises((click.ClickException, AtlasError)) as caught:
         command.main(words, prog_name="atlas", standalone_mode=False)
-    passed = {(Path(one.path).name, one.lineno + 1) for one in caught.traceback}
-    error = caught.value
+    error, passed, cause = caught.value, set[tuple[str, int]](), caught.value
+    while cause:  # an error of another floor, of which a word of the command line is the cause, is told by `fail`
+        passed |= {(Path(frame.f_code.co_filename).name, line) for frame, line in walk_tb(cause.__traceback__)}
+        cause = cause.__context__  # type: ignore[assignment]
     return error.format_message() if isinstance(error, click.ClickException) else str(error), passed
 
 

@@ -1,0 +1,85 @@
+"""Numbers with a unit at the shell: 1.2um, 0.8T, 5000e, 1850kg/m3, 2MHz, 30deg; they are in SI."""
+
+import math
+import re
+from collections import Counter
+from fractions import Fraction
+
+from atlas.errors import AtlasError
+
+PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+UNITS: dict[str, tuple[str, str]] = {
+    "m": ("1", "m"), "g": ("1e-3", "kg"), "u": ("1.66053906892e-27", "kg"),
+    "s": ("1", "s"), "min": ("60", "s"), "h": ("3600", "s"), "Hz": ("1", "s-1 turn"),
+    "C": ("1", "C"), "e": ("1.602176634e-19", "C"), "A": ("1", "C s-1"), "V": ("1", "kg m2 s-2 C-1"),
+    "T": ("1", "kg s-1 C-1"), "G": ("1e-4", "kg s-1 C-1"), "rad": ("1", ""), "deg": ("1", "degree"),
+}  # fmt: skip
+"""Units by name: how many of those after it they are. A turn is 2 pi, a degree pi/180."""
+
+ANGLES = {"turn": 2 * math.pi, "degree": math.pi / 180}
+RATE = "rad/s"
+WANTED = dict.fromkeys(("field", "omega", "omega2", "omega3", "spin", "larmor"), RATE) | {
+    "radius": "m", "height": "m", "equatorial": "m", "polar": "m", "position": "m", "velocity": "m/s", "mass": "kg",
+    "charge": "C", "mu": "C/kg", "magnetic": "T", "B": "T", "E": "V/m", "times": "s", "inertia": "kg m2",
+    "tensor": "kg m2", "density": "kg/m3", "angle": "rad",
+}  # fmt: skip
+"""The unit of SI in which an option is, by its name."""
+
+FACTOR = re.compile(r"([*/ ]?)([^\W\d]+)(?:(?:\^|\*\*)?(-?\d))?")
+NUMBER = re.compile(
+    r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?:/\d+)?)"
+    r"(?![eE][+-]?\d|[xX][\da-fA-F])([*/ ]?[^\W\d_].*)"
+)
+
+
+def split(text: str) -> tuple[str, str] | None:
+    """Return the number and the unit that were typed as one word, None where there is no unit, as in 1e-3 and 0x1p0."""
+    found = NUMBER.fullmatch(text)
+    return (found[1], found[2]) if found else None
+
+
+def in_si(number: Fraction, unit: str, option: str) -> tuple[float, Fraction | None]:
+    """Return a number of units in the unit of an option, and exactly, None where that has pi in it.
+
+    Raises AtlasError for a unit that there is not, or of another quantity.
+    """
+    factor, found = _parsed(unit)
+    wanted = _parsed(WANTED[option])[1] if option in WANTED else None
+    angle = {name: found.pop(name) for name in ANGLES if found.get(name)}
+    allowed = {"turn": WANTED.get(option) == RATE or option == "times", "degree": option in ("angle", *WANTED)}
+    if found != wanted or not all(allowed[name] for name in angle):
+        right = f"--{option} is in {WANTED[option]}" if wanted is not None else f"--{option} has no unit"
+        raise AtlasError(f"{right}, or what can be made of it, not in {unit.strip()!r}.")
+    value = number * factor
+    exact = float(value)
+    for name, power in angle.items():
+        exact *= ANGLES[name] ** power
+    return exact, None if angle else value
+
+
+def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
+    """Return how many of the base units, each to a power, a unit is. Raises AtlasError for one that there is not."""
+    factor, powers, at = Fraction(1), Counter[str](), 0
+    while at < len(unit):
+        part = FACTOR.match(unit, at)
+        if part is None:
+            raise AtlasError(f"there is no unit {unit.strip()!r}; write 1.2um, 0.8T, 5000e, 1850kg/m3, 2MHz or 30deg.")
+        power = int(part[3] or 1) * (-1 if part[1] == "/" else 1)
+        size, base = _unit(part[2], unit)
+        factor *= size**power
+        for name, count in base.items():
+            powers[name] += count * power
+        at = part.end()
+    return factor, Counter({name: count for name, count in powers.items() if count})
+
+
+def _unit(name: str, whole: str) -> tuple[Fraction, dict[str, int]]:
+    for prefix, known in (("", name), (name[:1], name[1:])):
+        if known in UNITS and (not prefix or prefix in PREFIXES):
+            size, base = UNITS[known]
+            powers = {
+                part.rstrip("-123456789"): int(part.lstrip("abcdefghijklmnopqrstuvwxyzCT") or 1)
+                for part in base.split()
+            }
+            return Fraction(size) * Fraction(10) ** PREFIXES.get(prefix, 0), powers
+    raise AtlasError(f"there is no unit {name!r} in {whole.strip()!r}; known: {', '.join(UNITS)}, with prefixes.")
