@@ -153,11 +153,56 @@ class DoubleDouble:
         return np.where(lost == 0, 0.0, lost / abs(total)) + rounding
 
 
+ONE = DoubleDouble(np.float64(1.0))
+
+
 def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
     one = not (np.ndim(x.rel) or np.ndim(y.rel))
     hi, low = np.where(where, x.hi, y.hi), np.where(where, x.low, y.low)
     return DoubleDouble(hi, low, max(x.rel, y.rel) if one else np.where(where, x.rel, y.rel))
+
+
+def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+    """Return of two forms of a number the one with the smaller bound."""
+    return chosen(y.rel < x.rel, y, x)
+
+
+def stacked(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
+    """Return two arrays of numbers as one, (2, m)."""
+    shape = np.broadcast_shapes(np.shape(first.hi), np.shape(second.hi))
+    pairs = zip(_three(first), _three(second), strict=True)
+    return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in pair]) for pair in pairs))
+
+
+def component(x: DoubleDouble, i: int) -> DoubleDouble:
+    """Return one of two stacked arrays."""
+    return DoubleDouble(x.hi[i], None if x.lo is None else x.lo[i], x.rel[i] if np.ndim(x.rel) else x.rel)
+
+
+def constant(value: float, like: DoubleDouble) -> DoubleDouble:
+    """Return an array of one exact number."""
+    return DoubleDouble(np.full_like(like.hi, value))
+
+
+def joined(pair: DoubleDouble, other: DoubleDouble) -> DoubleDouble:
+    """Return two stacked arrays and a third, (3, m)."""
+    words = ((x, np.broadcast_to(y, pair.hi.shape[1:])) for x, y in zip(_three(pair), _three(other), strict=True))
+    return DoubleDouble(*(np.concatenate([np.broadcast_to(x, pair.hi.shape), y[None]]) for x, y in words))
+
+
+def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
+    """Return numbers times 1 or -1."""
+    return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
+
+
+def _three(x: DoubleDouble) -> tuple[Any, Any, Any]:
+    return x.hi, x.low, x.rel
+
+
+def taken(x: DoubleDouble, rows: Any) -> DoubleDouble:
+    """Return some columns of an array."""
+    return DoubleDouble(*(y if np.ndim(y) == 0 else y[..., rows] for y in _three(x)))
 
 
 def over(

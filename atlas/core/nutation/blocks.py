@@ -13,12 +13,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen
+from atlas.core.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen, constant, joined, stacked
 from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import Means
 from atlas.core.nutation.pair import TERMS, Pair
-from atlas.core.nutation.roots import Roots, constant, joined, roots_of, roots_of_tops, stacked
+from atlas.core.nutation.roots import Roots, roots_of, roots_of_tops
 from atlas.core.nutation.spheres import sphere_of_field
 from atlas.core.nutation.swing_rows import Swings, SwingSums, swing_sums
 

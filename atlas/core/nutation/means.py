@@ -8,10 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen
-from atlas.core.nutation.roots import Turning, component, constant
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, component, constant
+from atlas.core.nutation.roots import Turning
 
 MEANS = 12
 """Steps of the means in two words."""
@@ -131,9 +129,6 @@ class Means:
             rest = chosen(m.is_merged, one, cos), chosen(m.is_merged, zero, sin)
         cos, sin = _half(_turned(whole, rest))
         return cos, chosen(r.rate.hi < 0, -sin, sin)
-
-
-ONE = DoubleDouble(np.float64(1.0))
 
 
 def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:

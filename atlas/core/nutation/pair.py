@@ -11,10 +11,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import (
+    ONE,
+    DoubleDouble,
+    better,
+    chosen,
+    component,
+    constant,
+    joined,
+    signed,
+    stacked,
+    taken,
+)
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.means import ENOUGH, ONE, Circle, Level, Means
-from atlas.core.nutation.roots import better, component, constant, joined, signed, stacked, taken
+from atlas.core.nutation.means import ENOUGH, Circle, Level, Means
 from atlas.core.nutation.spheres import Sphere
 
 STEPS = 60

@@ -15,7 +15,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import fmpq
 
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import (
+    ONE,
+    DoubleDouble,
+    better,
+    chosen,
+    constant,
+    stacked,
+)
 from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
 
@@ -147,9 +154,6 @@ class Top(NamedTuple):
     quadratic: DoubleDouble
     A: DoubleDouble
     rates: FloatArray
-
-
-ONE = DoubleDouble(np.float64(1.0))
 
 
 def roots_of(
@@ -307,45 +311,3 @@ def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:
     lo = (v - hi) - step
     rel = np.where((v == 0) & (q0 == 0), 0.0, np.where(steep < NEWTON, error / abs(hi), np.inf))
     return DoubleDouble(np.where(v == 0, 0.0, hi), np.where(v == 0, 0.0, lo), rel)
-
-
-def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return of two forms of a number the one with the smaller bound."""
-    return chosen(y.rel < x.rel, y, x)
-
-
-def stacked(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """Return two arrays of numbers as one, (2, m)."""
-    shape = np.broadcast_shapes(np.shape(first.hi), np.shape(second.hi))
-    pairs = zip(_words(first), _words(second), strict=True)
-    return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in pair]) for pair in pairs))
-
-
-def component(x: DoubleDouble, i: int) -> DoubleDouble:
-    """Return one of two stacked arrays."""
-    return DoubleDouble(x.hi[i], None if x.lo is None else x.lo[i], x.rel[i] if np.ndim(x.rel) else x.rel)
-
-
-def constant(value: float, like: DoubleDouble) -> DoubleDouble:
-    """Return an array of one exact number."""
-    return DoubleDouble(np.full_like(like.hi, value))
-
-
-def joined(pair: DoubleDouble, other: DoubleDouble) -> DoubleDouble:
-    """Return two stacked arrays and a third, (3, m)."""
-    words = ((x, np.broadcast_to(y, pair.hi.shape[1:])) for x, y in zip(_words(pair), _words(other), strict=True))
-    return DoubleDouble(*(np.concatenate([np.broadcast_to(x, pair.hi.shape), y[None]]) for x, y in words))
-
-
-def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
-    """Return numbers times 1 or -1."""
-    return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
-
-
-def _words(x: DoubleDouble) -> tuple[Any, Any, Any]:
-    return x.hi, x.low, x.rel
-
-
-def taken(x: DoubleDouble, rows: Any) -> DoubleDouble:
-    """Return some columns of an array."""
-    return DoubleDouble(*(y if np.ndim(y) == 0 else y[..., rows] for y in _words(x)))

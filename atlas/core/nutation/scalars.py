@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen, component
 from atlas.core.nutation.blocks import Block, Blocks
-from atlas.core.nutation.roots import component, plus
+from atlas.core.nutation.roots import plus
 
 IN_ARRAYS = (
     "kind",

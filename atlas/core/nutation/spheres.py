@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, better, chosen, component, constant, stacked
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.roots import ONE, Roots, Turning, better, component, constant, stacked
+from atlas.core.nutation.roots import Roots, Turning
 
 
 @dataclass(frozen=True)

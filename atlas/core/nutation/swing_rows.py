@@ -14,12 +14,12 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, component, constant, signed
 from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.means import ENOUGH, ONE, Circle, Means
+from atlas.core.nutation.means import ENOUGH, Circle, Means
 from atlas.core.nutation.pair import TERMS
-from atlas.core.nutation.roots import Roots, component, constant, signed
+from atlas.core.nutation.roots import Roots
 
 STEPS = 60
 """Most steps of the means."""
