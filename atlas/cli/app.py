@@ -46,7 +46,12 @@ class Atlas(click.Group):
     """The group of all commands."""
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        """Find the command; say where one is that has gone."""
+        """Find the command; say where one is that has gone. `help NAME` is the help of a command, or of all."""
+        if args[0] == "help":
+            if len(args) == 1:
+                click.echo(ctx.get_help())
+                ctx.exit()
+            args = [args[1], "--help"]
         if args[0] in GONE:
             raise click.UsageError(
                 f"atlas {args[0]} is part of atlas motion, with {GONE[args[0]]} and the same options."

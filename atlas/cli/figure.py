@@ -22,7 +22,13 @@ class FigureCommand(Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Note the words that may be recipes: --help is obeyed before they are read."""
         ctx.obj = [word for word in args if not word.startswith("-")]
-        return super().parse_args(ctx, args)
+        try:
+            return super().parse_args(ctx, args)
+        except click.NoSuchOption as error:
+            name = error.option_name.lstrip("-")
+            raise click.UsageError(
+                f"there is no option --{name}; a parameter of a figure is given by --set {name}=VALUE."
+            ) from error
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options, and before them the parameters of each recipe."""
@@ -120,6 +126,9 @@ def command(
     if target is not None:
         find(target)
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
+    for name in names:
+        if "=" in name and not name.endswith(".py"):
+            raise click.UsageError(f"{name!r} is no figure; a parameter has --set before it: --set {name}.")
     for name in wanted:
         recipes.source(name)  # says which there are, before anything is drawn
     stems = [Path(name).stem for name in wanted]

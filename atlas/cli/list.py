@@ -18,10 +18,16 @@ WIDTH = 90
 """Letters in a line of parameters."""
 
 
+LISTS = ("figures", "reports", "shapes")
+
+
 @click.command("list", cls=Command)
+@click.argument("which", required=False, type=click.Choice(LISTS))
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(as_json: bool) -> int:
+def command(which: str | None, as_json: bool) -> int:
     """Name the figures with titles and parameters, the reports, and the shapes of bodies with their dimensions.
+
+    One list alone is `atlas list figures`, `reports` or `shapes`.
 
     Each parameter of a figure stands with its default, and with its range if it has one; `atlas figure NAME --help`
     says what it takes. A figure that is too wide for a journal's column says how much it needs. A recipe or a report
@@ -40,6 +46,9 @@ def command(as_json: bool) -> int:
         "reports": reports,
         "shapes": shapes(),
     }
+    for other in LISTS if which else ():
+        if other != which:
+            record[other] = {}
     if as_json:
         dump(record)
     else:
@@ -63,7 +72,8 @@ def lay_out(record: dict[str, Any]) -> None:
         (("report", "title"), list(record["reports"].items())),
         (("shape", "dimensions"), bodies),
     ):
-        show(Printout("", heading=heading, rows=rows, justify="left"))
+        if rows:
+            show(Printout("", heading=heading, rows=rows, justify="left"))
 
 
 def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:

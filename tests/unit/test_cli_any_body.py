@@ -183,3 +183,13 @@ def test_what_is_typed_with_units_is_the_same_without(one: str, other: str) -> N
     rest = "--omega2 0.7 --times 1 --json"
     found, true = (numbers("motion", *words.split(), *rest.split()) for words in (one, other))
     assert found["k"] == pytest.approx(true["k"], rel=1e-15)
+
+
+def test_help_and_lists_are_asked_for_as_one_would() -> None:
+    """`atlas help motion` is its help, `atlas list shapes` the one list."""
+    assert run("help", "motion")[1] == run("motion", "--help")[1]
+    assert run("help")[1] == run("--help")[1]
+    shown = run("list", "shapes")[1]
+    assert "solid-cylinder" in shown
+    assert "figure" not in shown
+    assert json.loads(run("list", "reports", "--json")[1])["reports"]

@@ -86,6 +86,8 @@ CASES = [
     ("motion --points {place}/plain.csv --field 0 1 2 --omega 1 2 3 --digits 5 --decimal", "not with --points"),
     ("general --ratio 1.5", "part of atlas motion, with --omega W1 W2 W3"),
     ("page general --ratio 1.5", "is atlas page motion"),
+    ("figure hyperbola ratio=0.5", "a parameter has --set before it: --set ratio=0.5"),
+    ("figure hyperbola --ratio 0.5", "given by --set ratio=VALUE"),
     ("motion --shape ring --radius 1kg --field 1 2 --omega2 1", "--radius is in m, or what can be made of it"),
     ("motion --shape ring --radius 1xx --field 1 2 --omega2 1", "there is no unit 'xx'"),
     ("motion --shape ring --radius 1m+ --field 1 2 --omega2 1", "there is no unit 'm+'"),
