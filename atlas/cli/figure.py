@@ -126,9 +126,7 @@ def command(
     if target is not None:
         find(target)
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
-    for name in names:
-        if "=" in name and not name.endswith(".py"):
-            raise click.UsageError(f"{name!r} is no figure; a parameter has --set before it: --set {name}.")
+    _check(names)
     for name in wanted:
         recipes.source(name)  # says which there are, before anything is drawn
     stems = [Path(name).stem for name in wanted]
@@ -157,6 +155,13 @@ def command(
         show(explained([["figure", figure.name, figure.reason] for figure in figures]))
     sys.stdout.flush()
     return warned(figures, renderer)
+
+
+def _check(names: tuple[str, ...]) -> None:
+    """Raise click.UsageError for a parameter in the place of a name."""
+    for name in names:
+        if "=" in name and not name.endswith(".py"):
+            raise click.UsageError(f"{name!r} is no figure; a parameter has --set before it: --set {name}.")
 
 
 def warned(figures: "list[Files]", renderer: str) -> int:
