@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from atlas.report.picture import Picture
 
 
+MANIFEST = "manifest.json"
+"""By it a folder is known to be of a report, which may be built anew."""
 LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst", "single": "html"}
 """In which language the texts of each format are set; `single` is one page as one file, if it is asked for."""
 
@@ -39,6 +41,15 @@ def set_texts(document: "Document", formats: Sequence[str], cache: Cache, source
     document.texts.memory = texts = _Texts(cache.load(name))
     document.set(*dict.fromkeys(LANGUAGES[one] for one in formats))
     cache.save(name, texts.used)
+
+
+def manifest_of(document: "Document") -> bytes:
+    """Return the manifest of a report as JSON; it depends on the report and on the versions alone."""
+    from atlas.report.versions import versions
+
+    report = document.report
+    found = {"report": report.name, "title": report.title, "versions": versions()}
+    return msgspec.json.format(msgspec.json.encode(found), indent=1) + b"\n"
 
 
 def _pages(
@@ -89,19 +100,3 @@ def _pdf(
 
 
 MAKERS = {"html": _pages, "pdf": _pdf, "single": _single}
-
-
-if TYPE_CHECKING:
-    from atlas.report.document import Document
-
-MANIFEST = "manifest.json"
-"""By it a folder is known to be of a report, which may be built anew."""
-
-
-def manifest_of(document: "Document") -> bytes:
-    """Return the manifest of a report as JSON; it depends on the report and on the versions alone."""
-    from atlas.report.versions import versions
-
-    report = document.report
-    found = {"report": report.name, "title": report.title, "versions": versions()}
-    return msgspec.json.format(msgspec.json.encode(found), indent=1) + b"\n"

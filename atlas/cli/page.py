@@ -107,7 +107,7 @@ def command() -> None:
 
 def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
-    from atlas.report.asked import Asked
+    from atlas.report.page import Asked
 
     context, own = click.get_current_context(), {"out", "digits", "title", "name", "jobs"}
     typed = {

@@ -26,9 +26,9 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.report import toml
-from atlas.report.asked import Asked
 from atlas.report.body_and_field import body_and_field
 from atlas.report.given import Body, Field
+from atlas.report.page import Asked
 from atlas.report.single import single
 from atlas.report.tables import compute
 from atlas.report.tables.closed import convergents
