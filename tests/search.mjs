@@ -30,7 +30,8 @@ const page = await open(browser, { viewport: { width: 1280, height: 900 } });
 const box = await page.locator("#search").boundingBox();
 holds(box.y + box.height < 900, "the search box is on the first screen");
 for (const query of ["I=3/2", "I = 3/2", "omega2", "ω2", "Ω3", "g-factor", "(72)", "precession", "preccession", "Clebsch", "Euler-Poisson equations", "sqrt(1-I)",
-  "how do I draw a figure", "equation 72"]) {
+  "how do I draw a figure", "equation 72", "quaternion", "quaternoin", "uncertainty", "action", "thread", "jax", "type hints", "density",
+  "proof of equation 48"]) {
   const found = await hits(page, query);
   holds(found.length > 0, query, "is found");
   for (const { href } of found) {
