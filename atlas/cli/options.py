@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 
+MOST = 1_000_000
+"""Numbers in a range."""
+
 LONGEST = 2000
 """Characters of a number that is typed: beyond it, arithmetic with all digits takes its time."""
 
@@ -141,7 +144,9 @@ class Command(click.Command):
         """Repeat the option's name before each of its values, which is what click understands."""
         if "--angle" in args:
             args = _inclined(args)
-        many = {name for param in self.params if isinstance(param, Many) for name in param.opts}
+        several = [param for param in self.params if isinstance(param, Many)]
+        many = {name for param in several for name in param.opts}
+        numbers = {name for param in several if param.type is REAL for name in param.opts}
         if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and are_three(args, "--inertia"):
             raise click.UsageError(
                 "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
@@ -149,7 +154,7 @@ class Command(click.Command):
                 "it is the family asymmetric, with --set I1=0.8 and so on."
             )
         try:
-            return super().parse_args(ctx, list(_spread(args, many)))
+            return super().parse_args(ctx, list(_spread(args, many, numbers)))
         except click.UsageError as error:
             hint = "" if isinstance(error, click.MissingParameter) else _miscounted(args, self.params)
             if hint:
@@ -215,7 +220,19 @@ def are_three(args: Sequence[str], option: str) -> bool:
     return len(following) == 3 and all(map(LIKE_A_NUMBER.fullmatch, following))
 
 
-def _spread(args: Sequence[str], many: set[str]) -> Iterator[str]:
+def _ranged(word: str) -> list[str]:
+    """Return the numbers of a range START:STOP:COUNT, both ends among them; another word as it is."""
+    parts = word.split(":")
+    if len(parts) != 3:
+        return [word]
+    start, stop, count = (REAL.convert(part, None, None) for part in parts)
+    if count != int(count) or not 2 <= count <= MOST:
+        raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
+    first, step = start.exactly(), (stop.exactly() - start.exactly()) / (int(count) - 1)
+    return [repr(float(first + i * step)) for i in range(int(count))]
+
+
+def _spread(args: Sequence[str], many: set[str], numbers: set[str]) -> Iterator[str]:
     option, given = "", True
     for word in args:
         if not option or word.startswith("--"):
@@ -225,7 +242,8 @@ def _spread(args: Sequence[str], many: set[str]) -> Iterator[str]:
             if not option:
                 yield word
         else:
-            yield from (option, word)
+            for one in _ranged(word) if option in numbers else [word]:
+                yield from (option, one)
             given = True
     if not given:
         yield option
@@ -277,7 +295,7 @@ style_option: Callable[[F], F] = click.option(
 
 
 times_options: Callable[[F], F] = stack(
-    click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, as many as you like."),
+    click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT."),
     click.option("--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="A uniform grid of times instead."),
 )
 

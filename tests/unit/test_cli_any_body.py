@@ -193,3 +193,9 @@ def test_help_and_lists_are_asked_for_as_one_would() -> None:
     assert "solid-cylinder" in shown
     assert "figure" not in shown
     assert json.loads(run("list", "reports", "--json")[1])["reports"]
+
+
+def test_a_range_of_times_is_its_list() -> None:
+    """START:STOP:COUNT has both ends, beside single times, exact where decimals are not."""
+    words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --times".split()
+    assert numbers(*words, "0:0.3:4", "7") == numbers(*words, "0", "0.1", "0.2", "0.3", "7")

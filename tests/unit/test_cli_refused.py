@@ -86,6 +86,7 @@ CASES = [
     ("motion --points {place}/plain.csv --field 0 1 2 --omega 1 2 3 --digits 5 --decimal", "not with --points"),
     ("general --ratio 1.5", "part of atlas motion, with --omega W1 W2 W3"),
     ("page general --ratio 1.5", "is atlas page motion"),
+    ("motion --ratio 1 --field 1 2 --omega2 1 --times 0:1:1", "the count of 0:1:1 is a whole number from 2"),
     ("figure hyperbola ratio=0.5", "a parameter has --set before it: --set ratio=0.5"),
     ("figure hyperbola --ratio 0.5", "given by --set ratio=VALUE"),
     ("motion --shape ring --radius 1kg --field 1 2 --omega2 1", "--radius is in m, or what can be made of it"),
