@@ -226,7 +226,7 @@ def _ranged(word: str) -> list[str]:
     if len(parts) != 3:
         return [word]
     start, stop, count = (REAL.convert(part, None, None) for part in parts)
-    if count != int(count) or not 2 <= count <= MOST:
+    if not count.is_integer() or not 2 <= count <= MOST:
         raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
     first, step = start.exactly(), (stop.exactly() - start.exactly()) / (int(count) - 1)
     return [repr(float(first + i * step)) for i in range(int(count))]
