@@ -11,7 +11,6 @@ from typing import Any
 import click
 
 from atlas import __version__
-from atlas.cli.gone import GONE
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 
@@ -40,6 +39,10 @@ class FamilyCommand(LazyCommand):
         from atlas.cli.family import command
 
         return command(str(self.name))
+
+
+GONE = {"general": "--omega W1 W2 W3", "asymmetric": "--inertia I1 I2 I3"}
+"""Commands that are part of `atlas motion`, with the option that asks for what they did."""
 
 
 class Atlas(click.Group):

@@ -8,9 +8,9 @@ from typing import Any
 import click
 
 from atlas import files
+from atlas.cli.app import GONE
 from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, system_of, units_of
 from atlas.cli.family import family_of, in_field, in_plane, object_options, values_of
-from atlas.cli.gone import GONE
 from atlas.cli.options import Command, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.progress import bar
