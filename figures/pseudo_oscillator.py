@@ -5,18 +5,23 @@ V(u) = -a0 u - a1 u^2/2 - a2 u^3/3 - a3 u^4/4, and (du/dt)^2 = Q(u) with a quart
 """
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.pseudo_oscillator import PseudoOscillator
+from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
-from atlas.scene.libration import Libration
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
+PIECES = 32
+"""Of a period at first: near a separatrix most of it is spent at one end."""
+Ends: TypeAlias = tuple[float, float]
 
 
 def scene(
@@ -29,14 +34,16 @@ def scene(
 ) -> Scene:
     """Draw Q, V and Omega3(t), over ``turns`` oscillations, for the initial angular velocity ``omega``."""
     oscillator = PseudoOscillator(ratio, field, omega)
-    libration = Libration(oscillator)
-    low, high = libration.range
+    motion = GeneralMotion(ratio, field, omega)
+    low, high = motion.turning_points
+    if not np.isfinite(motion.period):
+        raise DomainError(f"From omega = {omega} the motion runs on a separatrix: it has no period to be drawn.")
     rest = high == low
     span = (high - low) or max(np.abs((*omega, *field))) or 1.0
     view = window(oscillator, (low, high), span)
     allowed = rf"{tex(low)}\le\Omega_3\le {tex(high)}"
     still = "The motion is at equilibrium: $\\Omega_3$ is constant. "
-    period = rf"It oscillates in ${allowed}$ with the period $T{tex_equals(libration.period)}$. "
+    period = rf"It oscillates in ${allowed}$ with the period $T{tex_equals(motion.period)}$. "
     spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {plain(low)} and {plain(high)}"
     return Scene(
         title=title(__doc__),
@@ -54,9 +61,9 @@ def scene(
             f"interval; Omega 3 over time. {spoken}."
         ),
         panels=(
-            quartic(oscillator, libration, view, unit),
-            potential(oscillator, libration, view, unit),
-            course(libration, turns, view, unit),
+            quartic(oscillator, (low, high), view, unit),
+            potential(oscillator, (low, high), view, unit),
+            course(motion, turns, view, unit),
         ),
         columns=3,
         named={"shaded": "region"},
@@ -64,7 +71,7 @@ def scene(
     )
 
 
-def window(oscillator: PseudoOscillator, allowed: tuple[float, float], span: float) -> tuple[float, float]:
+def window(oscillator: PseudoOscillator, allowed: Ends, span: float) -> Ends:
     """Return the interval of Omega3 to show: the allowed one, and the extrema of Q near it that are of its size."""
     slope = np.polynomial.Polynomial(oscillator.coefficients).trim()
     extrema = slope.roots() if slope.degree() else np.empty(0)
@@ -77,73 +84,75 @@ def window(oscillator: PseudoOscillator, allowed: tuple[float, float], span: flo
     return low - pad, high + pad
 
 
-def quartic(oscillator: PseudoOscillator, libration: Libration, view: tuple[float, float], unit: str) -> Plane:
+def quartic(oscillator: PseudoOscillator, allowed: Ends, view: Ends, unit: str) -> Plane:
     """Panel (a): the quartic, its zeros and the allowed interval."""
-    inner = oscillator.quartic(np.linspace(*libration.range, 65))
+    inner = oscillator.quartic(np.linspace(*allowed, 65))
     top = float(max(inner.max(), 0.02 * np.abs(oscillator.quartic(np.array(view))).max())) or 1.0
     limits = (-1.1 * top, 1.6 * top)
     layers: list[Layer] = [
-        Region(band(libration.range, limits), "region"),
+        Region(band(allowed, limits), "region"),
         Curve(np.array([[view[0], 0.0], [view[1], 0.0]]), "guide"),
         Curve(graph(oscillator.quartic, view, limits), "main"),
-        Points(np.stack([libration.range, np.zeros(2)], axis=1), "rest"),
-        Points(np.array([[libration.start, libration.speed**2]]), "start"),
+        Points(np.stack([allowed, np.zeros(2)], axis=1), "rest"),
+        Points(np.array([[oscillator.omega3, (oscillator.omega1 * oscillator.B2) ** 2]]), "start"),
     ]
     return Plane(
         tuple(layers), r"$\Omega_3$" + f" (1/{unit})", rf"$Q$ (1/{unit}$^4$)", view, limits, title="(a) first integral"
     )
 
 
-def potential(oscillator: PseudoOscillator, libration: Libration, view: tuple[float, float], unit: str) -> Plane:
+def potential(oscillator: PseudoOscillator, allowed: Ends, view: Ends, unit: str) -> Plane:
     """Panel (b): the potential, counted from its value at the start, and the level of the motion."""
     a0, a1, a2, a3 = oscillator.coefficients
     powers = np.polynomial.Polynomial([0.0, -a0, -a1 / 2, -a2 / 3, -a3 / 4])
 
     def V(u: FloatArray) -> FloatArray:
-        return np.asarray(powers(u) - powers(libration.start))
+        return np.asarray(powers(u) - powers(oscillator.omega3))
 
-    level = libration.speed**2 / 2
-    inner = V(np.linspace(*libration.range, 65))
+    level = float(oscillator.omega1 * oscillator.B2) ** 2 / 2
+    inner = V(np.linspace(*allowed, 65))
     depth = float(max(level - inner.min(), 0.02 * np.abs(V(np.array(view))).max())) or 1.0
     limits = (level - 1.4 * depth, level + 1.2 * depth)
-    across = np.array([[libration.range[0], level], [libration.range[1], level]])
+    across = np.array([[allowed[0], level], [allowed[1], level]])
     layers = (
-        Region(band(libration.range, limits), "region"),
+        Region(band(allowed, limits), "region"),
         Curve(graph(V, view, limits), "main"),
         Curve(across, "second"),
         Points(across, "rest"),
-        Points(np.array([[libration.start, level]]), "start"),
+        Points(np.array([[oscillator.omega3, level]]), "start"),
     )
     return Plane(layers, r"$\Omega_3$" + f" (1/{unit})", rf"$V$ (1/{unit}$^4$)", view, limits, title="(b) potential")
 
 
-def course(libration: Libration, turns: float, view: tuple[float, float], unit: str) -> Plane:
+def course(motion: GeneralMotion, turns: float, view: Ends, unit: str) -> Plane:
     """Panel (c): Omega3 over time."""
-    low, high = libration.range
+    low, high = motion.turning_points
     pad = 0.15 * (view[1] - view[0])
     limits = (low - pad, high + pad)
+
+    def point(t: FloatArray) -> FloatArray:
+        return np.stack([t, motion.angular_velocity(t)[:, 2]], axis=1)
+
     if high == low:
         line = np.array([[0.0, low], [1.0, low]])
     else:
-        window = ((0.0, turns * libration.period), limits)
-        line = flat(libration.path, 0.0, turns, window, SIZE, pieces=max(8, round(8 * turns)))
+        stop = turns * motion.period
+        line = flat(point, 0.0, stop, ((0.0, stop), limits), SIZE, pieces=max(PIECES, round(PIECES * turns)))
     ends = (float(line[0, 0]), float(line[-1, 0]))
     layers: tuple[Layer, ...] = (
-        *(Curve(np.array([[ends[0], u], [ends[1], u]]), "reference") for u in dict.fromkeys(libration.range)),
+        *(Curve(np.array([[ends[0], u], [ends[1], u]]), "reference") for u in dict.fromkeys((low, high))),
         Curve(line, "main"),
         Points(line[:1], "start"),
     )
     return Plane(layers, f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", ends, limits, title="(c) course")
 
 
-def band(interval: tuple[float, float], limits: tuple[float, float]) -> FloatArray:
+def band(interval: Ends, limits: Ends) -> FloatArray:
     """Corners of the upright band over an interval."""
     (a, b), (low, high) = interval, limits
     return np.array([[a, low], [b, low], [b, high], [a, high]])
 
 
-def graph(
-    function: Callable[[FloatArray], FloatArray], view: tuple[float, float], limits: tuple[float, float]
-) -> FloatArray:
+def graph(function: Callable[[FloatArray], FloatArray], view: Ends, limits: Ends) -> FloatArray:
     """Return the graph of a function inside a window."""
     return flat(lambda u: np.stack([u, function(u)], axis=1), *view, (view, limits), SIZE, pieces=32)

@@ -9,19 +9,24 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.bodies.body import moments
 from atlas.core.inputs import FloatArray, number
 from atlas.core.motions.integrals import shape_factors
 from atlas.core.motions.pseudo_oscillator import PseudoOscillator
+from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
-from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, flat, quarter_pixel
 from atlas.scene.style import LINES
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
 DEEP = 0.02
 """How far down panel (b) goes at least, as a part of the largest departure."""
+PIECES = 32
+"""Of a period at first."""
+SEEN = 1e-13
+"""Part of the field up to which a departure is rounding."""
 
 
 def scene(
@@ -38,7 +43,7 @@ def scene(
         raise DomainError(f"omega1 must hold one to {len(LINES)} numbers, none of them zero, not {omega1}.")
     still = start(ratio, field, 0.0, omega2)
     nu2 = -still.stiffness(still.omega3)
-    librations = [Libration(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
+    motions = [Leaving(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
     law = (
         rf"dashed: the law $\lvert\omega_1B'_2\rvert/\nu_n$ near the hyperbola, where nutation has the frequency "
         rf"$\nu_n{tex_equals(float(np.sqrt(nu2)))}$."
@@ -60,8 +65,8 @@ def scene(
             + ("which falls in proportion to omega 1." if nu2 > 0 else "which does not fall to zero with omega 1.")
         ),
         panels=(
-            courses(librations, omega1, turns, unit),
-            departures((ratio, field, omega2), librations, omega1, nu2, unit),
+            courses(motions, omega1, turns, unit),
+            departures((ratio, field, omega2), motions, omega1, nu2, unit),
         ),
         columns=2,
         named={"dashed": "reference"},
@@ -82,19 +87,51 @@ def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) 
     return PseudoOscillator(ratio, (B2, B3), (omega1, omega2, omega3))
 
 
-def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: float, unit: str) -> Plane:
+class Leaving:
+    """A motion by the departure of Omega3 from its start; that is B3 - b nu, (40), which keeps its digits for a needle.
+
+    `below` and `above` are its ends, `farthest` the larger of them, `speed` the rate at t = 0. The body in a field is
+    a top with the coupling b (I2, I3), nu the cosine between its axis and the field. DomainError for rounding alone.
+    """
+
+    def __init__(self, oscillator: PseudoOscillator) -> None:
+        omega = oscillator.omega1, oscillator.omega2, oscillator.omega3
+        (I2, I3), self.field = moments(oscillator.ratio), (float(oscillator.B2), float(oscillator.B3))
+        self.b = float(np.hypot(*self.field))
+        self.top = TopMotion((I2, I3), (I2 * self.b, I3 * self.b), self.field, omega)
+        ends = [self.field[1] - self.b * nu for nu in self.top.turning_points]
+        self.below, self.above = min(ends), max(ends)
+        self.farthest, self.speed = max(self.above, -self.below), float(oscillator.omega1) * self.field[0]
+        if self.farthest < SEEN * self.b:
+            raise DomainError(
+                f"From omega = {self.top.omega} Omega3 changes by less than {SEEN:g} of the field's size."
+            )
+
+    @property
+    def period(self) -> float:
+        """Period of the oscillation. Raises DomainError for a motion on a separatrix."""
+        if not np.isfinite(self.top.period):
+            raise DomainError(f"From omega = {self.top.omega} the motion runs on a separatrix: it has no period.")
+        return float(self.top.period)
+
+    def departure(self, t: FloatArray) -> FloatArray:
+        """Return points (t, Omega3 - omega3), shape (N, 2), at times (N,)."""
+        return np.stack([t, self.field[1] - self.b * self.top.field_in_body(t)[:, 2]], axis=1)
+
+
+def courses(motions: Sequence[Leaving], omega1: Sequence[float], turns: float, unit: str) -> Plane:
     """Panel (a): the departure of Omega3 over time, and the slopes omega1 B2."""
-    stop = turns * max(libration.period for libration in librations)
-    reach = 1.35 * max(max(-libration.below, libration.above) for libration in librations)
-    lowest, highest = min(0.0, *(x.below for x in librations)), max(0.0, *(x.above for x in librations))
+    stop = turns * max(x.period for x in motions)
+    reach = 1.35 * max(x.farthest for x in motions)
+    lowest, highest = min(0.0, *(x.below for x in motions)), max(0.0, *(x.above for x in motions))
     pad = 0.16 * (highest - lowest)
     limits = (lowest - pad, highest + pad)
     size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
-    for libration, value, role in zip(librations, omega1, LINES, strict=False):
-        whole, window = stop / libration.period, ((0.0, stop), limits)
-        line = flat(libration.departure, 0.0, 1.05 * whole, window, size, pieces=max(8, round(10 * whole)))
-        tangent = np.array([[0.0, 0.0], [1.0, libration.speed]]) * min(stop, reach / abs(libration.speed)) * 0.5
+    for one, value, role in zip(motions, omega1, LINES, strict=False):
+        pieces = max(PIECES, round(PIECES * stop / one.period))
+        line = flat(one.departure, 0.0, stop, ((0.0, stop), limits), size, pieces=pieces)
+        tangent = np.array([[0.0, 0.0], [1.0, one.speed]]) * min(stop, reach / abs(one.speed)) * 0.5
         layers += [
             Curve(tangent, "reference"),
             Curve(line, role, rf"$\omega_1={tex(value)}$"),
@@ -111,7 +148,7 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
 
 def departures(
     point: tuple[Any, tuple[float, float], float],
-    librations: Sequence[Libration],
+    motions: Sequence[Leaving],
     omega1: Sequence[float],
     nu2: float,
     unit: str,
@@ -122,12 +159,12 @@ def departures(
     ends = (float(size.min()) / 30, float(size.max()) * 10)
 
     def departure(logarithm: FloatArray) -> FloatArray:
-        moved = [Libration(start(ratio, field, float(value), omega2)) for value in 10.0**logarithm]
-        return np.stack([logarithm, [np.log10(max(x.above, -x.below)) for x in moved]], axis=1)
+        moved = [Leaving(start(ratio, field, float(value), omega2)) for value in 10.0**logarithm]
+        return np.stack([logarithm, [np.log10(x.farthest) for x in moved]], axis=1)
 
     decade = max((WIDTH / 2 - MARGIN) / np.log10(ends[1] / ends[0]), (HEIGHT - MARGIN) / np.log10(3.0 / DEEP))
     line = 10.0 ** curve(departure, np.log10(ends[0]), np.log10(ends[1]), quarter_pixel(1.0, decade), pieces=6)
-    dots = np.array([[a, max(x.above, -x.below)] for a, x in zip(size, librations, strict=True)])
+    dots = np.array([[a, x.farthest] for a, x in zip(size, motions, strict=True)])
     layers: list[Layer] = [Curve(line, "main"), Points(dots, "start")]
     top = float(line[:, 1].max())
     limits = (min(0.5 * float(line[:, 1].min()), DEEP * top), 3.0 * top)

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 from atlas import AtlasError, ElementaryMotion
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, recipes
-from atlas.scene.libration import Libration
 
 
 def scene(name: str, **parameters: Any) -> Any:
@@ -54,16 +52,3 @@ def test_a_trace_of_too_many_turns_is_left_out() -> None:
     most = 400.0 / max(abs(motion.k), abs(motion.phi)) * abs(motion.k) / (2 * np.pi)
     assert "second_trace" in roles(scene("motion_sphere", turns=most * (1 - 1e-9)))
     assert "second_trace" not in roles(scene("motion_sphere", turns=most * (1 + 1e-9)))
-
-
-@pytest.mark.parametrize("field", [(3.0, 1.0), (1.0, 0.0)])
-def test_an_unstable_equilibrium_stays_where_it_is(field: tuple[float, float]) -> None:
-    """At a double or triple root of Q, with Q > 0 beside it, Omega3 does not move and has no period."""
-    I = 0.5
-    omega2 = -1.5 if field[1] else -0.5
-    omega3 = -2.0 if field[1] else 0.0
-    libration = Libration(PseudoOscillator(I, field, (0.0, omega2, omega3)))
-    assert libration.powers[:2].tolist() == [0.0, 0.0]
-    assert np.polynomial.Polynomial(libration.powers)(1e-3) > 0 or np.polynomial.Polynomial(libration.powers)(-1e-3) > 0
-    assert libration.range == (omega3, omega3)
-    assert libration.period == np.inf
