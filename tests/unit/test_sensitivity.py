@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb, fmpq
+from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.exact.motions.ball import BallMotion
@@ -21,31 +22,44 @@ TOP = ("I2", "I3", "k2", "k3", "n2", "n3", "omega1", "omega2", "omega3", "linear
 STEADY = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).omega3
 
 
-def by_differences(make: Any, values: Any, place: int, t: float) -> Any:
-    """Return v from two motions in balls that differ by 1e-40 in one input."""
-    with workprec(BITS):
+class Differences:
+    """What two motions in balls that differ by 1e-40 in one input tell of its derivatives."""
+
+    def __init__(self, make: Any, values: Any, place: int) -> None:
         exact = [rational(x) for x in values]
-        up, down, here = (
-            make(*[x + (n * STEP if i == place else 0) for i, x in enumerate(exact)]).rotation(rational(t))
-            for n in (1, -1, 0)
-        )
-        turn = [
-            [
-                sum((arb(up[i][k] - down[i][k]) * here[j][k] for k in range(3)), arb(0)) / (2 * arb(STEP))
-                for j in range(3)
+        self.motions = [make(*[x + (n * STEP if i == place else 0) for i, x in enumerate(exact)]) for n in (1, -1, 0)]
+
+    def at(self, of: str, t: float) -> Any:
+        """Return the derivative of a vector in the body, or v of the rotation."""
+        with workprec(BITS):
+            up, down, here = (getattr(x, of)(rational(t)) for x in self.motions)
+            if of != "rotation":
+                return np.array([float((arb(x - y) / (2 * arb(STEP))).mid()) for x, y in zip(up, down, strict=True)])
+            turn = [
+                [
+                    sum((arb(up[i][k] - down[i][k]) * here[j][k] for k in range(3)), arb(0)) / (2 * arb(STEP))
+                    for j in range(3)
+                ]
+                for i in range(3)
             ]
-            for i in range(3)
-        ]
-        return np.array([float(turn[i][j].mid()) for i, j in ((2, 1), (0, 2), (1, 0))])
+            return np.array([float(turn[i][j].mid()) for i, j in ((2, 1), (0, 2), (1, 0))])
 
 
 def check(motion: Any, make: Any, values: Any, names: Any, times: Any = TIMES) -> None:
-    """Compare each derivative at each time with the difference."""
-    found = motion.sensitivity(np.array(times), names)
-    for j in range(len(names)):
-        for i, t in enumerate(times):
-            expected = by_differences(make, values, j, t)
-            assert np.abs(found[i, j] - expected).max() <= BOUND * (1 + np.abs(expected).max()), (names[j], t)
+    """Compare each derivative at each time with the difference, of R, and of Omega and K at the last time."""
+    differences = [Differences(make, values, i) for i in range(len(names))]
+    for of in ("rotation", "angular_velocity", "field_in_body"):
+        if not hasattr(motion, of):
+            continue
+        when = times if of == "rotation" else times[-1:]
+        found, v = motion.sensitivity(np.array(when), names, of), motion.sensitivity(np.array(when), names)
+        for j, name in enumerate(names):
+            for i, t in enumerate(when):
+                expected = differences[j].at(of, t)
+                size = 1 + max(np.abs(expected).max(), np.abs(v[i, j]).max())
+                if of != "rotation":
+                    size *= 1 + np.abs(motion.angular_velocity(t)).max() + np.abs(getattr(motion, of)(t)).max()
+                assert np.abs(found[i, j] - expected).max() <= BOUND * size, (of, name, t)
 
 
 @pytest.mark.parametrize(
@@ -151,3 +165,53 @@ def test_what_has_no_sensitivity_is_refused() -> None:
         atlas.TopMotion((1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 2.0).sensitivity(1.0, "linear")
     with pytest.raises(atlas.AtlasError, match="no input 'omega4'"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, ["omega4"])
+
+
+def in_given_axes(**x: float) -> Any:
+    """Return a motion in any axes, from inputs by name; a1 to a3 turn the body in the laboratory."""
+    turn = Rotation.from_rotvec([x[f"a{i}"] for i in (1, 2, 3)])
+    field, omega = ([x[f"{name}{i}"] for i in (1, 2, 3)] for name in ("B", "omega"))
+    attitude = (turn * Rotation.from_rotvec([0.4, 0.1, -0.6])).as_matrix()
+    if "k2" in x:
+        inertia, coupling = (x["I2"], x["I3"]), (x["k2"], x["k3"])
+        return atlas.TopMotion.in_laboratory(inertia, field, attitude, attitude @ omega, coupling=coupling, linear=0.7)
+    return atlas.motion(x["ratio"], field, omega, attitude)
+
+
+@pytest.mark.parametrize(
+    ("inputs", "size"),
+    [
+        ({"ratio": 1.5}, 0.5),
+        ({"ratio": 1.5}, 0.0),
+        ({"ratio": 1.0}, 0.5),
+        ({"I2": 2, "I3": 1.5, "k2": 0.3, "k3": 1}, 1),
+    ],
+)
+def test_sensitivity_in_given_axes_is_a_difference_quotient(inputs: Any, size: float) -> None:
+    """Field in the laboratory, angular velocity in the body, the attitude: of any class that fits, in its own axes."""
+    start = {f"{name}{i}": x for name, x in (("B", size), ("omega", 0.3), ("a", 0.0)) for i in (1, 2, 3)}
+    start = {**inputs, **start, "omega2": 0.7, "B3": 4 * size}
+    t, h, names = np.array([0.3, -7.0, 40.0]), 1e-3, list(start)
+    motion = in_given_axes(**start)
+    for j, name in enumerate(names):
+        others = [in_given_axes(**{**start, name: start[name] + n * h}) for n in range(-3, 4)]
+        for of in ("rotation", "angular_velocity", "field_in_body"):
+            values = [getattr(x, of)(t) for x in others]
+            slope = sum(c * (values[3 + n] - values[3 - n]) for n, c in ((1, 45), (2, -9), (3, 1))) / (60 * h)
+            if of == "rotation":
+                turn = slope @ motion.rotation(t).swapaxes(1, 2)
+                slope = np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
+            found = motion.sensitivity(t, names, of)[:, j]
+            assert np.abs(found - slope).max() <= 1e-8 * (1 + np.abs(slope).max()), (of, name)
+
+
+def test_scalars_have_derivatives() -> None:
+    """Of a nutation its period and rates, by differences of motions; of two turns the frequencies."""
+    h, inputs = 1e-4, ((1.0, 2.0), (0.3, 0.7, 0.2))
+    motions = [atlas.GeneralMotion(1.5 + n * h, *inputs) for n in (-2, -1, 0, 1, 2)]
+    for name in ("period", "precession_rate", "spin_rate"):
+        a, b, _, c, d = (getattr(x, name) for x in motions)
+        assert motions[2].sensitivity(0, "ratio", name) == pytest.approx((a - 8 * b + 8 * c - d) / (12 * h), rel=1e-9)
+    # k = omega2 b/B2, (79)
+    found = atlas.ElementaryMotion(1.5, (3.0, 4.0), 0.6).sensitivity(0, ["omega2", "ratio"], "k")
+    assert found == pytest.approx([5 / 3, 0], abs=1e-15)

@@ -135,19 +135,22 @@ class Motion(Shown, Generic[Single]):
         """
         return self.column(3, t)
 
-    def sensitivity(self, t: Any, names: Any) -> FloatArray:
-        """Vector v in the laboratory by which R(t) turns for a unit of an input p, dR/dp = [v]x R; (..., names, 3).
+    def sensitivity(self, t: Any, names: Any, of: str = "rotation") -> FloatArray:
+        """Vector v in the laboratory with dR/dp = [v]x R, for each input p by its name; shape (..., names, 3).
 
-        `names` are those of the inputs: "ratio", "B2", "omega1", ..., "t" for time; of a `GeneralMotion` also "B1", the
-        field's components standing in the laboratory, "omega1" to "omega3" in the body, and "a1" to "a3", which turn
-        R(0) about the axes of the laboratory. Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of
-        derivatives of frequencies. A border between kinds, such as a ball or a steady precession, is no exception.
-        Raises DomainError on a separatrix, from which neighbours depart for good, AtlasError for another name and for
-        times as `rotation` does.
+        `names` are those of the class: "ratio", "B2", "omega1", ..., "t" for time. Where the field may be of any
+        direction, as in `atlas.motion`, "B1" to "B3" are its components in the laboratory, "omega1" to "omega3" those
+        of the angular velocity along the body's axes at t = 0, and "a1" to "a3" turn R(0) about the axes of the
+        laboratory. `of="angular_velocity"` gives dOmega/dp and `of="field_in_body"` dK/dp, both in the body; the name
+        of a scalar, such as "period", "precession_rate" or "k", its derivatives, of shape (..., names), whatever `t`.
+
+        Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of derivatives of frequencies. A border
+        between kinds, such as a ball or a steady precession, is no exception. Raises DomainError on a separatrix, from
+        which neighbours depart for good, AtlasError for another name and for times as `rotation` does.
         """
-        from atlas.core.motions.sensitivity import of
+        from atlas.core.motions.sensitivity import of as derivatives
 
-        return of(self, t, names)
+        return derivatives(self, t, names, of)
 
     def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
         """Return the motion at these times, or over one period, as an animation of Matplotlib's.

@@ -1,23 +1,20 @@
-"""Derivatives of a rotation matrix in the inputs of its motion: the vector v in the laboratory, dR/dp = [v]x R.
+"""How a motion depends on its inputs: R(t) by the vector v, dR/dp = [v]x R, Omega, the field in the body, and scalars.
 
-Every motion of one nutation is R = exp(lambda t n) S(s) exp(sigma t e3), s = t + origin less whole periods T, so
-
-    v = t lambda_p n + t sigma_p R e3 + (origin_p - count T_p) v_s + (what is bounded and periodic).
-
-Whatever grows with time is in three derivatives of frequencies, which `atlas.exact.nutation.variations` makes in balls
-with all other constants; v_s and the bounded part are those of the pair (alpha, beta) at a fixed place s in the period.
+The inputs of a class are what its twin in balls is made of, with the field and the angular velocity in the body at
+t = 0. What a user may ask for moves several of them: with R(0) = L C, C the axes of the class as rows in those of the
+body, the field B of the laboratory is K = L^T B there, and turning the body at t = 0 by a turns it by -L^T [a, B]. All
+else follows from v and dv/dt: dOmega/dp = R^T dv/dt, dK/dp = R^T (dB/dp - [v, B]).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
-from flint import acb, arb, fmpq
+from flint import arb, fmpq
 
-from atlas.core.arithmetic.phase import EVEN, Phases, room
-from atlas.core.arithmetic.words import TURN
-from atlas.core.inputs import FloatArray, real
+from atlas.core.inputs import FloatArray, common_shape, real
+from atlas.core.nutation.variations import Varied
 from atlas.core.quantities import TIME, bare
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.motions.elliptic import EllipticMotion
@@ -25,234 +22,75 @@ from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.cayley_klein import steady
 from atlas.exact.nutation.nutating import Nutating
-from atlas.exact.nutation.variations import Constants, Tables, Variation, constants, variation
+from atlas.exact.nutation.variations import Constants, constants, variations
 from atlas.formulas import ball, elementary
 from atlas.formulas.numbers import direction, rational, workprec
 
-BLOCK = 4096
-"""Times at once."""
+VECTORS = ("rotation", "angular_velocity", "field_in_body")
+"""What varies with time."""
 
-NEGLIGIBLE = 2.0**-64
-"""Part of the largest term of a sum below which a term is left out."""
-
-SERIES, SMALL = 14, 0.1
-"""Terms of the series in A u^2 of the derivative in A of the integral of nu, and up to where it is taken."""
-
-Array: TypeAlias = np.ndarray[Any, Any]
-
-
-class Pair:
-    """alpha and beta of one motion in doubles, with their derivatives in several inputs, at any time."""
-
-    def __init__(self, variations: Sequence[Variation]) -> None:
-        form, places, _, kinds, *_ = variations[0].form
-        self.steady, self.hyperbolic = form == "steady", form == "hyperbolic"
-        self.doubled, self.order = [doubled for doubled, _ in kinds], np.eye(3)[list(places)]
-        value, slopes = variations[0].values, [x.slopes for x in variations]
-        self.rates = _doubles(slopes, "rates").real
-        with workprec():
-            cells = 1 if self.hyperbolic else 2
-            half, origin = value["times"] or (arb(1), arb(0))
-            self.cell = 2 * cells * half
-            turns, starts = [value["rates"][0].mid() / TURN], [arb(0)]
-            if not self.steady:
-                turns, starts = [*turns, (1 / self.cell).mid()], [*starts, (origin / self.cell).mid()]
-            self.phases = Phases(turns, starts, rounder=EVEN)
-            self.start = float((origin / self.cell).mid())
-            self.cell, self.origin = float(self.cell.mid()), float(origin.mid())
-        times = np.zeros((len(slopes), 2)) if self.steady else _doubles(slopes, "times").real
-        self.cells, self.origins = 2 * cells * times[:, 0], times[:, 1]
-        self.tilt, self.tilts = _double(value["tilt"]).real, _doubles(slopes, "tilt").real
-        with workprec():
-            self._weigh(value, slopes)
-        self.swing = Swing(value, slopes, self) if "swing" in value else None
-
-    def _weigh(self, value: Tables, slopes: Sequence[Tables]) -> None:
-        """Keep the weights of S, C, s S, s C in alpha and beta, in their slopes by s, and in their derivatives."""
-        rate, *twists = value["slopes"]
-        self.rate, self.twist = float(rate.mid()), float((twists[0] + twists[1]).mid())
-        self.tables: list[Array] = []
-        self.frequencies: list[FloatArray] = []
-        sign = 1 if self.hyperbolic else -1
-        for i in range(2):
-            row, changes, twist = value[f"sum {i}"], [x[f"sum {i}"] for x in slopes], twists[i] * acb(0, 1)
-            k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
-            # S and C change places: the derivative by rate s is odd C -+ even S
-            turned = [k[n] * (row[n - 1] if n % 2 else sign * row[n + 1]) for n in range(len(row))]
-            slope = [twist * x + rate * y for x, y in zip(row, turned, strict=True)]
-            still, moving = [slope], [[acb(0)] * len(row)]
-            for x, change in zip(slopes, changes, strict=True):
-                origin = x["times"][1] if x["times"] else arb(0)
-                more, own = x["slopes"][0], x["slopes"][1 + i] * acb(0, 1)
-                # in balls: next to a steady motion the origin moves fast, and the weights against it
-                still.append([y + origin * z for y, z in zip(change, slope, strict=True)])
-                moving.append([own * y + more * z for y, z in zip(row, turned, strict=True)])
-            table = np.concatenate([[_double(x) for x in (row, *still)], [_double(x) for x in (row, *moving)]], 1)
-            table[0, len(row) :] = 0
-            self._keep(table, np.array(k[::2], dtype=float))
-
-    def _keep(self, table: Array, k: FloatArray) -> None:
-        """Keep the terms that matter. DomainError where none but huge ones do."""
-        reach = self.rate * self.cell / 2 if self.hyperbolic else 0.0
-        size = abs(table).max(0).reshape(2, -1, 2).max((0, 2))
-        with np.errstate(over="ignore", invalid="ignore"):
-            grown = size * np.exp(k * reach)
-            count = int(np.flatnonzero(grown > NEGLIGIBLE * grown.max()).max(initial=0)) + 1
-        if not np.isfinite(grown).all():
-            raise DomainError("The motion is too near to a separatrix for derivatives in floats.")
-        self.tables.append(table.reshape(len(table), 2, -1, 2)[:, :, :count].reshape(len(table), -1))
-        self.frequencies.append(k[:count])
-
-    def places(self, t: FloatArray) -> tuple[Array, FloatArray, FloatArray]:
-        """Return exp(i lambda t), s, and the count of whole cells."""
-        half, rest, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
-        turn = 2 * (half + rest)
-        if self.steady:
-            return np.exp(1j * turn[0]), np.zeros(t.size), np.zeros(t.size)
-        parts = turn[1] / float(TURN)
-        return np.exp(1j * turn[0]), parts * self.cell, np.rint(t / self.cell + self.start - parts)
-
-    def rows(self, s: FloatArray, i: int) -> tuple[Array, Array]:
-        """Return alpha (i = 0) or beta with its slope by s, (2, m), and the derivatives in the inputs, (P, m)."""
-        if self.steady:
-            found = self.tables[i][:, 1:2] * np.ones(s.size)
-        else:
-            functions = _functions(self.rate * s, self.frequencies[i], self.hyperbolic)
-            basis = np.concatenate([functions, functions * s])
-            found = self.tables[i] @ basis
-        return found[:2], found[2:]
-
-    def vectors(self, t: FloatArray) -> Array:
-        """Return v of each input at times (m,), (P, m, 3), in the frame of the motion's body at t = 0."""
-        turn, s, count = self.places(t)
-        (a, a_s), a_p = self.rows(s, 0)
-        (b, b_s), b_p = self.rows(s, 1)
-        along = count * self.cells[:, None]
-        a_p, b_p = a_p - along * a_s, b_p - along * b_s
-        square = (a * a.conj() + b * b.conj()).real
-        turn = turn * np.exp(1j * self.twist * s)
-        across = (b_p * a - a_p * b) * (2 * turn / square)
-        third = (a_p * a.conj() + b_p * b.conj()).imag * (2 / square)
-        e, e3 = -2j * a * b * turn / square, (a * a.conj() - b * b.conj()).real / square
-        c, sine, C, S = self.tilt
-        dc, ds, dC, dS = self.tilts.T
-        chi = C * dS - S * dC
-        spin = t * self.rates[:, 1:] + chi[:, None]
-        if self.swing:
-            spin = spin + self.swing.change(s, count)
-        across, third = across + spin * e, third + spin * e3 + t * self.rates[:, :1]
-        # out of the frame of the field: R_z(-chi) R_x(-theta)
-        cos, sin = c * c - sine * sine, 2 * c * sine
-        y, z = cos * across.imag + sin * third, cos * third - sin * across.imag
-        x = across.real - 2 * (c * ds - sine * dc)[:, None]
-        return np.stack([C * x + S * y, C * y - S * x, z - chi[:, None]], -1) @ self.order
-
-
-class Swing:
-    """What the integral of nu adds to the turn about a top's axis, and its derivatives."""
-
-    def __init__(self, value: Tables, slopes: Sequence[Tables], pair: Pair) -> None:
-        self.pair, self.A = pair, float(value["A"][0].mid())
-        self.kappa, self.twist = (_double(value[x]).real[0] for x in ("swing", "twist"))
-        self.kappas, self.twists = (_doubles(slopes, x).real[:, 0] for x in ("swing", "twist"))
-        self.As = _doubles(slopes, "A").real[:, 0]
-        self.rates = _doubles(slopes, "slopes").real[:, 0]
-        names = ("sum 2", "sum 3")
-        self.sums = [_double(value[x]).reshape(-1, 2).real for x in names]
-        self.changes = [_doubles(slopes, x).reshape(len(slopes), -1, 2).real for x in names]
-        zero = np.zeros(1)
-        at_start = self._terms(zero + pair.origin)
-        self.start = at_start[0] + pair.origins[:, None] * at_start[1]
-
-    def _terms(self, s: FloatArray) -> tuple[Array, Array]:
-        """Return the derivatives of the angle at a fixed place, (P, m), and its slope by s."""
-        parts, bys, changes = [], [], []
-        for i, (both, change) in enumerate(zip(self.sums, self.changes, strict=True)):
-            doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
-            k = np.arange(len(both), dtype=float) * 2 + (not doubled)
-            f = _functions(self.pair.rate * s, k, hyperbolic)
-            turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1).ravel() @ f
-            parts.append(both.ravel() @ f)
-            bys.append(self.pair.rate * turned)
-            changes.append(change.reshape(len(change), -1) @ f + self.rates[:, None] * s * turned)
-        (o, e), (o_s, e_s), (o_p, e_p), A = parts, bys, changes, self.A
-        square = e * e - A * o * o
-        size = np.sqrt(abs(A))
-        bent = 2 * o / e
-        if A:
-            bent = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
-        by_A = (o * e / square - bent / 2) / A if A else 2 * (o / e) ** 3 / 3
-        near = abs(A) * o * o < SMALL * e * e
-        u = o[near] / e[near]
-        by_A[near] = sum(2 * n / (2 * n + 1) * A ** (n - 1) * u ** (2 * n + 1) for n in range(1, SERIES))
-        part = 2 * (o_p * e - o * e_p) / square + self.As[:, None] * by_A
-        whole = self.kappas[:, None] * (self.twist * s + bent) + self.kappa * (self.twists[:, None] * s + part)
-        return whole, self.kappa * (self.twist + 2 * (o_s * e - o * e_s) / square)
-
-    def change(self, s: FloatArray, count: FloatArray) -> Array:
-        """Return the derivatives of the angle, but for what grows with time."""
-        p = self.pair
-        fixed, slope = self._terms(s)
-        return np.asarray(fixed + (p.origins[:, None] - count * p.cells[:, None]) * slope - self.start)
-
-
-def _functions(x: FloatArray, k: FloatArray, hyperbolic: bool) -> Array:
-    """Return S and C of k x by turns, (2 len(k), m)."""
-    out = np.empty((2 * len(k), x.size))
-    for i, n in enumerate(k.tolist()):
-        out[2 * i], out[2 * i + 1] = (np.sinh(n * x), np.cosh(n * x)) if hyperbolic else (np.sin(n * x), np.cos(n * x))
-    return out
-
-
-def _double(row: Sequence[Any]) -> Array:
-    """Return balls as complex doubles."""
-    return np.array([complex(acb(x).mid()) for x in row], dtype=complex)
-
-
-def _doubles(tables: Sequence[Tables], name: str) -> Array:
-    return np.array([_double(x[name]) for x in tables])
+NUTATION = ("period", "precession_per_period", "spin_per_period", "precession_rate", "spin_rate", "modulus", "nome")
+"""Scalars of motions that nutate, and of the others."""
 
 
 @dataclass(frozen=True)
 class Inputs:
-    """Exact inputs of one motion by name, their sizes, and what makes its constants."""
+    """Exact inputs of one motion by name, their sizes, what makes its twin, and scalars of that.
+
+    `form` is what the twin depends on besides; `parts` are moments, coupling, and the potential's linear and quadratic
+    part, from which the angular acceleration follows; `field` is the field in the body at t = 0 with its derivatives in
+    the inputs.
+    """
 
     names: tuple[str, ...]
     values: tuple[fmpq, ...]
     scales: tuple[fmpq, ...]
-    make: Callable[..., Constants]
+    twin: Callable[..., Any]
+    scalars: Mapping[str, Callable[[Any], Any]]
+    parts: tuple[FloatArray, FloatArray, float, float]
+    field: FloatArray
+    fields: Mapping[str, FloatArray]
 
-    def vectors(self, names: Sequence[str], t: FloatArray) -> FloatArray:
-        """Return v at times (m,), (m, len(names), 3)."""
-        found = [variation(self.make, self.values, self.names.index(x), self.scales) for x in names]
-        out = np.empty((t.size, len(names), 3))
-        for group in _alike(found):
-            pair = Pair([found[i] for i in group])
-            for i in range(0, t.size, BLOCK):
-                out[i : i + BLOCK, group] = pair.vectors(t[i : i + BLOCK]).swapaxes(0, 1)
-        return out
+    def varied(self, names: Sequence[str]) -> Varied:
+        """Return what gives v and dv/dt for some of the inputs."""
+        return Varied(variations(self._constants, self.values, self._places(names), self.scales))
 
+    def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
+        """Return the derivatives of a scalar, (len(names),)."""
 
-def _alike(found: Sequence[Variation]) -> list[list[int]]:
-    """Return the places of variations with the same constants: on a border each input has its own."""
-    groups: list[list[int]] = []
-    for i, x in enumerate(found):
-        for group in groups:
-            other = found[group[0]]
-            same = other.form == x.form and all(
-                len(row) == len(x.values[name]) and all(map(_same, row, x.values[name]))
-                for name, row in other.values.items()
-            )
-            if same:
-                group.append(i)
-                break
-        else:
-            groups.append([i])
-    return groups
+        def make(*x: fmpq) -> Constants:
+            return Constants((), {name: [arb(self.scalars[name](self.twin(*x)))]})
+
+        found = variations(make, self.values, self._places(names), self.scales)
+        return np.array([float(x.slopes[name][0].mid()) for x in found])
+
+    def _constants(self, *x: fmpq) -> Constants:
+        twin = self.twin(*x)
+        if isinstance(twin, Turns):
+            return twin.constants()
+        return constants(twin.tilt(), twin.solution, getattr(twin, "places", (0, 1, 2)))
+
+    def _places(self, names: Sequence[str]) -> list[int]:
+        return [self.names.index(x) for x in names]
 
 
-def _same(x: Any, y: Any) -> bool:
-    return complex(acb(x).mid()) == complex(acb(y).mid())
+class Turns(NamedTuple):
+    """A motion R_n(k t) R_z(phi t), n along a vector."""
+
+    along: Any
+    k: Any
+    phi: Any
+
+    def constants(self) -> Constants:
+        """Return its constants."""
+        axis = self.along if len(self.along) == 3 else (fmpq(0), *self.along)
+        n1, n2, n3 = (arb(y) for y in direction(axis))
+        across = (n1 * n1 + n2 * n2).sqrt() if not axis[0] == axis[1] == 0 else arb(0)
+        C, S = (n2 / across, n1 / across) if across != 0 else (arb(1), arb(0))
+        longer = ((1 + abs(n3)) / 2).sqrt()
+        shorter = across / (2 * longer)
+        tilt = (longer, shorter, C, S) if axis[2] >= 0 else (shorter, longer, C, S)
+        return constants(tilt, steady(tilt, self.k, self.phi, arb("inf")))
 
 
 def _size(*rates: fmpq) -> fmpq:
@@ -260,134 +98,274 @@ def _size(*rates: fmpq) -> fmpq:
     return max((abs(x) for x in rates), default=fmpq(0)) or fmpq(1)
 
 
-def _nutating(twin: Nutating) -> Constants:
-    """Return the constants of a motion in balls."""
-    return constants(twin.tilt(), twin.solution, getattr(twin, "places", (0, 1, 2)))
+def _floats(values: Sequence[fmpq]) -> FloatArray:
+    with workprec():
+        return np.array([float(arb(x).mid()) for x in values])
 
 
-def general(exact: GeneralMotion) -> Inputs:
-    """Return the inputs of a general motion: the ratio, and field and angular velocity in the body at t = 0."""
-    size = _size(*exact.field, *exact.omega)
+def _nutation() -> dict[str, Callable[[Nutating], Any]]:
+    """Return the scalars of a motion that nutates."""
+    found: dict[str, Callable[[Nutating], Any]] = {
+        name: lambda twin, name=name: getattr(twin, name)  # type: ignore[misc]
+        for name in NUTATION
+    }
+    for name in ("precession", "spin"):
+        found[f"{name}_rate"] = lambda twin, name=name: getattr(twin, f"{name}_per_period") / twin.period  # type: ignore[misc]
+    return found
+
+
+def _general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
+    """Return the inputs of a body in a field: the ratio, and field and angular velocity in the body at t = 0."""
+    size, J = _size(*K, *omega), np.array([1.0, 1.0, *_floats([I])])
     return Inputs(
-        ("ratio", "K1", "K2", "K3", "omega1", "omega2", "omega3"),
-        (exact.I, *exact.field, *exact.omega),
-        (exact.I, *[size] * 6),
-        lambda I, *x: _nutating(GeneralMotion.at_state(I, x[3:], x[:3])),
-    )
+        ("ratio", "K1", "K2", "K3", "omega1", "omega2", "omega3"), (I, *K, *omega), (I, *[size] * 6),
+        lambda I, *x: GeneralMotion.at_state(I, x[3:], x[:3]),
+        _nutation(), (J, J, 0.0, 0.0), _floats(K), _units(("K1", "K2", "K3")),
+    )  # fmt: skip
 
 
-def top(row: Sequence[float]) -> Inputs:
+def _units(names: Sequence[str]) -> dict[str, FloatArray]:
+    """Return unit vectors by name."""
+    return dict(zip(names, np.eye(3)[3 - len(names) :], strict=True))
+
+
+def _top(row: Sequence[float]) -> Inputs:
     """Return the inputs of a top."""
     values = tuple(rational(float(x)) for x in row)
-    I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = values
-    rates = (k2 / I2, k3 / I3, w1, w2, w3)
-    pull = rational(float(np.sqrt(abs(float(linear.p) / float(linear.q) / row[0])))) if linear != 0 else fmpq(0)
-    push = rational(float(np.sqrt(abs(float(quadratic.p) / float(quadratic.q) / row[0])))) if quadratic != 0 else 0
-    w = _size(*rates, pull, fmpq(push))
-    n = _size(n2, n3)
+    I2, I3, k2, k3, n2, n3, w1, w2, w3 = values[:9]
+    pull, push = (rational(float(np.sqrt(abs(x / row[0])))) for x in row[9:])
+    w, n = _size(k2 / I2, k3 / I3, w1, w2, w3, pull, push), _size(n2, n3)
+    unit = np.array([0.0, row[4], row[5]]) / np.hypot(row[4], row[5])
+    across = np.outer(np.array([0.0, -unit[2], unit[1]]), [-unit[2], unit[1]]) / np.hypot(row[4], row[5])
     return Inputs(
-        ("I2", "I3", "k2", "k3", "n2", "n3", "omega1", "omega2", "omega3", "linear", "quadratic"),
-        values,
+        ("I2", "I3", "k2", "k3", "n2", "n3", "omega1", "omega2", "omega3", "linear", "quadratic"), values,
         (I2, I3, I2 * w, I2 * w, n, n, w, w, w, I2 * w * w, I2 * w * w),
-        lambda *x: _nutating(TopMotion(x[:2], x[2:4], x[4:6], x[6:9], *x[9:])),
-    )
+        lambda *x: TopMotion(x[:2], x[2:4], x[4:6], x[6:9], *x[9:]), _nutation(),
+        (np.array([row[0], row[0], row[1]]), np.array([row[2], row[2], row[3]]), row[9], row[10]),
+        unit, {"n2": across[:, 0], "n3": across[:, 1]},
+    )  # fmt: skip
 
 
-def elliptic(exact: EllipticMotion) -> Inputs:
+def _elliptic(exact: EllipticMotion) -> Inputs:
     """Return the inputs of an elliptic motion."""
-    size, (I1, I2, I3) = _size(*exact.field), exact.inertia
+    size, (I1, I2, I3), J = _size(*exact.field), exact.inertia, _floats(exact.inertia)
     return Inputs(
-        ("I1", "I2", "I3", "B1", "B2", "B3", "z"),
-        (*exact.inertia, *exact.field, exact.z),
+        ("I1", "I2", "I3", "K1", "K2", "K3", "z"), (*exact.inertia, *exact.field, exact.z),
         (I1, I2, I3, size, size, size, _size(exact.z, I1 * I2)),
-        lambda *x: _nutating(EllipticMotion(x[:3], x[3:6], x[6], exact.branch)),
-    )
+        lambda *x: EllipticMotion(x[:3], x[3:6], x[6], exact.branch),
+        _nutation(), (J, J, 0.0, 0.0), _floats(exact.field), _units(("K1", "K2", "K3")),
+    )  # fmt: skip
 
 
-def two_turns(names: Sequence[str], values: Sequence[fmpq], scales: Sequence[fmpq], turning: Any) -> Inputs:
-    """Return the inputs of a motion R_n(k t) R_z(phi t), whose axis and frequencies `turning` has."""
-
-    def make(*x: fmpq) -> Constants:
-        along, k, phi = turning(*x)
-        axis = along if len(along) == 3 else (fmpq(0), *along)
-        n1, n2, n3 = (arb(y) for y in direction(axis))
-        across = (n1 * n1 + n2 * n2).sqrt() if not axis[0] == axis[1] == 0 else arb(0)
-        C, S = (n2 / across, n1 / across) if across != 0 else (arb(1), arb(0))
-        longer = ((1 + abs(n3)) / 2).sqrt()
-        shorter = across / (2 * longer)
-        tilt = (longer, shorter, C, S) if axis[2] >= 0 else (shorter, longer, C, S)
-        return constants(tilt, steady(tilt, k, phi, arb("inf")))
-
-    return Inputs(tuple(names), tuple(values), tuple(scales), make)
+TURNS: dict[str, Callable[[Turns], Any]] = {
+    "k": lambda x: x.k,
+    "phi": lambda x: x.phi,
+    "precession_rate": lambda x: x.k,
+    "spin_rate": lambda x: x.phi,
+    "period": lambda x: 2 * arb.pi() / abs(arb(x.k)),
+}
+BALL: dict[str, Callable[[Turns], Any]] = {
+    "gamma": lambda x: x.k,
+    "precession_rate": lambda x: -x.phi,
+    "spin_rate": lambda x: -x.k,
+}
 
 
 def _elementary(case: str, row: Sequence[float], given: bool) -> Inputs:
     """Return the inputs of an elementary motion."""
     I2, I3, B2, B3, w2, w3 = (rational(float(x)) for x in row)
     size = _size(B2, B3, w2, w3)
-    case = "precession" if case == "at rest" else case
+    case, J = "precession" if case == "at rest" else case, np.array([1.0, 1.0, row[1] / row[0]])
     count = 5 if given else 4
-    names = ("ratio", "B2", "B3", "omega2", "omega3")[:count]
-    return two_turns(
-        names, (I3 / I2, B2, B3, w2, w3)[:count], (I3 / I2, *[size] * 4)[:count],
-        lambda *x: elementary.turning(case, fmpq(1), *x, *[fmpq(0)] * (5 - count)),
+    return Inputs(
+        ("ratio", "B2", "B3", "omega2", "omega3")[:count],
+        (I3 / I2, B2, B3, w2, w3)[:count], (I3 / I2, *[size] * 4)[:count],
+        lambda *x: Turns(*elementary.turning(case, fmpq(1), *x, *[fmpq(0)] * (5 - count))),
+        TURNS, (J, J, 0.0, 0.0), np.array([0.0, row[2], row[3]]), _units(("B2", "B3")),
     )  # fmt: skip
 
 
 def _free(row: Sequence[float]) -> Inputs:
     """Return the inputs of a free body."""
     I2, I3, *omega = (rational(float(x)) for x in row)
-    return two_turns(
+    J = np.array([1.0, 1.0, row[1] / row[0]])
+    return Inputs(
         ("ratio", "omega1", "omega2", "omega3"), (I3 / I2, *omega), (I3 / I2, *[_size(*omega)] * 3),
-        lambda ratio, *w: elementary.free(fmpq(1), ratio, *w),
+        lambda ratio, *w: Turns(*elementary.free(fmpq(1), ratio, *w)), TURNS, (J, J, 0.0, 0.0), np.zeros(3), {},
     )  # fmt: skip
 
 
 def _ball(row: Sequence[float]) -> Inputs:
-    """Return the inputs of a ball."""
+    """Return the inputs of a ball, in its field along e3."""
     inertia, larmor, *m = (rational(float(x)) for x in row)
-    size = _size(larmor, *(x / inertia for x in m))
-    return two_turns(
+    size, J = _size(larmor, *(x / inertia for x in m)), np.ones(3)
+    return Inputs(
         ("inertia", "larmor", "m2", "m3"), (inertia, larmor, *m), (inertia, size, size * inertia, size * inertia),
-        ball.turning,
+        lambda *x: Turns(*ball.turning(*x)), BALL, (J, J, 0.0, 0.0), np.array([0.0, 0.0, row[1]]), _units(("larmor",)),
     )  # fmt: skip
 
 
-def of(motion: Any, t: Any, names: Any) -> FloatArray:
-    """Return v of a motion, or of an array of them, for each name; shape (..., len(names), 3)."""
+class Moved(NamedTuple):
+    """How a name moves the inputs: by weights, by a turn of the laboratory, and of the body about its third axis."""
+
+    weights: Mapping[str, float]
+    turn: FloatArray = np.zeros(3)
+    spin: float = 0.0
+
+
+def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
+    """Return derivatives of a motion, or of an array of them, see `Motion.sensitivity`."""
     names = [names] if isinstance(names, str) else list(names)
+    known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
+    each = range(int(np.prod(motion.shape)))
+    ones = (known.get(i) or known.setdefault(i, One(motion, i)) for i in each)
+    if of not in VECTORS:
+        return np.array([one.scalar(names, of) for one in ones]).reshape(*motion.shape, len(names))
     times = real(bare(t, "The time", TIME), "The time")
-    full = np.broadcast_shapes(motion.shape, times.shape)
-    if not motion.shape:
-        return _of_one(motion, 0, times.ravel(), names).reshape(*times.shape, len(names), 3)
+    full = common_shape(motion.shape, times.shape)
     out, times = np.empty((*full, len(names), 3)), np.broadcast_to(times, full)
-    own = np.broadcast_to(np.arange(int(np.prod(motion.shape))).reshape(motion.shape), full)
-    for i in range(int(np.prod(motion.shape))):
-        out[own == i] = _of_one(motion, i, times[own == i], names)
+    own = np.broadcast_to(np.arange(len(each)).reshape(motion.shape), full)
+    for i, one in enumerate(ones):
+        out[own == i] = one.vectors(times[own == i], names, of)
     return out
 
 
-def _of_one(motion: Any, i: int, t: FloatArray, names: list[str]) -> FloatArray:
-    """Return v of the i-th motion at times (m,)."""
-    one = motion._single(i)  # noqa: SLF001  of the same floor
-    out = np.empty((t.size, len(names), 3))
-    inputs, chain = _inputs(motion, i, one)
-    allowed = [*chain, "t"]
-    for name in names:
-        if name not in allowed:
-            raise AtlasError(f"There is no input {name!r} of this motion: choose from {', '.join(allowed)}.")
-    needed = [x for x in inputs.names if any(x in chain[name][0] for name in names if name != "t")]
-    found = inputs.vectors(needed, t) if needed else np.empty((t.size, 0, 3))
-    if motion.family == "ball":  # the matrix is the transposed one
-        found = -found @ one.rotation(t).swapaxes(1, 2)
-    A = np.eye(3) if motion.family != "general" else one.rotation(np.zeros(1))[0]
-    for j, name in enumerate(names):
-        if name == "t":
-            out[:, j] = np.matvec(one.rotation(t), _omega(one, motion, t))
-            continue
-        factors, constant = chain[name]
-        out[:, j] = constant + sum(w * (found[:, needed.index(x)] @ A.T) for x, w in factors.items())
-    return out
+class One:
+    """The i-th motion of an array, its inputs, and how names move them."""
+
+    def __init__(self, motion: Any, i: int) -> None:
+        self.motion, self.one = motion, motion._single(i)  # noqa: SLF001  of the same floor
+        family, turned = motion.family, hasattr(motion, "own")
+        self.sides = self.left, self.axes = self._sides(i) if turned else (np.eye(3), np.eye(3))
+        row = [np.broadcast_to(x, motion.shape).flat[i] for x in getattr(motion, "_inputs", ())]
+        if family == "general":
+            exact = self.one.exact
+            self.inputs = _general(exact.I, exact.field, exact.omega)
+            if not turned:
+                self.sides = self.left, _ = self.one.rotation(np.zeros(1))[0], self.axes
+        elif turned and family in ("elementary", "free", "ball"):
+            self.inputs = self._any_start(i, row)
+        elif family in ("top", "elliptic"):
+            self.inputs = _top([float(x) for x in row]) if family == "top" else _elliptic(self.one.exact)
+        elif family == "elementary":
+            self.inputs = _elementary(self.one.case, [0.0 if x is None else float(x) for x in row], row[5] is not None)
+        elif family in ("free", "ball"):
+            self.inputs = (_free if family == "free" else _ball)([float(x) for x in row])
+        else:
+            raise DomainError(f"The {family} motion has no sensitivity here.")
+        self.moved, self._known = self._moved(turned), dict[tuple[str, ...], Varied]()
+
+    def _sides(self, i: int) -> tuple[FloatArray, FloatArray]:
+        """Return L and C of a motion in given axes."""
+        left, right = (np.eye(3) if x is None else x for x in self.motion._sides)  # noqa: SLF001
+        shape = (*self.motion.shape, 3, 3)
+        return tuple(np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in (left, right))
+
+    def _any_start(self, i: int, row: Sequence[Any]) -> Inputs:
+        """Return the inputs of a motion in elementary functions among all of its body."""
+        shape, one = (*self.motion.shape, 3), self.motion.family == "ball"
+        R, w = self.motion._start  # noqa: SLF001
+        start = np.broadcast_to(R, (*shape, 3)).reshape(-1, 3, 3)[i]
+        self.axes = np.eye(3) if one else self.axes
+        self.left = start @ self.axes.T
+        B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (self.motion._given_field, w))  # noqa: SLF001
+        ratio = fmpq(1) if one else rational(float(row[1])) / rational(float(row[0]))
+        K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
+        return _general(ratio, K, omega)
+
+    def _moved(self, turned: bool) -> dict[str, Moved]:
+        """Return how each name that a user may ask for moves the inputs."""
+        own, L, C = self.inputs.names, self.left, self.axes
+        found = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if turned else "K")}
+        if "K1" in own or (turned and "n2" in own):
+            K = [x for x, name in zip(self.inputs.values, own, strict=True) if name[0] in "Kn"]
+            B = L @ _floats([fmpq(0)] * (3 - len(K)) + K)
+            for j, e in enumerate(np.eye(3)):
+                for name, turn, change in ((f"B{j + 1}", np.zeros(3), L[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))):
+                    found[name] = self._of_field(change, turn)
+        if turned and "omega1" in own:
+            found |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
+        return found
+
+    def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
+        """Return what a change of the field in the axes of the class at t = 0 moves, and a turn of the body."""
+        if "K1" in self.inputs.names:
+            return Moved({f"K{k + 1}": change[k] for k in range(3)}, turn)
+        # a top's direction has no first component: its axes turn with that about the third
+        n2, _, w1, w2 = _floats(self.inputs.values[4:8])
+        spin = change[0] / n2 if n2 else np.nan if change[0] else 0.0
+        weights = {"n2": change[1], "n3": change[2], "omega1": -spin * w2, "omega2": spin * w1}
+        return Moved(weights, turn - spin * self.left[:, 2], spin)
+
+    def _asked(self, names: Sequence[str]) -> list[str]:
+        """Return the inputs that names move. Raises AtlasError for another name."""
+        allowed = [*self.moved, "t"]
+        for name in names:
+            if name not in allowed:
+                raise AtlasError(f"There is no input {name!r} of this motion: choose from {', '.join(allowed)}.")
+            if name != "t" and np.isnan(self.moved[name].spin):
+                raise DomainError(f"The top's axis is along n, where its inputs have no derivative in {name}.")
+        return [x for x in self.inputs.names if any(x in self.moved[name].weights for name in names if name != "t")]
+
+    def scalar(self, names: Sequence[str], of: str) -> FloatArray:
+        """Return the derivatives of a scalar, (len(names),)."""
+        if of not in self.inputs.scalars:
+            raise AtlasError(
+                f"A {self.motion.family} motion has no derivative of {of!r}: choose from "
+                f"{', '.join((*VECTORS, *self.inputs.scalars))}."
+            )
+        needed = self._asked(names)
+        found = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
+        return np.array([
+            0.0 if name == "t" else sum(w * found[x] for x, w in self.moved[name].weights.items()) for name in names
+        ])  # fmt: skip
+
+    def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
+        """Return derivatives at times (m,), (m, len(names), 3)."""
+        needed, own = self._asked(names), self.one.rotation(t)
+        R, Omega = self.sides[0] @ own @ self.sides[1], _omega(self.one, self.motion, t) @ self.sides[1]
+        turning = np.matvec(R, Omega)
+        faster, none = of == "angular_velocity", [np.empty((t.size, 0, 3))] * 2
+        found, slopes = [*(self._varied(needed).vectors(t, faster) if needed else none), none[0]][:2]
+        if self.motion.family == "ball" and "larmor" in self.inputs.names:  # the matrix is the transposed one
+            if faster:
+                slopes = -np.matvec(R[:, None], slopes + np.cross(Omega[:, None], found))
+            found = -np.matvec(R[:, None], found)
+        found, slopes, third = found @ self.left.T, slopes @ self.left.T, R @ self.axes[2]
+        B = self.left @ self.inputs.field
+        out = np.empty((t.size, len(names), 3))
+        for j, name in enumerate(names):
+            if name == "t":
+                out[:, j] = turning if of == "rotation" else self._rate(of, R, Omega, B)
+                continue
+            weights, turn, spin = self.moved[name]
+            moved = np.array([weights.get(x, 0.0) for x in needed])
+            if faster:
+                out[:, j] = np.vecmat(moved @ slopes + spin * np.cross(turning, third), R)
+                continue
+            out[:, j] = moved @ found + turn + spin * third
+            if of == "field_in_body":
+                change = moved @ np.array([self.inputs.fields.get(x, np.zeros(3)) for x in needed]).reshape(-1, 3)
+                change = self.left @ change + np.cross(turn, B)
+                out[:, j] = np.vecmat(change - np.cross(out[:, j], B), R)
+        return out
+
+    def _varied(self, names: Sequence[str]) -> Varied:
+        """Return the derivatives in some of the inputs, kept for the next times."""
+        key = tuple(names)
+        if key not in self._known:
+            self._known[key] = self.inputs.varied(names)
+        return self._known[key]
+
+    def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
+        """Return dK/dt, or dOmega/dt: I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega]."""
+        J, k, linear, quadratic = self.inputs.parts
+        w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T
+        if of == "field_in_body":
+            return np.asarray(np.cross(b, w) @ self.axes)
+        push = np.outer(linear + quadratic * b[:, 2], (0.0, 0.0, 1.0))
+        change = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * np.cross(b, w)
+        return np.asarray((change / J) @ self.axes)
 
 
 def _omega(one: Any, motion: Any, t: FloatArray) -> FloatArray:
@@ -396,33 +374,3 @@ def _omega(one: Any, motion: Any, t: FloatArray) -> FloatArray:
         return np.asarray(one.angular_velocity(t))
     spin = one.turned if motion.family == "ball" else one.swung
     return np.asarray(spin(one.vector("Omega"), t, None))
-
-
-Chain = dict[str, tuple[dict[str, float], FloatArray]]
-"""For each name what it moves, and what it adds."""
-
-
-def _inputs(motion: Any, i: int, one: Any) -> tuple[Inputs, Chain]:
-    """Return the inputs of one motion, and how the names that a user may ask for move them."""
-    family, none = motion.family, np.zeros(3)
-    if family == "general":
-        inputs = general(one.exact)
-        A, K = one.rotation(np.zeros(1))[0], np.array([float(x.p) / float(x.q) for x in one.exact.field])
-        chain: Chain = {x: ({x: 1.0}, none) for x in ("ratio", "omega1", "omega2", "omega3")}
-        for j in range(3):
-            chain[f"B{j + 1}"] = {f"K{k + 1}": A[j, k] for k in range(3)}, none
-            turned = -A.T @ np.cross(np.eye(3)[j], A @ K)
-            chain[f"a{j + 1}"] = {f"K{k + 1}": turned[k] for k in range(3)}, np.eye(3)[j]
-        return inputs, chain
-    row = [np.broadcast_to(x, motion.shape).flat[i] for x in motion._inputs]  # noqa: SLF001  of the same floor
-    if family == "top":
-        inputs = top(row)
-    elif family == "elliptic":
-        inputs = elliptic(one.exact)
-    elif family == "elementary":
-        inputs = _elementary(one.case, [0.0 if x is None else float(x) for x in row], row[5] is not None)
-    elif family in ("free", "ball"):
-        inputs = (_free if family == "free" else _ball)(row)
-    else:
-        raise DomainError(f"The {family} motion has no sensitivity here.")
-    return inputs, {x: ({x: 1.0}, none) for x in inputs.names}

@@ -71,6 +71,7 @@ def constants(tilt: Sequence[Any], found: Solution, places: tuple[int, ...] = (0
         tables["rates"][1] += swing.kappa * swing.rate
         # each with a size to compare with, since all may be zero
         tables["swing"], tables["twist"] = [swing.kappa, lattice.rate], [swing.twist, arb(1)]
+        tables["swing rate"] = [swing.kappa * swing.rate, lattice.rate]
         tables["A"] = [swing.A, lattice.rate**2]
     factors = [x.factor for x in pair] + [acb(1)] * 2
     tables |= {f"sum {i}": _flat(x, factor) for i, (x, factor) in enumerate(zip(sums, factors, strict=False))}
@@ -83,11 +84,37 @@ def _flat(x: Sum, factor: acb) -> list[acb]:
     return [y * factor for both in zip(x.odd, x.even, strict=True) for y in both]
 
 
-def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
-    """Return the derivatives of constants in the input at a place; `scales` are sizes of the inputs, not zero.
+def variations(
+    make: Callable[..., Constants], values: Sequence[fmpq], places: Sequence[int], scales: Sequence[fmpq]
+) -> list[Variation]:
+    """Return the derivatives of constants in the inputs at some places; `scales` are sizes of the inputs, not zero.
 
-    Raises DomainError where there are none.
+    Far from borders one step forward in each input will do, and one backward in all, which must undo the others. Raises
+    DomainError where there are none.
     """
+    h = [scale / fmpq(2) ** STEP for scale in scales]
+
+    def at(moved: Sequence[int], sign: int) -> Constants:
+        return make(*(x + sign * h[i] if i in moved else x for i, x in enumerate(values)))
+
+    with workprec(4 * STEP + 64):
+        try:
+            ways = [at([], 0), *(at([i], 1) for i in places), at(places, -1)]
+        except DomainError:
+            ways = []
+        if ways and all(x.form == ways[0].form for x in ways):
+            base, *forward, back = (_even_out(x.tables, ways) for x in ways)
+            steps = [_combined((x, base), (1, -1), arb(1)) for x in forward]
+            together = _combined(steps, [1] * len(steps), arb(1))
+            if _smooth([base, _combined((base, together), (1, 1), arb(1)), back], central=True):
+                slopes = [_combined([x], [1], 1 / arb(h[i])) for i, x in zip(places, steps, strict=True)]
+                if all(_known(base, x, arb(scales[i])) for i, x in zip(places, slopes, strict=True)):
+                    return [Variation(ways[0].form, base, x) for x in slopes]
+    return [variation(make, values, i, scales) for i in places]
+
+
+def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
+    """Return the derivatives of constants in the input at a place, also next to a border, by central differences."""
     small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
     lost = max(0, int(small.q).bit_length() - int(small.p).bit_length())
     bits = STEP + lost
