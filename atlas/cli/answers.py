@@ -45,7 +45,7 @@ def certificate(options: dict[str, Any]) -> str:
     return f"All digits printed are proven; inputs: {taken}."
 
 
-IN_DOUBLES = "Computed in doubles: of a body whose axes are not principal ones no digit is proven."
+IN_DOUBLES = "Computed in doubles: no digit is proven in axes that are not principal ones, or from another attitude."
 
 
 def written(value: Any) -> Any:

@@ -1,7 +1,7 @@
 """The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
 
 from collections.abc import Callable, Mapping
-from math import pi
+from math import hypot, pi
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -31,6 +31,9 @@ LIKE = {
     "loop": "ring", "ellipsoid": "spheroid", "solenoid": "cylindrical-shell",
 }  # fmt: skip
 """Other names of shapes."""
+
+UNIT = 1e-6
+"""By how much the length of a quaternion that is typed may differ from 1."""
 
 ROD = "thin-rod"
 ROD_REASON = (
@@ -112,12 +115,19 @@ any_body_options: Callable[[F], F] = stack(
 tensor_option: Callable[[F], F] = click.option(
     "--tensor", type=REAL, nargs=6, metavar="I11 I22 I33 I12 I13 I23", help="Inertia tensor in any axes of the body."
 )
+attitude_option: Callable[[F], F] = click.option(
+    "--attitude",
+    type=REAL,
+    nargs=4,
+    metavar="X Y Z W",
+    help="R(0) as a quaternion, its scalar last; the field is then along the axes of the laboratory.",
+)
 spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial angular velocity about e3 alone.")
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
-    names = (*BODY, "tensor", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
+    names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
     given: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
     given |= {"points": str(options["points"])} if "points" in given else {}
     return given | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
@@ -191,6 +201,17 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
         a, b, c, d, e, f = options["tensor"]
         return [[a, d, e], [d, b, f], [e, f, c]]
     return oblique_tensor(options["points"]) if options.get("points") is not None else None
+
+
+def given_attitude(options: Mapping[str, Any]) -> Any:
+    """Return the matrix R(0) of --attitude, None where it is not given. Raises click.UsageError for no unit length."""
+    if options.get("attitude") is None:
+        return None
+    from scipy.spatial.transform import Rotation
+
+    if abs((length := hypot(*options["attitude"])) - 1) > UNIT:
+        raise click.UsageError(f"--attitude is a quaternion of the length 1, x y z w, not of {length:.6g}.")
+    return Rotation.from_quat(options["attitude"]).as_matrix()
 
 
 def _one_body(options: Mapping[str, Any]) -> str:

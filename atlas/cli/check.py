@@ -9,11 +9,15 @@ import click
 from atlas.cli.body import (
     BODY,
     any_body_options,
+    attitude_option,
     body_options,
     chosen_body,
     chosen_field,
     chosen_moments,
     field_options,
+    given_tensor,
+    spin_option,
+    tensor_option,
 )
 from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.present import dump
@@ -49,16 +53,25 @@ graded_options: Callable[[Any], Any] = stack(
     "check",
     cls=Command,
     help="Count the correct digits of a trajectory of a body with three moments of inertia, column by column.",
-    epilog=examples("atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2"),
+    epilog=examples(
+        "atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2",
+        "atlas check mine.csv --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --attitude 0.6 0 0 0.8",
+    ),
 )
 @file_argument
 @any_body_options
+@tensor_option
+@attitude_option
 @start_option
+@spin_option
 @graded_options
 def three_moments(files: tuple[Path, ...], **options: Any) -> int:
     """Grade against the motion of a body with three moments of inertia."""
     field = any(options[name] is not None for name in ("field", "magnetic"))
-    given = {"inertia": chosen_moments(options), "omega": options["omega"]}
+    J = given_tensor(options)
+    inertia = chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
+    given = {"inertia": inertia, "omega": start_of(options)}
+    given["attitude"] = options["attitude"]
     return _graded(files, options, given | ({"field": chosen_field(options)} if field else {}))
 
 
@@ -79,6 +92,7 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @body_options
 @field_options
 @start_option
+@spin_option
 @click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion.")
 @click.option("--omega3", type=REAL, help="Third component, where (71) leaves it free.")
 @click.option(
@@ -108,12 +122,20 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     """
     body = any(options[name] is not None for name in BODY)
     field = any(options[name] is not None for name in ("field", "magnetic"))
-    given = {name: options[name] for name in ("inertia", "omega", "omega2", "omega3", *OF_TOPS)}
+    given = {name: options[name] for name in ("inertia", "omega2", "omega3", *OF_TOPS)}
+    given["omega"] = start_of(options)
     if body and options["inertia"] is None:
         given["ratio"] = chosen_body(options)
     if field:
         given["field"] = chosen_field(options)
     return _graded(files, options, given)
+
+
+def start_of(options: dict[str, Any]) -> Any:
+    """Return the angular velocity at t = 0 of --omega or --spin, None where there is none."""
+    if options["omega"] is not None and options["spin"] is not None:
+        raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")
+    return options["omega"] if options["spin"] is None else (0.0, 0.0, options["spin"])
 
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], given: dict[str, Any]) -> int:

@@ -1,38 +1,78 @@
 """``atlas explore``: bodies to turn and numbers to slide, in the user's browser."""
 
 import webbrowser
+from urllib.parse import urlencode
 
 import click
 
 from atlas.cli.options import examples
+from atlas.families import FAMILIES
 
 
 @click.command(
     "explore",
-    epilog=examples("atlas explore", "atlas explore top", "atlas explore hyp_a --no-browser --port 8800"),
+    context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
+    epilog=examples(
+        "atlas explore",
+        "atlas explore top",
+        "atlas explore hyp_a --no-browser --port 8800",
+        "atlas explore --inertia 0.8 1 1.3 --field 0.2 1 0.6 --spin 2",
+    ),
 )
 @click.argument("name", default="general")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="The port; a free one when left out.")
 @click.option("--no-browser", is_flag=True, help="Print the address only.")
-def command(name: str, port: int, no_browser: bool) -> None:
+@click.pass_context
+def command(context: click.Context, name: str, port: int, no_browser: bool) -> None:
     """Open a page on this machine with sliders for any family of motions or surfaces, or any figure.
 
     NAME is a family (elementary, general, top, elliptic, asymmetric, quadric, ...) or a recipe, also a file of your
     own. Numbers come from the kernels while a slider moves, in proven digits when it rests; the command that gives the
     same stands below, and the figure can be saved. The server answers on 127.0.0.1 only, and only to who has the
     address that is printed. Ctrl-C ends it.
+
+    With the options of atlas motion in the place of NAME the sliders start at that motion, in principal axes.
     """
     from atlas.live.server import Explorer
     from atlas.live.subjects import subject
     from atlas.places import settle_matplotlib
 
     settle_matplotlib()
+    at = ""
+    if name.startswith("-") or context.args:
+        name, at = started([*([name] if name != "general" else []), *context.args])
     subject(name)
     with Explorer(name, port) as server:
         try:
-            click.echo(server.address)
+            click.echo(server.address + at)
             if not no_browser:
-                webbrowser.open(server.address)
+                webbrowser.open(server.address + at)
             server.serve_forever()
         except KeyboardInterrupt:
             click.echo("ended", err=True)
+
+
+def started(args: list[str]) -> tuple[str, str]:
+    """Return the family of the motion that options of atlas motion are of, and the end of an address with its numbers.
+
+    Raises click.UsageError for what is no such option.
+    """
+    from atlas.cli.family import command as made
+    from atlas.cli.family import family_of, in_principal_axes, motion_in_given_axes, values_of
+
+    if not args[0].startswith("--"):
+        raise click.UsageError(f"{args[0]} has no options here: those of atlas motion stand alone, without a name.")
+    family = FAMILIES[family_of(args)]
+    with made("motion").make_context("explore", args) as context:
+        options = context.params
+    if family.name == "asymmetric" and (motion := motion_in_given_axes(options)):
+        found = in_principal_axes(motion)
+        click.echo(f"The axes are principal ones: {found.axes} in those of the body that were given.", err=True)
+        family, values = found.family, found.values
+    else:
+        parts = zip(family.parameters, values_of(family, options, exact=False), strict=True)
+        values = {p.name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for p, x in parts if x is not None}
+    numbers = {
+        name: float(x) for p in family.parameters for name, x in zip(p.names, values.get(p.name, ()), strict=False)
+    }
+    return family.name, "#" + urlencode({"subject": family.name, **numbers})

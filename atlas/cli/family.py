@@ -4,13 +4,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import cache
 from math import hypot, isfinite, pi
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
 from atlas.cli.answers import IN_DOUBLES, along, answer, certificate, in_threes, samples, written
 from atlas.cli.body import (
     any_body_options,
+    attitude_option,
     body_options,
     body_parameters,
     charge_to_mass_of,
@@ -21,6 +22,7 @@ from atlas.cli.body import (
     exact_field,
     exact_moments,
     field_options,
+    given_attitude,
     given_tensor,
     measured,
     spin_option,
@@ -131,7 +133,7 @@ def family_of(args: Sequence[str]) -> str:
     if given & {"--omega2", "--omega3"}:
         return "elementary"
     oblique = any(are_three(args, option) for option in ("--inertia", "--field", "--magnetic"))
-    return "asymmetric" if oblique or "--tensor" in given else "general"
+    return "asymmetric" if oblique or given & {"--tensor", "--attitude"} else "general"
 
 
 def _made(family: Family, described: Described) -> click.Command:
@@ -169,8 +171,8 @@ def _made(family: Family, described: Described) -> click.Command:
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = _parameters(family, options)
-        if (tensor := given_tensor(options) if family.name == "asymmetric" else None) is not None:
-            _in_doubles(tensor, options, parameters, times)
+        if made := motion_in_given_axes(options) if family.name == "asymmetric" else None:
+            _in_doubles(made, options, parameters, times)
             return
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
@@ -193,24 +195,75 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _in_doubles(tensor: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
-    """Print the motion of a body whose axes are not principal ones, which is certified in no twin."""
-    from atlas.core.motions.chosen import body_of, motion
+def motion_in_given_axes(options: dict[str, Any]) -> Any:
+    """Return the motion of a body whose axes are not principal ones, or that starts from an attitude; None for others.
 
-    body = body_of(tensor)
+    It is in doubles: a certified twin has principal axes, and R(0) = 1.
+    """
+    tensor, attitude = given_tensor(options), given_attitude(options)
+    if tensor is None and attitude is None:
+        return None
+    from atlas.core.motions.chosen import motion
+
+    body = chosen_moments(options) if tensor is None else tensor
+    return motion(body, chosen_field(options), start_of(options), attitude)
+
+
+class Principal(NamedTuple):
+    """A motion in the axes of its class: the family, the options that say which, and these axes in those given."""
+
+    family: Family
+    options: list[str]
+    values: dict[str, tuple[float, ...]]
+    axes: str
+
+    @property
+    def command(self) -> str:
+        """The name of its command."""
+        return self.family.command.name if self.family.command else self.family.name
+
+
+def in_principal_axes(made: Any, unit: str = "") -> Principal:
+    """Return what asks for a motion in given axes in those of its class, rates in a unit."""
+    from atlas.core.bodies.body import moments
+
+    family, given = FAMILIES["asymmetric" if made.family == "free" else made.family], dict(made.own.arguments)
+    if made.family == "free":
+        I2, I3 = moments(given["ratio"])
+        given = {"inertia": (I2, I2, I3), "field": (0.0, 0.0, 0.0), "omega": given["omega"]}
+    words, values = list[str](), dict[str, tuple[float, ...]]()
+    for p in family.parameters:
+        value: Any = given.get(p.name)
+        if p.name == "ratio" and hasattr(value, "I2"):
+            words += ["--inertia", repr(float(value.I2)), repr(float(value.I3))]
+            value = value.ratio
+        elif value is not None:
+            parts = value if isinstance(value, tuple) else (value,)
+            words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts)]
+        if value is not None:
+            values[p.name] = tuple(float(x) for x in (value if isinstance(value, tuple) else (value,)))
+    axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in made.axes)
+    return Principal(family, words, values, axes)
+
+
+def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
+    """Print a motion in given axes, which is certified in no twin."""
+    from atlas.core.motions.chosen import body_of
+
     if options["digits"] is not None or options["decimal"]:
-        axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in body.axes)
+        own = in_principal_axes(made, "rad/s" if units_of(options) else "")
         raise click.UsageError(
-            f"--digits and --decimal go with principal axes: those of this body are along {axes}, with the moments "
-            f"{', '.join(f'{x:.10g}' for x in body.moments)}; give --inertia, --field and --omega along them."
+            "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are along "
+            f"{own.axes}, and in them it is atlas {own.command} {' '.join(own.options)}"
         )
-    made = motion(tensor, chosen_field(options), _start(options))
     family = FAMILIES[made.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     columns = {s.name: along(s.at(made), times) for s in sampled}
     found = {"family": family.name} | _found(family, made, times, columns, exact=False)
     if options["as_json"]:
-        dump({"parameters": parameters, "principal_moments": body.moments, "principal_axes": body.axes, **found})
+        known = body_of(made.arguments["inertia"])
+        body = {"principal_moments": known.moments, "principal_axes": known.axes}
+        dump({"parameters": parameters, **body, **found})
     elif family.command:
         show(_printout(family, family.command, written(found), options, IN_DOUBLES))
 
@@ -228,7 +281,7 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
         *([spin_option] if family.name in STARTED else []),
-        *([tensor_option] if family.name == "asymmetric" else []),
+        *([tensor_option, attitude_option] if family.name == "asymmetric" else []),
         *([top_options] if ways else []),
         *([charge_options, units_option] if "c" in names else []),
     ]
@@ -277,7 +330,7 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
         elif p.name == "field" and (not p.option or of_any_body(family)):
             yield (exact_field if exact else chosen_field)(options)
         elif p.name == "omega" and "spin" in options:
-            yield exactly(_start(options), options) if exact else _start(options)
+            yield exactly(start_of(options), options) if exact else start_of(options)
         elif p.name == "mu":
             yield _charge_to_mass(options, exact=exact)
         elif p.name == "c":
@@ -287,7 +340,7 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
             yield exactly(value, options) if exact and value is not None else value
 
 
-def _start(options: dict[str, Any]) -> Any:
+def start_of(options: dict[str, Any]) -> Any:
     """Return the initial angular velocity, of --omega or --spin."""
     if (options["omega"] is None) == (options["spin"] is None):
         raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")

@@ -196,7 +196,7 @@ def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
 class WithThreeMoments(Command):
     """A command of symmetric bodies with another one, `wider`, for any body.
 
-    That is meant by three numbers after --inertia, or by points in a field of three components.
+    That is meant by three numbers after --inertia, a tensor, an attitude, or a field of three components.
     """
 
     def __init__(self, *args: Any, wider: Callable[[], click.Command], **more: Any) -> None:
@@ -207,8 +207,8 @@ class WithThreeMoments(Command):
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
         """Let the command that the options are of read its arguments."""
-        points = "--points" in args and (are_three(args, "--field") or are_three(args, "--magnetic"))
-        if points or are_three(args, "--inertia"):
+        oblique = are_three(args, "--field") or are_three(args, "--magnetic")
+        if oblique or {"--tensor", "--attitude"} & set(args) or are_three(args, "--inertia"):
             return self._wider().make_context(info_name, args, parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
 

@@ -10,7 +10,15 @@ import click
 from atlas import files
 from atlas.cli.app import GONE
 from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, system_of, units_of
-from atlas.cli.family import family_of, in_field, in_plane, object_options, values_of
+from atlas.cli.family import (
+    family_of,
+    in_field,
+    in_plane,
+    in_principal_axes,
+    motion_in_given_axes,
+    object_options,
+    values_of,
+)
 from atlas.cli.options import Command, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.progress import bar
@@ -18,6 +26,9 @@ from atlas.cli.report import status_of
 from atlas.cli.top import top_units
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
+
+OWN = {"out", "digits", "title", "name", "jobs", "note"}
+"""Options of a page, not of its object."""
 
 
 def command_of(family: Family, name: str) -> click.Command:
@@ -27,6 +38,7 @@ def command_of(family: Family, name: str) -> click.Command:
         click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
         click.option("--title", help="Title of the page."),
         click.option("--name", metavar="NAME", help="Name of its files, in the place of its options."),
+        click.option("--note", default="", hidden=True),
         jobs_option,
     ]
 
@@ -53,11 +65,39 @@ class ByOptions(click.Group):
         """Put the command in front of its options, and that of its family where several have one name."""
         if args and args[0] in GONE:
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
-        if args[:1] == ["motion"] and not set(args) & set(ctx.help_option_names):
-            family = family_of(args)
-            args = ["motion" if family == "elementary" else family, *args[1:]]
-        named = not args or args[0] in self.commands or args[0] in ctx.help_option_names
-        return super().parse_args(ctx, args if named or not args[0].startswith("--") else [best(args), *args])
+        if not set(args) & set(ctx.help_option_names):
+            if args[:1] == ["motion"]:
+                args = [in_group(family_of(args)), *args[1:]]
+            elif args and args[0].startswith("--"):
+                args = [best(args), *args]
+            if args[:1] == ["asymmetric"]:
+                args = along_principal_axes(args[1:], ctx) or args
+        return super().parse_args(ctx, args)
+
+
+def in_group(family: str) -> str:
+    """Return the command of a family in this group."""
+    return "motion" if family == "elementary" else family
+
+
+def along_principal_axes(args: list[str], parent: click.Context) -> list[str]:
+    """Return the arguments of a motion in given axes as those of the same motion in principal ones; none for others."""
+    with COMMANDS["asymmetric"].make_context("asymmetric", list(args), parent) as context:
+        options = context.params
+        made = motion_in_given_axes(options)
+        if made is None:
+            return []
+        found = in_principal_axes(made, "rad/s" if units_of(options) else "")
+        own = {one.name: one.opts[0] for one in context.command.params if one.name in OWN}
+        rest = [
+            word
+            for name, option in own.items()
+            if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
+            for word in (option, str(options[name]))
+        ]
+    note = f"The axes of this page are principal ones: {found.axes} in those of the body that were given."
+    click.echo(note, err=True)
+    return [in_group(found.family.name), *found.options, *rest, "--note", note]
 
 
 def best(args: Sequence[str]) -> str:
@@ -109,11 +149,11 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
     from atlas.report.page import Asked
 
-    context, own = click.get_current_context(), {"out", "digits", "title", "name", "jobs"}
+    context = click.get_current_context()
     typed = {
         one.opts[0].removeprefix("--"): _texts(options[one.name])
         for one in context.command.params
-        if one.name in options.keys() - own
+        if one.name in options.keys() - OWN
         and context.get_parameter_source(one.name) is click.core.ParameterSource.COMMANDLINE
     }
     found = dict(
@@ -136,7 +176,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     title, digits = options["title"] or "", options["digits"]
     if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
         raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
-    return Asked(family, typed, values, **records, digits=digits, title=title, called=called)
+    return Asked(family, typed, values, **records, digits=digits, title=title, called=called, note=options["note"])
 
 
 def _texts(value: Any) -> tuple[str, ...]:

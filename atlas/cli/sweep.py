@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -11,14 +11,21 @@ import click
 from atlas.cli.body import (
     BODY,
     SIZES,
+    any_body_options,
     body_options,
     body_parameters,
     chosen_body,
     chosen_field,
+    chosen_moments,
     field_options,
+    given_tensor,
+    spin_option,
+    tensor_option,
     units_of,
 )
-from atlas.cli.options import REAL, Command, Place, examples
+from atlas.cli.check import start_option
+from atlas.cli.family import in_principal_axes, motion_in_given_axes, start_of
+from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.points import columns_of
 from atlas.cli.progress import bar
 from atlas.families import FAMILIES
@@ -26,12 +33,12 @@ from atlas.families import FAMILIES
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
 
-FAMILY is {NAMES}; a wrong name of a parameter or quantity is answered with the right ones. A row takes microseconds, of
-the family general some tens of them, of asymmetric up to seconds. A CSV file has units in its heading, as in k
-[1/time]. Where a quantity has no value its cell is empty, and the column missing says why. What is done is kept in the
-folder OUT.parts: a sweep that was stopped goes on when it is called again. A folder or an address, as
-s3://bucket/table.parquet (with the package of fsspec for it), takes a Parquet data set: files that pandas and Dask read
-as one table.
+FAMILY is {NAMES}, or motion where the parameters say which; a wrong name of a parameter or quantity is answered with
+the right ones. A row takes microseconds, of the family general some tens of them, of asymmetric up to seconds. A CSV
+file has units in its heading, as in k [1/time]. Where a quantity has no value its cell is empty, and the column missing
+says why. What is done is kept in the folder OUT.parts: a sweep that was stopped goes on when it is called again. A
+folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes a Parquet data set: files
+that pandas and Dask read as one table.
 """
 
 MOST = 10**7
@@ -55,37 +62,36 @@ class Out(click.ParamType[str]):
 OUT = Out()
 
 
-@click.command(
-    "sweep",
-    cls=Command,
-    help=HELP,
-    epilog=examples(
-        "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
-        "--quantity stability --out map.npz",
-        "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
-        "atlas sweep elementary --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3 "
-        "--set omega2=-0.7:2:271 --quantity k --out ring.csv",
-        "atlas sweep --file sweep.toml --out table.parquet/",
-    ),
-)
-@click.argument("family", required=False)
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="NAME=VALUES",
-    help="A parameter: one number, several with commas, or START:STOP:COUNT; :log for even steps of the logarithm.",
-)
-@body_options
-@field_options
-@click.option("--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading.")
-@click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to compute; may be repeated.")
-@click.option("--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file.")
-@click.option("--out", type=OUT, help="The table: .csv, .npz, .parquet; a folder table.parquet/ or an address.")
-@click.option("--digits", type=click.IntRange(1, 1000), help="So many certified significant digits, as text.")
-@click.option("--rows", type=click.IntRange(1), default=None, help="Rows a part; else some seconds' worth.")
-@click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core.")
-def command(
+def options_of(*of_body: Any) -> Callable[[Any], Any]:
+    """Return the options of a sweep, with those of body, field and start."""
+    return stack(
+        click.argument("family", required=False),
+        click.option(
+            "--set",
+            "settings",
+            multiple=True,
+            metavar="NAME=VALUES",
+            help="A parameter: one number, several with commas, or START:STOP:COUNT; :log for even steps of the "
+            "logarithm.",
+        ),
+        *of_body,
+        click.option(
+            "--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading."
+        ),
+        click.option(
+            "--quantity", "quantities", multiple=True, metavar="NAME", help="What to compute; may be repeated."
+        ),
+        click.option(
+            "--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file."
+        ),
+        click.option("--out", type=OUT, help="The table: .csv, .npz, .parquet; a folder table.parquet/ or an address."),
+        click.option("--digits", type=click.IntRange(1, 1000), help="So many certified significant digits, as text."),
+        click.option("--rows", type=click.IntRange(1), default=None, help="Rows a part; else some seconds' worth."),
+        click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core."),
+    )
+
+
+def swept(
     family: str | None,
     settings: tuple[str, ...],
     listing: Path | None,
@@ -105,6 +111,7 @@ def command(
             raise click.UsageError(f"name the family to sweep: {NAMES}.")
         body, pairs = _body(options), [_setting(text) for text in settings]
         _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
+        family = _meant(family, {*body, *(name for name, _ in pairs)})
         wanted = Wanted(family, quantities, body | dict(pairs), listing, out, digits, rows)
     elif family or settings or listing or quantities or digits or rows or body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")
@@ -131,6 +138,34 @@ def command(
     click.echo(str(path))
 
 
+def of_three_moments() -> click.Command:
+    """Return the command of sweeps over bodies with three moments of inertia."""
+    options = options_of(any_body_options, tensor_option, start_option, spin_option)
+    made: click.Command = click.command("sweep", cls=Command, help=HELP)(options(swept))
+    return made
+
+
+@click.command(
+    "sweep",
+    cls=WithThreeMoments,
+    wider=of_three_moments,
+    help=HELP,
+    epilog=examples(
+        "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
+        "--quantity stability --out map.npz",
+        "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
+        "atlas sweep elementary --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3 "
+        "--set omega2=-0.7:2:271 --quantity k --out ring.csv",
+        "atlas sweep asymmetric --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --quantity f1 --out f.csv",
+        "atlas sweep --file sweep.toml --out table.parquet/",
+    ),
+)
+@options_of(body_options, field_options)
+def command(**options: Any) -> None:
+    """Sweep over symmetric bodies."""
+    swept(**options)
+
+
 class Wanted(NamedTuple):
     """A sweep as the command line or a file says it, its parameters as numbers."""
 
@@ -143,12 +178,40 @@ class Wanted(NamedTuple):
     rows: int | None
 
 
+def _meant(family: str, names: set[str]) -> str:
+    """Return the family of motions that `motion` means, by the names of parameters."""
+    if family != "motion":
+        return family
+    if "I1" in names:
+        return "asymmetric"
+    return "general" if "omega1" in names else "elementary"
+
+
 def _body(options: dict[str, Any]) -> dict[str, float]:
-    """Return what the options of body and field say, by the names of a table."""
+    """Return what the options of body, field and start say, by the names of a table."""
+    if "tensor" in options:
+        return _of_three_moments(options)
     body, found = any(options[name] is not None for name in BODY), body_parameters(options)
     ratio = getattr(made := chosen_body(options), "ratio", made) if body else None
     B = dict(zip(("B2", "B3"), chosen_field(options), strict=True)) if set(found) - {*BODY, *SIZES} else {}
     return ({} if ratio is None else {"ratio": float(ratio)}) | B
+
+
+def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
+    """Return the same of a body with three moments; of a tensor along its principal axes."""
+    if given_tensor(options) is not None:
+        found = in_principal_axes(motion_in_given_axes(options))
+        click.echo(f"The axes are principal ones: {found.axes} in those of the body that were given.", err=True)
+        names = {p.name: p.names for p in found.family.parameters}
+        return {one: x for name, values in found.values.items() for one, x in zip(names[name], values, strict=True)}
+    given: dict[str, float] = {}
+    if any(options[name] is not None for name in BODY):
+        given |= zip(("I1", "I2", "I3"), map(float, chosen_moments(options)), strict=True)
+    if options["field"] is not None or options["magnetic"] is not None:
+        given |= zip(("B1", "B2", "B3"), chosen_field(options), strict=True)
+    if options["omega"] is not None or options["spin"] is not None:
+        given |= zip(("omega1", "omega2", "omega3"), map(float, start_of(options)), strict=True)
+    return given
 
 
 def read(path: Path) -> Wanted:

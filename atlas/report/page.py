@@ -31,6 +31,7 @@ class Asked:
     body, field   their records in a report file, where the family has them; `time` is the unit of time
     values    the other parameters of the family
     called    the name of its files, if it has one of its own
+    note      a sentence on its axes
     """
 
     family: Family
@@ -42,6 +43,7 @@ class Asked:
     digits: int = 10
     title: str = ""
     called: str = ""
+    note: str = ""
 
     @property
     def words(self) -> list[str]:
@@ -127,8 +129,8 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         "title": asked.title or case,
         "subtitle": given,
         "front_matter": False,
-        "abstract": "All digits of the tables are proven unless they say otherwise; figures are drawn to a fraction of "
-        "a pixel. The report file beside this page can be changed and built again.",
+        "abstract": f"{asked.note} All digits of the tables are proven unless they say otherwise; figures are drawn to "
+        "a fraction of a pixel. The report file beside this page can be changed and built again.".lstrip(),
         "parameters": {kind: {name: record} for kind, name, record in records if record},
         "pages": [{"slug": "index", "title": "Properties", "blocks": blocks}],
     }  # fmt: skip

@@ -136,8 +136,9 @@ def check(
     `t` (N,) are times, `rotations` (N, 3, 3) matrices R that take the body to the laboratory, `quaternions` (N, 4)
     such of either sign, as SciPy's `Rotation.as_quat` gives them or with `scalar_first`, `angular_velocities` (N, 3)
     the vectors Omega in the body; at least one of these. `motion` is one motion of ElementaryMotion, FreeMotion,
-    GeneralMotion, TopMotion or AsymmetricMotion, with R(0) = 1. A column fails from the first row on at which it has
-    fewer than `threshold` correct digits.
+    GeneralMotion, TopMotion or AsymmetricMotion, or of `atlas.motion`, in any axes and from any attitude: of these
+    errors below 4e-14 + 9e-16 f t, f the largest rate, count as that. A column fails from the first row on at which it
+    has fewer than `threshold` correct digits.
 
     Lists of arrays are runs of one integrator with several steps, which are `step` or the mean distances of their
     times: they give the order of convergence, a `Convergence`.
@@ -167,17 +168,19 @@ def _arguments(motion: Any) -> dict[str, Any]:
     from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
 
     known = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
-    if not isinstance(motion, known):
+    if not isinstance(motion, known) and getattr(motion, "made_by", "") != "motion":
         names = ", ".join(one.__name__ for one in known)
         raise AtlasError(f"A trajectory is graded against one of {names}, not {type(motion).__name__}.")
     if motion.shape:
         raise AtlasError(f"A trajectory is graded against one motion, not against {motion.shape} of them.")
+    if motion.made_by == "motion":
+        return {"motion": motion}
     if isinstance(motion, TopMotion):
         return {name: getattr(motion, name) for name in ("inertia", *OF_TOPS, "omega")}
     if motion.made_by:
         raise AtlasError(
-            f"A trajectory is graded against a motion that starts with R(0) = 1, not one by {motion.made_by}: turn the "
-            "rotations, the field and omega into the body's axes at t = 0."
+            f"A trajectory is graded against a motion of its class or of atlas.motion, not one by {motion.made_by}: "
+            "atlas.motion(inertia, field, omega, attitude) is the same motion."
         )
     return dict[str, Any](motion.arguments, **({"field": (0.0, 0.0)} if isinstance(motion, FreeMotion) else {}))
 
@@ -208,18 +211,16 @@ def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) 
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
     known = reference(trajectory.parameters, given, trajectory.file)
     errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
-    if errors and 10.0**-threshold <= 2 * errors.floor:
-        raise AtlasError(
-            f"The threshold may be {-math.log10(2 * errors.floor) - 0.05:.1f} digits at most for this motion, "
-            f"whose closed form is evaluated within {errors.floor:.1e}; it cannot be {threshold:g}."
-        )
     graded = [name for name in trajectory.names if name != "t"] if errors else []
+    if errors:
+        _within(threshold, errors.floor)
     grades = [Grade(name, threshold, errors) for name in graded if errors]
     drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
     first = last = 0.0
     for block in trajectory.blocks:
         if errors:
             found = errors.of(block)
+            _within(threshold, errors.floor)
             for grade in grades:
                 grade.add(block, found[grade.name])
             envelope.add(block["t"], found)
@@ -249,3 +250,12 @@ def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) 
         step=trajectory.parameters.get("step", (abs(last - first) / max(rows - 1, 1),))[0],
         end=last,
     )
+
+
+def _within(threshold: float, floor: float) -> None:
+    """Raise AtlasError for a threshold beyond what is known of a motion, to `floor`."""
+    if 10.0**-threshold <= 2 * floor:
+        raise AtlasError(
+            f"The threshold may be {-math.log10(2 * floor) - 0.05:.1f} digits at most for this motion at these times, "
+            f"whose closed form is evaluated within {floor:.1e}; it cannot be {threshold:g}."
+        )

@@ -69,7 +69,10 @@ class Errors:
         for names, values in zip(GROUPS.values(), (R, Omega, q), strict=True):
             true |= dict(zip(names, values.T, strict=True))
         found = {name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"}
-        found = {name: np.maximum(errors, self.floor) for name, errors in found.items()}
+        floor = self._truth.floor + self._truth.growth * np.abs(t)
+        if self._truth.growth:
+            self.floor = self.uncertainty = max(self.floor, float(floor.max()))
+        found = {name: np.maximum(errors, floor) for name, errors in found.items()}
         least = np.min(list(found.values()), axis=0)
         for i in np.flatnonzero(~near | (least < self._truth.near)):
             for name, error in self.certified(block, int(i)).items():
@@ -81,7 +84,12 @@ class Errors:
         return np.asarray(np.minimum(np.abs(found - true) / unit, LARGEST), dtype=np.float64)
 
     def certified(self, block: Block, i: int) -> dict[str, float]:
-        """Return proven upper bounds, 2^-80 above, on the errors of all columns in a row of a block."""
+        """Return proven upper bounds, 2^-80 above, on the errors of all columns in a row of a block.
+
+        Of a motion in given axes, which has no balls, they are the errors in doubles.
+        """
+        if self._truth.growth:
+            return {name: float(x[0]) for name, x in self.of({name: x[i : i + 1] for name, x in block.items()}).items()}
         row = {name: float(values[i]) for name, values in block.items() if name != "t"}
         t, motion, truth = float(block["t"][i]), self._motion, dict[str, Real]()
         with workprec(BITS + 16):

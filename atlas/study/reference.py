@@ -8,9 +8,11 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import arb
 
-from atlas.core.bodies.body import SymmetricBody
+from atlas.core.bodies.body import SymmetricBody, moments
 from atlas.core.bodies.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.chosen import motion
+from atlas.core.motions.turned import Turned
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.inputs import Real
@@ -26,6 +28,10 @@ Given: TypeAlias = Mapping[str, Any]
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Parameters that only a top has."""
+
+
+UNIT = 1e-6
+"""By how much the length of a quaternion that is typed may differ from 1."""
 
 
 @dataclass(frozen=True)
@@ -52,12 +58,16 @@ def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str)
     Raises AtlasError, with the name of the file, for what is missing or contradicts itself, and what the classes of
     motions raise for what is no body or no motion.
     """
+    if "motion" in given:
+        return _in_given_axes(given["motion"])
     given = {name: value for name, value in given.items() if value is not None}
     if given.keys() & {"ratio", "inertia"}:
         written = {name: value for name, value in written.items() if name not in {"ratio", "inertia"}}
     known = dict(written) | given
     if known.keys() & set(OF_TOPS):
         return _top(known, file)
+    if "attitude" in known and (body := _moments(known, file)):
+        known |= {"inertia": body}
     if len(known.get("inertia", ())) > 2:
         return _any_body(known, _start(written, file, given), file)
     parameters = {"ratio": _body(known, file), "field": _needed(known, "field", file)}
@@ -66,11 +76,22 @@ def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str)
     start = _start(written, file, given)
     if "omega" not in start:
         start = {"omega2": _needed(start, "omega2", file)} | start
-    motion = (GeneralMotion if "omega" in start else ElementaryMotion)(*parameters.values(), **start)
+    made = (GeneralMotion if "omega" in start else ElementaryMotion)(*parameters.values(), **start)
     with workprec():
-        unit = arb(sum(w * w for w in motion.omega)).sqrt() if any(motion.omega) else 1
-    case = motion.case if isinstance(motion, ElementaryMotion) else motion.kind
-    return Reference(case, _shown(parameters | start), partial(of_motion, motion), motion, unit)
+        unit = arb(sum(w * w for w in made.omega)).sqrt() if any(made.omega) else 1
+    case = made.case if isinstance(made, ElementaryMotion) else made.kind
+    return Reference(case, _shown(parameters | start), partial(of_motion, made), made, unit)
+
+
+def _in_given_axes(made: Turned) -> Reference:
+    """Return a motion of `atlas.motion`: with what it was given, and its integrals in these axes."""
+    tensor, field, R, omega = made.given
+    K = np.vecmat(field, R)
+    parts = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
+    shown = {name: x.tolist() for name, x in parts.items()}
+    unit = float(np.abs([*K, *omega]).max()) or 1.0
+    case = made.kind if hasattr(made, "kind") else made.family
+    return Reference(case, shown, AnyBody(tensor, field, (omega, K)), made, unit)
 
 
 def _any_body(known: Given, start: Given, file: str) -> Reference:
@@ -84,14 +105,34 @@ def _any_body(known: Given, start: Given, file: str) -> Reference:
             f"{file}: omega2 and omega3 start an elementary motion of a symmetric body; one with three moments of "
             "inertia is started by omega, three components."
         )
-    if not start or len(given) > 3:
+    if start and (len(given) > 3 or "attitude" in known):
+        return _in_given_axes(motion(tensor, field, start["omega"], _attitude(known, file)))
+    if not start:
         return Reference("any inertia tensor", shown, AnyBody(tensor, field))
     omega = np.array(start["omega"], dtype=float)
-    motion = AsymmetricMotion(given, field.tolist(), omega.tolist())
+    made = AsymmetricMotion(given, field.tolist(), omega.tolist())
     unit = float(np.abs([*field, *omega]).max()) or 1.0
-    return Reference(
-        motion.kind, shown | {"omega": omega.tolist()}, AnyBody(tensor, field, (omega, field)), motion, unit
-    )
+    return Reference(made.kind, shown | {"omega": omega.tolist()}, AnyBody(tensor, field, (omega, field)), made, unit)
+
+
+def _moments(known: Given, file: str) -> tuple[float, ...]:
+    """Return three moments of a symmetric body, nothing for another."""
+    if len(known.get("inertia", ())) > 2:
+        return ()
+    I2, I3 = moments(_body(known, file))
+    return (float(I2), float(I2), float(I3))
+
+
+def _attitude(known: Given, file: str) -> Any:
+    """Return R(0) of a quaternion x y z w, None where there is none."""
+    from scipy.spatial.transform import Rotation
+
+    if "attitude" not in known:
+        return None
+    q = np.array(known["attitude"], dtype=float)
+    if abs(np.linalg.norm(q) - 1) > UNIT:
+        raise AtlasError(f"{file}: attitude is a quaternion of the length 1, x y z w, not of {np.linalg.norm(q):.6g}.")
+    return Rotation.from_quat(q).as_matrix()
 
 
 def _top(known: Given, file: str) -> Reference:
@@ -104,13 +145,13 @@ def _top(known: Given, file: str) -> Reference:
         )
     omega, direction = _needed(known, "omega", file), _needed(known, "direction", file)
     coupling, linear, quadratic = known.get("coupling", (0.0, 0.0)), *(_one(known.get(x, 0.0)) for x in OF_TOPS[2:])
-    motion = TopMotion(known["inertia"], coupling, direction, omega, linear, quadratic)
+    made = TopMotion(known["inertia"], coupling, direction, omega, linear, quadratic)
     I2 = float(known["inertia"][0])
     rates = np.abs([*omega, *(k / I2 for k in coupling), *(np.sqrt(abs(a) / I2) for a in (linear, quadratic))])
     parts = {"inertia": known["inertia"], "coupling": coupling, "direction": direction, "omega": omega}
     potential = {"linear": float(linear), "quadratic": float(quadratic)}
     shown = {name: [*map(float, value)] for name, value in parts.items()} | potential
-    return Reference(f"top, {motion.kind}", shown, partial(of_top, motion), motion, float(rates.max()) or 1.0)
+    return Reference(f"top, {made.kind}", shown, partial(of_top, made), made, float(rates.max()) or 1.0)
 
 
 def _beside(names: Iterable[str]) -> str:

@@ -33,6 +33,7 @@ PARAMETERS: Mapping[str, tuple[int, ...]] = {
     "omega2": (1,),
     "omega3": (1,),
     "omega": (3,),
+    "attitude": (4,),
     "direction": (2,),
     "coupling": (2,),
     "linear": (1,),

@@ -17,6 +17,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.core.motions.certified import REACH
 from atlas.core.motions.clebsch_theta import ThetaKernel
+from atlas.core.motions.turned import Turned
 from atlas.core.nutation.single import SingleGeneral, SingleTop
 from atlas.exact.digits import enclosed
 from atlas.exact.inputs import Real
@@ -27,7 +28,7 @@ from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import workprec
 
 Long = NDArray[np.longdouble]
-Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMotion
+Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMotion | Turned
 
 UNCERTAINTY = 2e-18
 """Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
@@ -46,7 +47,7 @@ class Truth:
     """R, Omega and the quaternion of an elementary motion at times (m,)."""
 
     uncertainty = UNCERTAINTY
-    near = floor = 0.0
+    near = floor = growth = 0.0
 
     def __init__(self, motion: ElementaryMotion) -> None:
         values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
@@ -84,6 +85,8 @@ class KernelTruth:
 
     uncertainty = 1e-14
     """Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate."""
+    growth = 0.0
+    """What time adds to it, by unit."""
 
     def __init__(self, single: Any, reach: float) -> None:
         self._single, self._reach = single, reach
@@ -105,12 +108,22 @@ class KernelTruth:
 
 def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
     """Return what a motion is at arrays of times, Omega in this unit."""
+    if isinstance(motion, Turned):
+        return _in_given_axes(motion, float(arb(unit)))
     if isinstance(motion, ElementaryMotion):
         return Truth(motion)
     if isinstance(motion, AsymmetricMotion):
         return _of_three_moments(SingleAsymmetric(motion), float(arb(unit)))
     single = SingleTop(motion, np.eye(3)) if isinstance(motion, TopMotion) else SingleGeneral(motion, np.eye(3))
     return KernelTruth(single, PHASE * single.parts.phases.reach)
+
+
+def _in_given_axes(motion: Turned, unit: float) -> KernelTruth:
+    """Return a motion in given axes, in doubles: the components along the axes of its class are rounded."""
+    found = KernelTruth(motion, np.inf)
+    found.uncertainty = found.floor = 4 * KernelTruth.uncertainty
+    found.near, found.growth = 0.0, 4 * unit * float(np.finfo(float).eps)
+    return found
 
 
 def _of_three_moments(single: SingleAsymmetric, unit: float) -> KernelTruth:

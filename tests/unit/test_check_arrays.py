@@ -136,11 +136,11 @@ def test_what_cannot_be_graded_is_one_sentence(t: Any, given: dict[str, Any], wo
 
 
 def test_a_motion_that_starts_turned_is_refused() -> None:
-    """The certified motions begin with R(0) = 1: another attitude would be graded wrongly."""
+    """The certified motions begin with R(0) = 1: another attitude is that of `atlas.motion`, which is graded."""
     turned = atlas.GeneralMotion.in_laboratory(
         1.5, (0.3, 1.0, 2.0), Rotation.from_rotvec([0.1, 0.2, 0.3]).as_matrix(), (0.3, 0.7, 0.2)
     )
-    with pytest.raises(AtlasError, match=r"R\(0\) = 1"):
+    with pytest.raises(AtlasError, match=r"atlas\.motion"):
         atlas.check(TIMES, turned.rotation(TIMES), motion=turned)
 
 
@@ -150,3 +150,28 @@ def test_runs_without_errors_have_no_order() -> None:
     assert found.order == {"R": None}
     assert "not told" in str(found)
     assert isinstance(atlas.check(TIMES, R, motion=GENERAL), Check)
+
+
+TENSOR = [[2.0, 0.1, 0.05], [0.1, 1.5, 0.2], [0.05, 0.2, 1.0]]
+TURNED = atlas.motion(TENSOR, (0.3, 0.0, 1.0), (0.0, 0.0, 3.0), Rotation.from_quat([0.6, 0.0, 0.0, 0.8]))
+
+
+def test_a_motion_in_any_axes_and_from_any_attitude_is_graded(tmp_path: Path) -> None:
+    """An error of 1e-7 in one column is seen in it alone; the command says the same, by options or by the file."""
+    times = np.linspace(0.0, 20.0, 41)
+    R, Omega = TURNED.rotation(times), TURNED.angular_velocity(times)
+    R[7:, 0, 2] += 1e-7
+    found = atlas.check(times, R, angular_velocities=Omega, motion=TURNED)
+    worst = {column.name: column.worst for column in found.columns}
+    assert worst.pop("R13") == pytest.approx(7.0, abs=0.01)
+    assert min(worst.values()) > 12
+    path = written(tmp_path / "a.csv", times, R)
+    options = "--tensor 2 1.5 1 0.1 0.05 0.2 --field 0.3 0 1 --spin 3 --attitude 0.6 0 0 0.8".split()
+    shown = CliRunner().invoke(command, ["check", str(path), *options])
+    assert shown.exit_code == 0, shown.output
+    assert str(atlas.check(times, R, motion=TURNED)).partition("\n")[2] in shown.stdout
+    lines = "# inertia = 2 1.5 1 0.1 0.05 0.2; field = 0.3 0 1; omega = 0 0 3; attitude = 0.6 0 0 0.8\n"
+    path.write_text(lines + path.read_text())
+    assert CliRunner().invoke(command, ["check", str(path)]).stdout == shown.stdout
+    refused = CliRunner().invoke(command, ["check", str(path), "--threshold", "13"])
+    assert "12.7 digits at most" in str(refused.exception)

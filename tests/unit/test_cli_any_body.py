@@ -4,12 +4,17 @@ import json
 import re
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from scipy.spatial.transform import Rotation
 
+import atlas
 from atlas.cli.app import atlas as command
+from atlas.cli.explore import started
+from atlas.cli.page import COMMANDS, ByOptions
 
 POINTS = np.array(
     [
@@ -79,7 +84,7 @@ def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> N
     assert np.linalg.det(axes) == pytest.approx(1, abs=1e-8)
     assert np.abs(axes) == pytest.approx(np.array([[s, c, 0], [c, s, 0], [0, 0, 1]]), abs=1e-8)
     assert axes[0, 0] * axes[0, 1] < 0 < axes[1, 0] * axes[1, 1]
-    assert "with the moments 3, 5, 6" in out
+    assert [float(x) for x in out.partition("--inertia ")[2].split()[:3]] == pytest.approx([3, 5, 6], abs=1e-12)
 
 
 def test_points_without_charges_are_a_body(tmp_path: Path) -> None:
@@ -199,3 +204,47 @@ def test_a_range_of_times_is_its_list() -> None:
     """START:STOP:COUNT has both ends, beside single times, exact where decimals are not."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --times".split()
     assert numbers(*words, "0:0.3:4", "7") == numbers(*words, "0", "0.1", "0.2", "0.3", "7")
+
+
+TENSOR = "--tensor 2 1.5 1 0.1 0.05 0.2 --field 0.3 0 1 --spin 3"
+
+
+def test_a_tensor_is_the_same_body_for_every_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Digits, a page, sliders and a sweep are of the motion along its principal axes, which they name."""
+    monkeypatch.chdir(tmp_path)
+    status, out = run("motion", *TENSOR.split(), "--digits", "12")
+    assert status == 2
+    own = out.partition("it is atlas motion ")[2].split()
+    moments, field, omega = (own[i : i + 3] for i in (1, 5, 9))
+    frequencies = numbers("motion", *own, "--json")["frequencies"]
+    motion = atlas.motion([[2.0, 0.1, 0.05], [0.1, 1.5, 0.2], [0.05, 0.2, 1.0]], (0.3, 0.0, 1.0), (0.0, 0.0, 3.0))
+    assert frequencies == pytest.approx(motion.frequencies)
+    assert in_group(["page", *TENSOR.split(), "--name", "mine"]) == ["asymmetric", *own, "--name", "mine", "--note"]
+    name, numbers_of = started(TENSOR.split())
+    assert name == "asymmetric"
+    names = [f"{x}{i}" for x in ("I", "B", "omega") for i in "123"]
+    assert parse_qs(numbers_of.lstrip("#")) == {"subject": [name]} | dict(
+        zip(names, ([x] for x in (*moments, *field, *omega)), strict=True)
+    )
+    status, out = run("sweep", "motion", *TENSOR.split(), "--quantity", "f1", "--out", "f.csv")
+    assert status == 0, out
+    assert float(Path("f.csv").read_text().splitlines()[1].split(",")[-2]) == pytest.approx(frequencies[0])
+
+
+def test_an_attitude_turns_the_laboratory() -> None:
+    """A motion that starts from R(0) in a field of the laboratory is R(0) times that in the field of the body."""
+    Q = Rotation.from_quat([0.6, 0.0, 0.0, 0.8]).as_matrix()
+    found = numbers("motion", *TENSOR.split(), *"--attitude 0.6 0 0 0.8 --times 0 2 --json".split())["samples"]
+    there = [*"--tensor 2 1.5 1 0.1 0.05 0.2 --spin 3 --field".split(), *map(repr, (Q.T @ (0.3, 0.0, 1.0)).tolist())]
+    own = numbers("motion", *there, "--times", "0", "2", "--json")["samples"]
+    assert found[0]["R"] == Q.tolist()
+    assert pytest.approx(Q @ np.array(own[1]["R"]), abs=1e-13) == np.array(found[1]["R"])
+    status, out = run("motion", *TENSOR.split(), *"--attitude 0.6 0 0 1".split())
+    assert status == 2
+    assert "length 1" in out
+
+
+def in_group(words: list[str]) -> list[str]:
+    """Return the arguments with which the command of a page is called in the end, but for the sentence on its axes."""
+    context = ByOptions("page", commands=COMMANDS).make_context("page", words[1:], resilient_parsing=False)
+    return [*context._protected_args, *context.args][:-1]

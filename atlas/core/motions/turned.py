@@ -38,6 +38,16 @@ class Turned(Motion[Any]):
         make = chosen.motion if self.made_by == "motion" else type(self.own).in_laboratory
         return made, (make, dict(self.arguments))
 
+    @property
+    def axes(self) -> FloatArray:
+        """Axes of the class as rows, in those of the body that were given; shape (..., 3, 3)."""
+        return np.eye(3) if self._sides[1] is None else self._sides[1]
+
+    @property
+    def given(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Inertia tensor, field in the laboratory, R(0) and Omega(0), as arrays in the given axes."""
+        return self._tensor, self._given_field, *self._start
+
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrix R(t), with the body's given axes as columns, R(0) the given attitude; shape (..., 3, 3).
 
