@@ -10,9 +10,11 @@ Nothing is taken from the theory of theta functions but where to look for the pe
 """
 
 from dataclasses import replace
+from itertools import chain
+from operator import mul
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, arb_poly, ctx, fmpq
 
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.inputs import Real, rational, rationals
@@ -27,6 +29,9 @@ from atlas.exact.nutation.cayley_klein import matrix
 from atlas.exact.nutation.nutating import product, turn
 from atlas.formulas.numbers import dot, workprec
 from atlas.formulas.numbers import nearest as nearest_float
+
+NEAR = fmpq(1, 1 << 16)
+"""Times up to so many are gone in one series about t = 0, whose numbers have their digits however small they are."""
 
 DIRECT = 16
 """Times up to so many units of 1/rate are gone at once, without periods."""
@@ -138,8 +143,45 @@ class OnTorus:
         state = [x + y for x, y in zip((*arrival.W, *arrival.K), ways, strict=True)]
         return Arrival(state[:3], state[3:], turned(arrival.q, V))
 
+    def _near(self, t: Any) -> list[list[arb]] | None:
+        """Return Omega, K and the rows of R by the series about t = 0, for a time so near; else None.
+
+        With W = Omega + K, W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k), and x' = [x, Omega] of K and of each row of R.
+        Since I_j - I_k < I_i, with s the largest |W_i| or |K_i|, |W_n|, |K_n| <= s (2s)^n and |R_n| <= (n+1) (2s)^n.
+        """
+        t = rational(t, "the time") * self.rate
+        if not abs(t) <= NEAR:
+            return None
+        I = self.moments
+        W, K = [[arb(w)] for w in self.torus.W], [[arb(k)] for k in self.field]
+        Omega = [[arb(w - k)] for w, k in zip(self.torus.W, self.field, strict=True)]
+        R = [[[arb(i == j)] for j in range(3)] for i in range(3)]
+
+        def times(a: list[arb], b: list[arb]) -> arb:
+            return sum(map(mul, a, b[::-1]), arb(0))
+
+        count = ctx.prec // 12 + 4
+        for n in range(1, count):
+            rates = [
+                (I[i - 2] - I[i - 1]) / I[i] * (times(W[i - 2], W[i - 1]) - times(K[i - 2], K[i - 1])) for i in range(3)
+            ]
+            turned = [
+                [times(x[i - 2], Omega[i - 1]) - times(x[i - 1], Omega[i - 2]) for i in range(3)] for x in (K, *R)
+            ]
+            for row, rate in zip((*W, *K, *chain(*R)), (*rates, *chain(*turned)), strict=True):
+                row.append(rate / n)
+            for row, w, k in zip(Omega, W, K, strict=True):
+                row.append(w[n] - k[n])
+        most = max(abs(x) for x in (*self.torus.W, *self.field))
+        falls = arb(2 * most * abs(t))
+        left = (1 + most) * (count + 1) * falls**count / (1 - falls) ** 2
+        return [[arb_poly(x)(arb(t)) + arb(0, left.upper()) for x in rows] for rows in (Omega, K, *R)]
+
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
+        near = self._near(t)
+        if near:
+            return near[2:]
         arrival, angle = self.state(t)
         w, *q = arrival.q
         i = self.pendulum
@@ -151,10 +193,14 @@ class OnTorus:
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B'."""
-        return [k * self.rate for k in self.state(t)[0].K]
+        near = self._near(t)
+        return [k * self.rate for k in (near[1] if near else self.state(t)[0].K)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) = W - K."""
+        near = self._near(t)
+        if near:
+            return [w * self.rate for w in near[0]]
         arrival, _ = self.state(t)
         return [(w - k) * self.rate for w, k in zip(arrival.W, arrival.K, strict=True)]
 

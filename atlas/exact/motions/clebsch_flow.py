@@ -20,7 +20,7 @@ from math import exp, isfinite, sqrt
 from operator import mul
 
 import numpy as np
-from flint import arb, fmpq, fmpz_poly
+from flint import arb, fmpq, fmpz, fmpz_poly
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
@@ -42,8 +42,8 @@ TERMS = 40
 ROUNDING = 1e-12
 """Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
 
-PRECISE = 768
-"""Binary digits, beyond which a step takes too long."""
+PRECISE, LARGE = 4000, 400
+"""Binary digits beyond which a step takes too long, and those from which flint's integers are faster than Python's."""
 
 MOST = 4000
 """Steps of a way; a longer one is not gone."""
@@ -102,7 +102,7 @@ class Flow:
         """
         if bits > PRECISE:
             raise NotCertifiedError(
-                f"not certified: so many digits would take more than {PRECISE} binary ones; of three moments some 185 "
+                f"not certified: so many digits would take more than {PRECISE} binary ones; of three moments some 1000 "
                 "decimal ones can be had, fewer of numbers near zero."
             )
         way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, proven=proven)
@@ -119,7 +119,7 @@ class _Way:
         self.rates, self.bits, self.proven = rates, bits, proven
         self.state = [*start, 1 << bits, 0, 0, 0]
         self.left, self.steps = PARTS, 0
-        size = sum(abs(x) for x in start) / (1 << bits) + 1e-300
+        size = _float(sum(abs(x) for x in start), bits) + 1e-300
         rate = float(max(abs(x) for row in rates for x in row)) * size
         self.guess = max(1, min(PARTS, int(PARTS / max(rate, 1e-9))))
         self.order = max(12, int(ORDER * bits))
@@ -261,7 +261,8 @@ def _inverse_norm(X: Matrix) -> float:
 
 
 def _units(x: fmpq, bits: int) -> int:
-    return (int(x.p) << bits) // int(x.q)
+    units = (int(x.p) << bits) // int(x.q)
+    return units if bits < LARGE else fmpz(units)
 
 
 def _scaled(row: list[int], factor: fmpq) -> list[int]:
@@ -276,7 +277,7 @@ def _scaled(row: list[int], factor: fmpq) -> list[int]:
 
 
 def _float(x: int, bits: int) -> float:
-    return float(fmpq(x, 1 << bits)) if bits > 900 else x / (1 << bits)
+    return x / (1 << bits) if bits < LARGE else float(fmpq(x, 1 << bits))
 
 
 def _size(polynomial: fmpz_poly, bits: int) -> float:
