@@ -21,48 +21,23 @@ from atlas.scene.layers import (
     Space,
     Surface,
     frame,
+    moved,
     points_of,
 )
 from atlas.scene.style import Style, readable
 
 
 def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
-    """Return the panel in the coordinates y = (x - centre)/size."""
+    """Return the panel in the coordinates y = (x - centre)/size; the largest coefficient of each form is one."""
     return replace(panel, layers=tuple(_scaled(layer, centre, size) for layer in panel.layers))
 
 
 def _scaled(layer: Layer, centre: FloatArray, size: float) -> Layer:
-    def moved(points: FloatArray) -> FloatArray:
-        return (np.asarray(points, dtype=float) - centre) / size
-
-    if isinstance(layer, Curve | Points):
-        return replace(layer, points=moved(layer.points))
-    if isinstance(layer, Arrow):
-        return replace(layer, tail=moved(layer.tail), tip=moved(layer.tip))
-    if isinstance(layer, Label):
-        return replace(layer, at=moved(layer.at))
-    if isinstance(layer, Surface):
-        return replace(
-            layer,
-            quadric=_form(layer.quadric, centre, size),
-            clip=np.array([[*n, (d - float(np.array(n) @ centre)) / size] for *n, d in layer.clip]).reshape(-1, 4),
-            grids=tuple(moved(grid) for grid in layer.grids),
-            wires=tuple(moved(wire) for wire in layer.wires),
-            rims=tuple(moved(rim) for rim in layer.rims),
-            within=tuple(_form(quadric, centre, size) for quadric in layer.within),
-        )
-    return layer
-
-
-def _form(quadric: FloatArray, centre: FloatArray, size: float) -> FloatArray:
-    """Return the form F(centre + size y) of y, its largest coefficient one."""
-    powers = np.array([size, size, size, 1.0])
-    move = np.eye(4)
-    move[:3, 3] = centre / size
-    # (x, 1) = powers * (move (y, 1)) up to the scale of the last row, so Q becomes move^T (powers Q powers) move
-    largest = float(np.abs(quadric * powers * powers[:, None]).max())
-    form: FloatArray = move.T @ (quadric * (powers / largest) * powers[:, None]) @ move
-    return form
+    found = moved(layer, np.eye(3) / size, -centre / size)
+    if isinstance(found, Surface):
+        forms = [form / np.abs(form).max() for form in (found.quadric, *found.within)]
+        found = replace(found, quadric=forms[0], within=tuple(forms[1:]), clip=found.clip / size)
+    return found
 
 
 _MARGIN = 4.0
@@ -141,12 +116,12 @@ def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> 
     panel = scaled(panel, held.centre, held.size)
     eye = frame(panel)
 
-    def moved(at: tuple[float, float]) -> tuple[float, float]:
+    def on_paper(at: tuple[float, float]) -> tuple[float, float]:
         x, y = held.scale * np.array(at) + held.shift
         return float(x), float(y)
 
     tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
-    placed = (replace(tag, anchor=moved(tag.anchor), elsewhere=tuple(map(moved, tag.elsewhere))) for tag in tags)
+    placed = (replace(tag, anchor=on_paper(tag.anchor), elsewhere=tuple(map(on_paper, tag.elsewhere))) for tag in tags)
     return View(panel, eye, held.scale, held.shift, window, tuple(placed), held.centre, held.size)
 
 

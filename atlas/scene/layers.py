@@ -6,7 +6,7 @@ moves in time ``rides`` on a path of the scene, by its name.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -202,3 +202,41 @@ def points_of(layer: Layer) -> Iterator[FloatArray]:
         yield layer.at
     elif isinstance(layer, Surface):
         yield from (*layer.grids, *layer.rims)
+
+
+_SIDES = np.array([1.0, 1.0, 1.0, -1.0])
+"""A half space n . x <= d is one linear form of (x, 1), (n, -d)."""
+
+
+def moved(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
+    """Return a layer under the map x -> A x + s, A (D, D) regular; a region or a map stays as it is."""
+
+    def at(points: FloatArray) -> FloatArray:
+        return np.asarray(np.asarray(points, dtype=float) @ A.T + s)
+
+    match layer:
+        case Curve() | Points():
+            return replace(layer, points=at(layer.points))
+        case Arrow():
+            return replace(layer, tail=at(layer.tail), tip=at(layer.tip))
+        case Label():
+            return replace(layer, at=at(layer.at))
+        case Surface():
+            return moved_surface(layer, A, s)
+    return layer
+
+
+def moved_surface(surface: Surface, A: FloatArray, s: FloatArray) -> Surface:
+    """Return a surface under the map x -> A x + s: its forms are those of the points that come to a place."""
+    back = np.eye(4)
+    back[:3, :3] = np.linalg.inv(A)
+    back[:3, 3] = -back[:3, :3] @ s
+    return replace(
+        surface,
+        quadric=back.T @ surface.quadric @ back,
+        clip=(surface.clip * _SIDES) @ back * _SIDES,
+        grids=tuple(grid @ A.T + s for grid in surface.grids),
+        wires=tuple(wire @ A.T + s for wire in surface.wires),
+        rims=tuple(rim @ A.T + s for rim in surface.rims),
+        within=tuple(back.T @ form @ back for form in surface.within),
+    )

@@ -219,8 +219,7 @@ def cells(members: Sequence[Member], scale: float, azimuth: float, below: float 
     least = PITCH * max(float(np.ptp(solids.extent(one.surfaces, E3))) for one in members)
     for one in members:
         level = members[0].centre - one.centre
-        surfaces = [solids.moved(surface, level) for surface in one.surfaces] if level.any() else one.surfaces
-        left, end = solids.extent(surfaces, right)
+        left, end = (x + level @ right for x in solids.extent(one.surfaces, right))
         shift = (place - left) * right + level
         place += max(end - left + 0.35 * scale, least)
         layers: list[Layer] = []

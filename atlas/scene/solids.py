@@ -1,12 +1,11 @@
-"""Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle; and surfaces moved elsewhere."""
+"""Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from atlas.scene import sample
-from atlas.scene.layers import FloatArray, Surface
+from atlas.scene.layers import FloatArray, Surface, moved_surface
 
 TURN = 2.0 * np.pi
 _FLAT = 1e-6
@@ -142,19 +141,7 @@ def rectangle(
 
 def moved(surface: Surface, shift: FloatArray) -> Surface:
     """Return a surface moved by ``shift`` (3,)."""
-    back = np.eye(4)
-    back[:3, 3] = -shift
-    clip = surface.clip.copy()
-    clip[:, 3] += clip[:, :3] @ shift
-    return replace(
-        surface,
-        quadric=back.T @ surface.quadric @ back,
-        clip=clip,
-        grids=tuple(grid + shift for grid in surface.grids),
-        wires=tuple(wire + shift for wire in surface.wires),
-        rims=tuple(rim + shift for rim in surface.rims),
-        within=tuple(back.T @ form @ back for form in surface.within),
-    )
+    return moved_surface(surface, np.eye(3), shift)
 
 
 def extent(surfaces: Sequence[Surface], along: FloatArray) -> tuple[float, float]:
