@@ -14,6 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from atlas.core.arithmetic.quaternions import of_matrix
 from atlas.draw import viewer
 from atlas.draw.panels import laid_out
 from atlas.draw.plane import marker
@@ -79,14 +80,7 @@ def _packed(numbers: FloatArray) -> str:
 
 def _quaternions(R: FloatArray) -> FloatArray:
     """Return unit quaternions (N, 4) of matrices (N, 3, 3), each on the side of the one before."""
-    trace, squares = np.trace(R, axis1=1, axis2=2), np.einsum("nii->ni", R)
-    M = np.empty((len(R), 4, 4))  # 4 q q^T, of whose rows the one with the largest diagonal element is good
-    M[:, 1:, 1:] = R + R.swapaxes(1, 2)
-    M[:, 0, 1:] = np.stack([R[:, k, j] - R[:, j, k] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)
-    M[:, 1:, 0] = M[:, 0, 1:]
-    np.einsum("nii->ni", M)[:] = 1.0 + np.column_stack([trace, 2.0 * squares - trace[:, None]])
-    found = M[np.arange(len(R)), np.einsum("nii->ni", M).argmax(axis=1)]
-    found /= np.linalg.norm(found, axis=1, keepdims=True)
+    found = np.roll(of_matrix(R), 1, axis=-1)
     signs = np.sign(np.einsum("ni,ni->n", found[1:], found[:-1]))
     found[1:] *= np.cumprod(np.where(signs == 0.0, 1.0, signs))[:, None]
     return found

@@ -73,6 +73,15 @@ def dot(a: Vector, b: Vector) -> Number:
     return sum(others, first)
 
 
+def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ...], ...]:
+    """Return 4 q_i q_j of the quaternion (x, y, z, w) of a rotation matrix; the row of the largest loses nothing."""
+    trace = R[0][0] + R[1][1] + R[2][2]
+    x, y, z = (2 * R[i][i] - trace for i in range(3))
+    xy, yz, xz = (R[i][j] + R[j][i] for i, j in ((0, 1), (1, 2), (0, 2)))
+    xw, yw, zw = (R[i][j] - R[j][i] for i, j in ((2, 1), (0, 2), (1, 0)))
+    return (1 + x, xy, xz, xw), (xy, 1 + y, yz, yw), (xz, yz, 1 + z, zw), (xw, yw, zw, 1 + trace)
+
+
 def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
     """Vector product [a, b]."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from atlas.core.arithmetic.quaternions import of_matrix
 from atlas.core.inputs import FloatArray
 from atlas.exact.digits import numbers
 from atlas.exact.inputs import Real
+from atlas.exact.nutation.cayley_klein import quaternion
 from atlas.formulas.numbers import workprec
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import KernelTruth, Long, Truth, long
@@ -198,20 +200,9 @@ def _quaternion(motion: Any, t: float) -> list[Real]:
     if hasattr(motion, "quaternion"):
         found: list[Real] = motion.quaternion(t)
         return found
-    R = [[arb(x) for x in row] for row in motion.rotation(t)]
-    # four times the products of the components with one another; the row of the largest square, over its length
-    a, b, c = (R[i][i] for i in range(3))
-    squares = [1 + a + b + c, 1 + a - b - c, 1 - a + b - c, 1 - a - b + c]
-    pairs = [(R[k][j], R[j][k]) for j, k in ((1, 2), (2, 0), (0, 1))]
-    turns, sums = [x - y for x, y in pairs], [x + y for x, y in pairs]
-    rows = [
-        [squares[0], *turns],
-        [turns[0], squares[1], sums[2], sums[1]],
-        [turns[1], sums[2], squares[2], sums[0]],
-        [turns[2], sums[1], sums[0], squares[3]],
-    ]
-    k = max(range(4), key=lambda i: float(squares[i].mid()))
-    return [x / (2 * squares[k].sqrt()) for x in rows[k]]
+    R = motion.rotation(t)
+    x, y, z, w = quaternion(R, of_matrix([[float(arb(x)) for x in row] for row in R]).tolist())
+    return [w, x, y, z]
 
 
 def _precise(function: Callable[[], Any]) -> Any:

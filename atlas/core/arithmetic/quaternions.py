@@ -5,17 +5,13 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray
+from atlas.formulas.numbers import quaternion_products
 
 
 def of_matrix(R: Any) -> FloatArray:
     """Return unit quaternions of rotation matrices (..., 3, 3), one of the two of each; shape (..., 4)."""
-    R = np.asarray(R)
-    trace = R[..., 0, 0] + R[..., 1, 1] + R[..., 2, 2]
-    x, y, z = (2 * R[..., i, i] - trace for i in range(3))
-    xy, yz, xz = (R[..., i, j] + R[..., j, i] for i, j in ((0, 1), (1, 2), (0, 2)))
-    xw, yw, zw = (R[..., i, j] - R[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0)))
-    # 4 q_i q_j: the row of the largest q_i loses nothing
-    rows = (1 + x, xy, xz, xw), (xy, 1 + y, yz, yw), (xz, yz, 1 + z, zw), (xw, yw, zw, 1 + trace)
+    entries: Any = np.moveaxis(np.asarray(R), (-2, -1), (0, 1))
+    rows = quaternion_products(entries)
     table = np.array([np.stack(row, -1) for row in rows])
     largest = np.argmax([table[i, ..., i] for i in range(4)], axis=0)
     found = np.take_along_axis(table, largest[None, ..., None], axis=0)[0]

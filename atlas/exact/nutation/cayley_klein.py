@@ -14,7 +14,7 @@ from typing import Any
 from flint import acb, arb, ctx, fmpz
 
 from atlas.exact.inputs import Real, rational
-from atlas.formulas.numbers import Number
+from atlas.formulas.numbers import Number, quaternion_products
 
 
 def infinite(x: arb) -> bool:
@@ -284,15 +284,8 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
 
 def quaternion(R: Sequence[Sequence[Any]], near: Sequence[float]) -> list[arb]:
     """Return the unit quaternion (x, y, z, w) of a rotation matrix, that of the two which is near to some doubles."""
-    R = [[arb(x) for x in row] for row in R]
-    trace = R[0][0] + R[1][1] + R[2][2]
-    twice = [2 * R[i][i] - trace for i in range(3)]
-    xy, yz, xz = (R[i][j] + R[j][i] for i, j in ((0, 1), (1, 2), (0, 2)))
-    xw, yw, zw = (R[i][j] - R[j][i] for i, j in ((2, 1), (0, 2), (1, 0)))
     i = max(range(4), key=lambda i: abs(near[i]))
-    row = ((1 + twice[0], xy, xz, xw), (xy, 1 + twice[1], yz, yw), (xz, yz, 1 + twice[2], zw), (xw, yw, zw, 1 + trace))[
-        i
-    ]
+    row = quaternion_products([[arb(x) for x in row] for row in R])[i]
     size = (-2 if near[i] < 0 else 2) * row[i].sqrt()
     return [x / size for x in row]
 
