@@ -10,13 +10,16 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.maps.separatrix import Companion, companions
+from atlas.core.motions.general import GeneralMotion
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, quadric_panel, solids
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
 from atlas.scene.sample import curve, flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
+RANGES = {"decay": (0.1, 30.0)}
+"""Beyond, what a rounding of the start has grown to would be seen: the motion would leave again."""
 
 
 def scene(
@@ -30,14 +33,14 @@ def scene(
     unit: str = "time",
 ) -> Scene:
     """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/growth before and after."""
-    motions = [motion for motion in companions(ratio, field, omega2) if motion.kind == "separatrix"]
-    if not motions:
+    stability = float(Hyperbola(ratio, field).stability(omega2))
+    if not stability < 0:
         raise DomainError(
             f"figure separatrix needs an unstable elementary motion, which omega2 = {omega2} is not for I = {ratio} "
             f"and field = {field}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
         )
-    growth = float(np.sqrt(motions[0].curvature))
-    last = decay / growth
+    growth = float(np.sqrt(-stability))
+    motions, last = excursions(ratio, field, omega2), decay / growth
     return Scene(
         title=title(__doc__),
         caption=(
@@ -52,8 +55,8 @@ def scene(
             "pulse upwards and one downwards from the same level."
         ),
         panels=(
-            sphere(motions[0], last, (azimuth, elevation)),
-            course(motions, last, unit),
+            sphere(motions[0], field, last, (azimuth, elevation)),
+            course(motions, float(Hyperbola(ratio, field).omega3(omega2)), last, unit),
         ),
         columns=2,
         named={"dashed": "reference"},
@@ -61,19 +64,34 @@ def scene(
     )
 
 
-def sphere(motion: Companion, last: float, view: tuple[float, float]) -> Space:
+def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[GeneralMotion]:
+    """Return the motions with the integrals of an unstable precession from where they turn, theorem-companion.
+
+    The quartic of nu, the cosine between axis and field, has the double root r = B3/b, and the simple ones
+    e = -r +- sqrt((1 - z)(z - r^2)/z) with z = ((omega2 + B2)/B2)^2/(1 - I). There omega1 = 0, and E', c3 and (M, B')
+    of the precession tell the rest.
+    """
+    I, (B2, B3), b = quotient(ratio), field, float(np.hypot(*field))
+    omega3, r, z = float(Hyperbola(ratio, field).omega3(omega2)), B3 / b, ((omega2 + B2) / B2) ** 2 / (1 - I)
+    c3, momentum = omega3 + B3, (omega2 + B2) * B2 + I * (omega3 + B3) * B3
+    found = []
+    for side in (1.0, -1.0):
+        e = -r + side * float(np.sqrt((1 - z) * (z - r * r) / z))
+        K2, K3 = b * float(np.sqrt(max(0.0, 1 - e * e))), b * e
+        square = omega2 * omega2 + I * (omega3 * omega3 - (c3 - K3) ** 2)
+        w2 = float(np.copysign(np.sqrt(max(0.0, square)), momentum - I * c3 * K3 - K2 * K2))
+        found.append(GeneralMotion(ratio, (K2, K3), (0.0, w2, c3 - K3)))
+    return found
+
+
+def sphere(motion: GeneralMotion, field: tuple[float, float], last: float, view: tuple[float, float]) -> Space:
     """Panel (a): the trace of the axis on the sphere, with the field upright."""
     fine = quadric_panel.tolerance(1.4)
 
     def axis(t: FloatArray) -> FloatArray:
-        alpha, beta = np.moveaxis(motion.cayley_klein(t), -1, 0)
-        # R_z(psi) R_x(theta) takes e3 to (sin psi sin theta, -cos psi sin theta, cos theta)
-        psi, nu = np.angle(alpha * beta), motion.cosine(t)
-        across = np.sqrt(np.maximum(0.0, 1.0 - nu * nu))
-        return np.stack([across * np.sin(psi), -across * np.cos(psi), nu], axis=-1)
+        return axis_trace.turned(motion.third_axis(t), motion.field)
 
-    trace = curve(axis, -last, last, fine, pieces=64)
-    r = motion.double
+    trace, r = curve(axis, -last, last, fine, pieces=64), field[1] / float(np.hypot(*field))
     ring = solids.circle(r * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(1.0 - r * r)), fine)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
     layers: list[Layer] = [
@@ -88,22 +106,21 @@ def sphere(motion: Companion, last: float, view: tuple[float, float]) -> Space:
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
 
 
-def course(motions: list[Companion], last: float, unit: str) -> Plane:
-    """Panel (b): Omega3 of both motions over time."""
-    rest = motions[0].c3 - motions[0].b * motions[0].double
-    ends = [motion.c3 - motion.b * motion.turning for motion in motions]
+def course(motions: list[GeneralMotion], rest: float, last: float, unit: str) -> Plane:
+    """Panel (b): Omega3 of both motions over time; at rest it is that of the precession."""
+    ends = [motion.omega[2] for motion in motions]
     low, high = min([rest, *ends]), max([rest, *ends])
     pad = 0.1 * (high - low)
     view = ((-last, last), (low - pad, high + pad))
     layers: list[Layer] = [Curve(np.array([[-last, rest], [last, rest]]), "unstable")]
     for motion, role in zip(motions, ("main", "second"), strict=False):
 
-        def point(t: FloatArray, motion: Companion = motion) -> FloatArray:
-            return np.stack([t, motion.c3 - motion.b * motion.cosine(t)], axis=-1)
+        def point(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
+            return np.stack([t, motion.angular_velocity(t)[:, 2]], axis=-1)
 
         line = flat(point, -last, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48)
         shown = ", shown in (a)" if motion is motions[0] else ""
-        name = ("upper" if motion.c3 - motion.b * motion.turning > rest else "lower") + shown
+        name = ("upper" if motion.omega[2] > rest else "lower") + shown
         layers += [Curve(line, role), Label(line[[len(line) // 2]], name, role, (30.0, 0.0))]
     layers.append(Label(np.array([0.85 * last, rest]), "precession", "unstable", (0.0, 5.0)))
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title=r"(b) $\Omega_3$")
