@@ -253,8 +253,8 @@ def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], 
     if options["digits"] is not None or options["decimal"]:
         own = in_principal_axes(made, "rad/s" if units_of(options) else "")
         raise click.UsageError(
-            "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are along "
-            f"{own.axes}, and in them it is atlas {own.command} {' '.join(own.options)}"
+            "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are "
+            f"along {own.axes}, and in them it is atlas {own.command} {' '.join(own.options)}"
         )
     family = FAMILIES[made.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
