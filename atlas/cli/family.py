@@ -82,6 +82,15 @@ units_option: Callable[[Any], Any] = click.option(
     "else natural.",
 )
 
+spectrum_options = stack(
+    click.option(
+        "--spectrum", type=click.Choice(["axis", "rotation", "angular_velocity", "field"]), is_flag=False,
+        flag_value="axis", metavar="[OF]",
+        help="Lines of the axis, or of the rotation, angular_velocity or field in the body: frequencies, amplitudes.",
+    ),
+    click.option("--least", type=REAL, default="1e-3", show_default=True, help="Least amplitude, of the whole."),
+)  # fmt: skip
+
 charge_options = stack(
     click.option("--mass", type=REAL, help="Mass, with --charge."),
     click.option("--charge", type=REAL, help="Charge, either sign, with --mass: mu is their ratio."),
@@ -140,7 +149,13 @@ def _made(family: Family, described: Described) -> click.Command:
     """Make the command of a family: its options, and what it does with them."""
     [p.name for p in family.parameters]
     [p for p in family.parameters if p.option]
-    decorators = [*object_options(family), *([times_options] if family.sampled else []), output_options]
+    has_lines = any(s.matrix for s in family.sampled)
+    decorators = [
+        *object_options(family),
+        *([times_options] if family.sampled else []),
+        *([spectrum_options] if has_lines else []),
+        output_options,
+    ]
 
     def run(**options: Any) -> None:
         times = chosen_times(options) if family.sampled else []
@@ -148,7 +163,9 @@ def _made(family: Family, described: Described) -> click.Command:
 
         def floats() -> dict[str, Any]:
             made = family.kernels()(*values_of(family, options, exact=False))
-            return named | _found(family, made, times, {s.name: along(s.at(made), times) for s in sampled}, exact=False)
+            columns = {s.name: along(s.at(made), times) for s in sampled}
+            lines = _spectrum(made, options)
+            return named | _found(family, made, times, columns, exact=False) | _recorded(lines)
 
         @cache
         def near() -> list[Any]:
@@ -177,6 +194,7 @@ def _made(family: Family, described: Described) -> click.Command:
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
             show(_printout(family, described, texts, options, certificate(options)))
+            _show_lines(family, options)
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
     return click.command(described.name, cls=Command, **texts)(stack(*decorators)(run))
@@ -259,13 +277,54 @@ def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], 
     family = FAMILIES[made.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     columns = {s.name: along(s.at(made), times) for s in sampled}
-    found = {"family": family.name} | _found(family, made, times, columns, exact=False)
+    found, lines = {"family": family.name} | _found(family, made, times, columns, exact=False), _spectrum(made, options)
     if options["as_json"]:
         known = body_of(made.arguments["inertia"])
         body = {"principal_moments": known.moments, "principal_axes": known.axes}
-        dump({"parameters": parameters, **body, **found})
+        dump({"parameters": parameters, **body, **found, **_recorded(lines)})
     elif family.command:
         show(_printout(family, family.command, written(found), options, IN_DOUBLES))
+        _show_lines(family, options, made)
+
+
+def _spectrum(made: Any, options: dict[str, Any]) -> Any:
+    """Return the lines of a motion that are asked for, None where they are not."""
+    if not options.get("spectrum"):
+        return None
+    if options["digits"] is not None or options["decimal"]:
+        raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
+    return made.spectrum(options["spectrum"], least=options["least"])
+
+
+def _recorded(lines: Any) -> dict[str, Any]:
+    """Return lines for JSON: an amplitude as its real and its imaginary part."""
+    if lines is None:
+        return {}
+    each = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
+    keys = "frequency", "combination", "amplitude"
+    return {"spectrum": {
+        "of": lines.of, "rates": dict(zip(lines.names, lines.rates, strict=True)), "mean_square": lines.mean_square,
+        "lines": [dict(zip(keys, (f, c, {"real": a.real, "imaginary": a.imag}), strict=True)) for f, c, a in each],
+    }}  # fmt: skip
+
+
+def _show_lines(family: Family, options: dict[str, Any], made: Any = None) -> None:
+    """Print lines that are asked for, one a row, those of negative frequencies left out."""
+    if not options.get("spectrum"):
+        return
+    lines = _spectrum(made or family.kernels()(*values_of(family, options, exact=False)), options)
+    unit = _units(family, options).get(RATE, RATE)
+    rows = [
+        [*map(str, c), f"{f:.10g}", f"{size:.6g}"]
+        for f, c, size in zip(lines.frequencies, lines.combinations, lines.power**0.5, strict=True)
+        if f >= 0
+    ]
+    show(Printout(
+        f"spectrum of the {lines.of.replace('_', ' ')}",
+        [Line(name, "rate", f"{rate:.10g}", unit) for name, rate in zip(lines.names, lines.rates, strict=True)],
+        [*lines.names, f"frequency [{unit}]", "amplitude"], rows,
+        ["In doubles. Each line stands for the opposite frequency, with the conjugate amplitude, too."],
+    ))  # fmt: skip
 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:
@@ -428,9 +487,8 @@ def _printout(
     """Lay the certified texts out, three rows a time."""
     from atlas.exact.digits import NOT_CERTIFIED
 
-    case, names = texts[described.named] if described.named else "", [p.name for p in family.parameters]
-    units = UNITS[system_of(options)] if "c" in names else units_of(options) if in_field(family) else {}
-    units = top_units(options) if family.name == "top" else units
+    case = texts[described.named] if described.named else ""
+    units = _units(family, options)
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
     lines += _in_hertz(shown, texts, options) if units else []
@@ -442,6 +500,15 @@ def _printout(
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
     return Printout(described.title + case, lines, ("t", *heading) if rows else (), rows, notes)
+
+
+def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
+    """Return what units are called, where they are known."""
+    if family.name == "top":
+        return top_units(options)
+    if any(p.name == "c" for p in family.parameters):
+        return UNITS[system_of(options)]
+    return units_of(options) if in_field(family) else {}
 
 
 def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterator[Line]:

@@ -16,6 +16,7 @@ from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import rational, workprec
 
 STEP, BITS, BOUND = fmpq(1, 10**40), 500, 1e-12
+VECTORS = {"rotation": "rotation", "angular_velocity": "angular_velocity", "field": "field_in_body"}
 TIMES = (0.0, 0.3, -7.0, 1e6)
 GENERAL = ("ratio", "B2", "B3", "omega1", "omega2", "omega3")
 TOP = ("I2", "I3", "k2", "k3", "n2", "n3", "omega1", "omega2", "omega3", "linear", "quadratic")
@@ -48,17 +49,17 @@ class Differences:
 def check(motion: Any, make: Any, values: Any, names: Any, times: Any = TIMES) -> None:
     """Compare each derivative at each time with the difference, of R, and of Omega and K at the last time."""
     differences = [Differences(make, values, i) for i in range(len(names))]
-    for of in ("rotation", "angular_velocity", "field_in_body"):
-        if not hasattr(motion, of):
+    for of, method in VECTORS.items():
+        if not hasattr(motion, method):
             continue
         when = times if of == "rotation" else times[-1:]
         found, v = motion.sensitivity(np.array(when), names, of), motion.sensitivity(np.array(when), names)
         for j, name in enumerate(names):
             for i, t in enumerate(when):
-                expected = differences[j].at(of, t)
+                expected = differences[j].at(method, t)
                 size = 1 + max(np.abs(expected).max(), np.abs(v[i, j]).max())
                 if of != "rotation":
-                    size *= 1 + np.abs(motion.angular_velocity(t)).max() + np.abs(getattr(motion, of)(t)).max()
+                    size *= 1 + np.abs(motion.angular_velocity(t)).max() + np.abs(getattr(motion, method)(t)).max()
                 assert np.abs(found[i, j] - expected).max() <= BOUND * size, (of, name, t)
 
 
@@ -195,8 +196,8 @@ def test_sensitivity_in_given_axes_is_a_difference_quotient(inputs: Any, size: f
     motion = in_given_axes(**start)
     for j, name in enumerate(names):
         others = [in_given_axes(**{**start, name: start[name] + n * h}) for n in range(-3, 4)]
-        for of in ("rotation", "angular_velocity", "field_in_body"):
-            values = [getattr(x, of)(t) for x in others]
+        for of, method in VECTORS.items():
+            values = [getattr(x, method)(t) for x in others]
             slope = sum(c * (values[3 + n] - values[3 - n]) for n, c in ((1, 45), (2, -9), (3, 1))) / (60 * h)
             if of == "rotation":
                 turn = slope @ motion.rotation(t).swapaxes(1, 2)

@@ -106,7 +106,7 @@ class ThetaKernel:
             self.sums = Sums(theta.hat, [*forms, *W], start, rounded[:2] @ region)
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
             n = [float((x / arb(motion.square)).mid()) for x in theta.field]
-        self.rate, self.axis = int(rate.p) / int(rate.q), np.array(n)
+        self.rate, self.axis = int(rate.p) / int(rate.q), np.array(n) / np.linalg.norm(n)
         self.size = size / self.rate
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
         self.rounding = Rounding(self.sums, rounded[:2], rounded[2], float(self.b.mid()), self.size)
@@ -164,6 +164,21 @@ class ThetaKernel:
             index = np.arange(float(i), float(min(i + BLOCK, count)))
             t, low = moments(self.phases, start, step, index)
             fill(t, rows[i : i + BLOCK], low)
+
+    def on_torus(self, phases: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return S, Omega and K at phases (2, m) of the torus, R(t) = R_B(f3 t) S(f1 t, f2 t).
+
+        Of all f3, which differ by multiples of f1 and f2, it is the one with the least angles.
+        """
+        half = np.concatenate([(phases + np.pi) % (2 * np.pi) - np.pi, np.zeros((1, phases.shape[1]))]) / 2
+        for x, period in zip(half[:2], self.periods, strict=True):
+            half[2] += x * round(float(period.angle.mid()) / (2 * np.pi))
+        R, rest = np.empty((phases.shape[1], 9)), np.zeros_like(half)
+        self._fill(half, rest, self.entries, R)
+        x, less = self._places(half, rest)
+        D, *found = self.sums.at(x[:2], less[:2], slice(3, 10))
+        K, W = np.split(_real(np.array(found), _inverse(D)).T * self.rate, 2, axis=1)
+        return R.reshape(-1, 3, 3), W - K, K
 
     def _attitude(self, weights: FloatArray) -> Callable[..., None]:
         """Return what fills rows with combinations of Re N, Im N and K of the motion."""

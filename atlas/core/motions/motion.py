@@ -141,7 +141,7 @@ class Motion(Shown, Generic[Single]):
         `names` are those of the class: "ratio", "B2", "omega1", ..., "t" for time. Where the field may be of any
         direction, as in `atlas.motion`, "B1" to "B3" are its components in the laboratory, "omega1" to "omega3" those
         of the angular velocity along the body's axes at t = 0, and "a1" to "a3" turn R(0) about the axes of the
-        laboratory. `of="angular_velocity"` gives dOmega/dp and `of="field_in_body"` dK/dp, both in the body; the name
+        laboratory. `of="angular_velocity"` gives dOmega/dp and `of="field"` dK/dp, both in the body; the name
         of a scalar, such as "period", "precession_rate" or "k", its derivatives, of shape (..., names), whatever `t`.
 
         Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of derivatives of frequencies. A border
@@ -151,6 +151,25 @@ class Motion(Shown, Generic[Single]):
         from atlas.core.motions.sensitivity import of as derivatives
 
         return derivatives(self, t, names, of)
+
+    def spectrum(self, of: str = "rotation", least: float = 1e-6) -> Any:
+        """Lines of a function of time, the sum over all lines of amplitude exp(i frequency t): a `Spectrum`.
+
+        `of` is "rotation", R(t); "axis", the third column of it; "angular_velocity" or "field", Omega(t) and K(t) in
+        the body. Lines whose amplitude, the root of the sum of its squares, is below `least` of the root of the mean
+        square are left out. Frequencies are combinations with whole numbers of those of nutation, 2 pi/period, of
+        precession and of spin, see `precession_rate` and `spin_rate`; of an `AsymmetricMotion`, of its `frequencies`.
+        They are of closed form; amplitudes are integrals over the phases, right to rounding.
+
+        Raises DomainError for a motion on a separatrix or that has no closed form, AtlasError for an array of motions.
+
+            >>> lines = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).spectrum("axis", least=0.01)
+            >>> lines.names, lines.combinations.tolist()
+            (('nutation', 'precession'), [[0, -1], [-1, 0], [0, 0], [1, 0], [0, 1]])
+        """
+        from atlas.core.motions.spectrum import spectrum
+
+        return spectrum(self, of, least)
 
     def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
         """Return the motion at these times, or over one period, as an animation of Matplotlib's.

@@ -26,7 +26,7 @@ from atlas.exact.nutation.variations import Constants, constants, variations
 from atlas.formulas import ball, elementary
 from atlas.formulas.numbers import direction, rational, workprec
 
-VECTORS = ("rotation", "angular_velocity", "field_in_body")
+VECTORS = ("rotation", "angular_velocity", "field")
 """What varies with time."""
 
 NUTATION = ("period", "precession_per_period", "spin_per_period", "precession_rate", "spin_rate", "modulus", "nome")
@@ -344,7 +344,7 @@ class One:
                 out[:, j] = np.vecmat(moved @ slopes + spin * np.cross(turning, third), R)
                 continue
             out[:, j] = moved @ found + turn + spin * third
-            if of == "field_in_body":
+            if of == "field":
                 change = moved @ np.array([self.inputs.fields.get(x, np.zeros(3)) for x in needed]).reshape(-1, 3)
                 change = self.left @ change + np.cross(turn, B)
                 out[:, j] = np.vecmat(change - np.cross(out[:, j], B), R)
@@ -361,7 +361,7 @@ class One:
         """Return dK/dt, or dOmega/dt: I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega]."""
         J, k, linear, quadratic = self.inputs.parts
         w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T
-        if of == "field_in_body":
+        if of == "field":
             return np.asarray(np.cross(b, w) @ self.axes)
         push = np.outer(linear + quadratic * b[:, 2], (0.0, 0.0, 1.0))
         change = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * np.cross(b, w)
