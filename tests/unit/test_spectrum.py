@@ -9,6 +9,8 @@ from click.testing import CliRunner
 
 import atlas
 from atlas.cli.app import atlas as command
+from atlas.scene import Curve
+from atlas.scene.recipes import load
 
 METHODS = {
     "rotation": "rotation", "axis": "third_axis", "angular_velocity": "angular_velocity", "field": "field_in_body",
@@ -107,3 +109,17 @@ def test_the_command_prints_the_lines_of_the_motion(body: str) -> None:
     refused = CliRunner().invoke(command, [*words, "--digits", "20"])
     assert refused.exit_code == 2
     assert "--digits" in refused.output
+
+
+@pytest.mark.parametrize(
+    "parameters", [{}, {"ratio": 1.0}, {"omega": (0.0, 0.7, 0.6588235294117647)}, {"field": (0, 1)}]
+)
+def test_the_figure_draws_the_lines(parameters: Any) -> None:
+    """One stem for each line that is not negative, as high as its amplitude beside the whole."""
+    panels = load("spectrum").scene(**parameters).panels
+    given = {"ratio": 1.5, "field": (1.0, 2.0), "omega": (0.3, 0.7, 0.2), **parameters}
+    for panel, of in zip(panels, ("axis", "angular_velocity"), strict=True):
+        lines = atlas.GeneralMotion(**given).spectrum(of, 1e-4)
+        stems = sorted(tuple(x.points[1]) for x in panel.layers if isinstance(x, Curve))
+        size = np.sqrt(lines.power / lines.mean_square)[lines.frequencies >= 0]
+        assert np.array(stems) == pytest.approx(np.column_stack([lines.frequencies[lines.frequencies >= 0], size]))

@@ -1,0 +1,88 @@
+"""The lines of a motion.
+
+What a detector of the body's axis, and one of its angular velocity, sees of a general motion: each line is at
+m M + l p, or m M + j s, M the frequency of nutation, p and s the mean rates of precession and of spin.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import number, whole
+from atlas.core.motions.general import GeneralMotion
+from atlas.core.motions.spectrum import Spectrum
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector, title
+
+WIDTH, HEIGHT = 120.0, 118.0
+BESIDE = 0.02
+"""Part of the width between names that are both written."""
+
+
+def scene(
+    *,
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
+    least: float = 1e-4,
+    names: int = 12,
+    unit: str = "time",
+) -> Scene:
+    """Draw lines down to ``least`` of the whole, with the whole numbers of the ``names`` highest ones of each panel."""
+    least, names = number(least, "least"), whole(names, "names", 0)
+    if not 1e-12 <= least <= 0.1:
+        raise DomainError(f"figure spectrum draws lines down to least = 1e-12 to 0.1, not {least:g}.")
+    motion = GeneralMotion(ratio, field, omega)
+    axis, spin = motion.spectrum("axis", least), motion.spectrum("angular_velocity", least)
+    rates = dict(zip((*axis.names, *spin.names), (*axis.rates, *spin.rates), strict=True))
+    symbols = {"nutation": "M", "precession": "p", "spin": "s"}
+    told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items())
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"Lines of the motion of {tex_setting(ratio, field)} from "
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field at $m M$, across it at "
+            r"$m M\pm p$. (b) Of $\boldsymbol{\Omega}$, along the axis at $m M$, across it at $m M\pm s$. Heights are "
+            "amplitudes beside the root of the mean square."
+        ),
+        alt=(
+            "Two panels of vertical lines over frequency, on a logarithmic scale, for "
+            f"{plain_setting(ratio, field)} from the angular velocity {plain_vector(omega)}: of the body's axis and of "
+            "the angular velocity in the body. They become lower by about the same factor from one multiple of the "
+            f"nutation, {plain(rates.get('nutation', 0.0))}, to the next."
+        ),
+        panels=(
+            stems(
+                "(a) the body's axis", axis, "l", (r"along $\mathbf{B}$", r"across $\mathbf{B}$"), least, names, unit
+            ),
+            stems("(b) angular velocity in the body", spin, "j", ("along the axis", "across it"), least, names, unit),
+        ),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def stems(
+    heading: str, lines: Spectrum, letter: str, kinds: tuple[str, str], least: float, names: int, unit: str
+) -> Plane:
+    """Return a panel of lines; those that turn about the field, or about the body's axis, are of the second kind."""
+    size = np.sqrt(lines.power / lines.mean_square)
+    kept = lines.frequencies >= 0
+    f, size, numbers = lines.frequencies[kept], size[kept], np.zeros((kept.sum(), 2), dtype=int)
+    for i, name in enumerate(lines.names):
+        numbers[:, int(name != "nutation")] = lines.combinations[kept, i]
+    layers: list[Layer] = []
+    for turns, (role, kind) in enumerate(zip(("second", "main"), kinds, strict=True)):
+        chosen = np.flatnonzero((numbers[:, 1] != 0) == bool(turns))
+        for i, n in enumerate(chosen):
+            layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i else kind))
+        layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
+    top = float(f.max(initial=0.0)) * 1.12 or 1.0
+    written: list[float] = []
+    for n in np.argsort(-size):
+        if len(written) < names and all(abs(f[n] - x) > BESIDE * top for x in written):
+            written.append(float(f[n]))
+            text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
+            layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
+    return Plane(
+        tuple(layers), f"frequency (1/{unit})", "amplitude", (-0.04 * top, top), (least / 2, 3.0),
+        y_scale="log", legend=True, title=f"{heading}, $(m,{letter})$",
+    )  # fmt: skip
