@@ -5,7 +5,7 @@ angular velocity (0, omega2, omega3). The map is zero on the hyperbola (67) alon
 pixel is a row of a table of turning points.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from contourpy import contour_generator
@@ -45,12 +45,15 @@ def scene(
     omega = {f"omega{i}": Range.middles(x) for i, x in enumerate(edges, 2)}
     settings = {"ratio": tuple(ratios), "B2": field[0], "B3": field[1], "omega1": 0.0} | omega
     table = Tabulation("general", settings, ("kind", "least", "largest"))
-    swings = amplitudes(table.columns(), field).reshape(-1, cells, cells)
+    columns = table.columns()
+    swings, least, largest = (
+        x.reshape(-1, cells, cells) for x in (amplitudes(columns, field), columns["least"], columns["largest"])
+    )
     last = "b" if len(ratios) > 1 else "a"
     most = STEP * float(np.ceil(np.max(swings) / STEP))
     panels = tuple(
-        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, unit, most, bar=letter == last)
-        for letter, I, swing in zip("abcd", ratios, swings, strict=False)
+        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, ends, unit, most, letter == last)
+        for letter, I, swing, *ends in zip("abcd", ratios, swings, least, largest, strict=False)
     )
     return Scene(
         title=title(__doc__),
@@ -85,9 +88,9 @@ def panel(
     field: tuple[float, float],
     edges: list[FloatArray],
     swing: FloatArray,
+    ends: Sequence[FloatArray],
     unit: str,
     most: float,
-    *,
     bar: bool,
 ) -> Plane:
     """Return the map of one body; the scale of colours, up to ``most`` degrees for all, stands beside one of them."""
@@ -95,7 +98,7 @@ def panel(
     middle = (x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2
     second, third = np.meshgrid(*middle)
     omega = np.stack([np.zeros_like(second), second, third], axis=-1)
-    looping = (trace_map(I, field, omega) == 2).astype(float)
+    looping = (trace_map(I, field, omega, (ends[0].T, ends[1].T)) == 2).astype(float)
     view = Window((float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])))
     layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)" if bar else "", limits=(0.0, most))]
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
