@@ -23,7 +23,7 @@ def replacing(path: Path) -> Iterator[Path]:
         path.parent.mkdir(parents=True, exist_ok=True)
         for left in path.parent.glob(f".unfinished-*-{escape(path.name)}"):
             pid = left.name.split("-")[1]
-            if left == _unfinished(path, pid) and pid.isdecimal() and not _alive(int(pid)):
+            if left == _unfinished(path, pid) and pid.isdecimal() and not alive(int(pid)):
                 left.unlink(missing_ok=True)
         yield part
         part.replace(path)
@@ -40,7 +40,8 @@ def _unfinished(path: Path, pid: int | str) -> Path:
     return path.with_name(f".unfinished-{pid}-{path.name}")
 
 
-def _alive(pid: int) -> bool:
+def alive(pid: int) -> bool:
+    """Return whether there is a process of that number on this machine."""
     try:
         os.kill(pid, 0)
     except ProcessLookupError:

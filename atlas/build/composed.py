@@ -15,6 +15,7 @@ from atlas.report.find import find
 from atlas.sources import Sources
 
 if TYPE_CHECKING:
+    from atlas.report.blocks.figure import FigureView
     from atlas.report.document import Document
     from atlas.report.picture import Picture
 
@@ -62,9 +63,6 @@ def composed(
     return document, {picture.stem: build for build, picture in builds.items()}
 
 
-if TYPE_CHECKING:
-    from atlas.report.blocks.figure import FigureView
-
 OUT = Path("build/data")
 
 
@@ -98,9 +96,6 @@ def build_data(
     replace(place, package(document, drawn, parquet=parquet))
     return place / DESCRIPTION
 
-
-if TYPE_CHECKING:
-    from atlas.report.blocks.figure import FigureView
 
 TEX_OUT = Path("build/tex")
 TARGETS = ("aps", "aps-double")

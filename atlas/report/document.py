@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from atlas.errors import AtlasError, unknown
@@ -12,6 +13,7 @@ from atlas.paper.equation import slug
 from atlas.paper.plain import plain
 from atlas.report.bibliography import Bibliography
 from atlas.report.blocks.figure import Figure
+from atlas.report.blocks.ledger import Errata, Ledger
 from atlas.report.definition import Report
 from atlas.report.pandoc import Target
 from atlas.report.picture import Picture
@@ -149,12 +151,29 @@ class Document:
         """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
         return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
+    def numbered(self, name: str) -> str:
+        """Return the number of an equation; one that has none in the paper gets the next of our own."""
+        if not name.startswith("("):
+            own = len(self.equations) - len(THEOREMS) + 1
+            self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{own})")
+        return self.number(name)
+
+    @cached_property
+    def displays_the_paper(self) -> bool:
+        """Whether numbers of our own must not be taken for those of the paper, whose equations stand beside them."""
+        blocks = [block for page in self.report.pages for block in page.blocks]
+        return any(getattr(block, "name", "").startswith("(") or isinstance(block, Ledger | Errata) for block in blocks)
+
+    def pictures_of(self, block: Figure) -> list[Picture]:
+        """Return the pictures of a figure block."""
+        return [self.pictures[key] for key in keys(block, self.report)]
+
     @property
     def cover(self) -> Picture | None:
         """The picture of the cover."""
         blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
         chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
-        return self.pictures[keys(chosen, self.report)[0]] if chosen else None
+        return self.pictures_of(chosen)[0] if chosen else None
 
     def listed(self, template: str) -> list[Any]:
         """Return the figures or the tables, by the name of their template, in their order."""

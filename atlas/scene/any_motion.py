@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite, pi
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, positive
+from atlas.core.inputs import positive
 from atlas.errors import AtlasError
 from atlas.scene import axis_trace, quadric_panel
 from atlas.scene.bodies import body_of
@@ -64,20 +64,6 @@ _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
 """Lengths of the axis and of what stands upright, pieces of a trace at first, and a period that is taken for none."""
 
 
-class Turning(Protocol):
-    """What has an angular velocity."""
-
-    def angular_velocity(self, t: Any) -> FloatArray:
-        """Omega(t), shape (..., 3), in the body."""
-
-
-class Moving(Turning, Protocol):
-    """What the figure asks of a motion."""
-
-    def third_axis(self, t: Any) -> FloatArray:
-        """R_3(t), shape (..., 3), in the laboratory."""
-
-
 @dataclass(frozen=True)
 class Upright:
     """The vector that stands upright, in the laboratory, its letter for a formula and for plain words, its role."""
@@ -104,7 +90,7 @@ class Upright:
 
 def picture(
     heading: str,
-    motion: Moving,
+    motion: Any,
     setting: tuple[str, str],
     period: float,
     periods: float,
@@ -200,7 +186,7 @@ def start(omega: Sequence[float]) -> tuple[str, str]:
     )
 
 
-def turns(motion: Turning, stop: float) -> float:
+def turns(motion: Any, stop: float) -> float:
     """Return how many turns in a unit of time a motion makes at most, by looks from t = 0 to `stop`."""
     looks = motion.angular_velocity(np.linspace(0.0, stop, 65 if stop else 1))
     return float(np.linalg.norm(looks, axis=-1).max()) / (2 * pi)

@@ -161,7 +161,7 @@ def test_every_entry_says_what_the_paper_and_the_record_say(pages: dict[str, rea
         }
         for place, text in places.items():
             first = re.split(r"[$*`@\[_^<'\"]", text)[0].strip()
-            assert element.xpath(place).startswith(first), (name, place)
+            assert element.xpath(place).replace("\N{NO-BREAK SPACE}", " ").startswith(first), (name, place)
         corrected = element.xpath("./dl/dt[.='Corrected']/following-sibling::dd[1]")
         assert len(corrected) == bool(found.corrected_tex), name
         assert all(one.text.startswith(found.corrected_verdict) for one in corrected), name

@@ -1,18 +1,22 @@
-"""What a block may ask of what composes a report: counts, texts, names, uses."""
+"""What the blocks of a report share while they are gone through in order: counts, texts, names, uses."""
 
-from collections.abc import Mapping
-from typing import Any, Protocol
+from collections.abc import Iterable
+from typing import Any
 
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS
+from atlas.paper.equation import slug
 from atlas.report.appendices import Appendices
-from atlas.report.given import BodiesAndFields
 from atlas.report.picture import Picture
+from atlas.report.texts import citations
 from atlas.report.trial import Use
 
 
-class Composer(Protocol):
-    """Goes through the blocks of a report in order.
+class Composer:
+    """Goes through the blocks of a report, and collects in its `document` what they have.
 
-    slug             the page
+    slug, title      the page
+    where            the place that an error names
     figures, tables  how many there are so far
     parameters       the bodies and fields of the report
     recorded         the recorded results that its blocks show
@@ -20,46 +24,90 @@ class Composer(Protocol):
     uses             the places that use each equation
     """
 
-    slug: str
-    figures: int
-    tables: int
-    parameters: BodiesAndFields
-    recorded: Appendices
-    ledger: Mapping[str, str]
-    uses: Mapping[str, list[Use]]
+    def __init__(self, document: Any, recorded: Appendices) -> None:
+        self.document, self.recorded = document, recorded
+        self.where = self.slug = self.title = ""
+        self.figures = self.tables = 0
+        self.uses, self.ledger, self.parameters = document.uses, document.ledger, document.report.parameters
+
+    def begin(self, slug: str, title: str) -> None:
+        """Go on to a page."""
+        self.slug, self.title = slug, title
+        self.cited: set[str] = set()
+        self.said: set[str] = set()
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
         """Take in a text and return its number."""
+        return int(self.document.texts.add(markdown, self.where, inline=inline))
 
     def paragraphs(self, markdown: str) -> int:
-        """Take in paragraphs, whose first citations are anchors."""
+        """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
+        anchors = {}
+        for name in citations(markdown):
+            if name in EQUATIONS and name not in self.cited and self.ledger.get(name) != self.slug:
+                self.cited.add(name)
+                anchors[name] = f"cite-{self.slug}-{slug(name)}"
+                self.use(name, anchors[name], "text")
+        return int(self.document.texts.add(markdown, self.where, anchors=anchors))
 
     def caption(self, markdown: str, anchor: str, words: str) -> int:
         """Take in a caption; what it cites is used by its figure or table."""
+        for name in citations(markdown):
+            if name in EQUATIONS:
+                self.use(name, anchor, words)
+        return self.text(markdown, inline=True)
 
     def once(self, sentence: str) -> str:
         """Return a sentence that has not been said on this page, else nothing."""
+        new = sentence not in self.said
+        self.said.add(sentence)
+        return sentence if new else ""
+
+    def anchors(self, names: Iterable[str]) -> list[str]:
+        """Return where names lead in the PDF, but for what stands beside this report. Raises for an unknown one."""
+        find, targets = self.document.cite("typst"), self.document.targets
+        found = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
+        return [anchor for anchor in found if anchor]
 
     def use(self, name: str, anchor: str, words: str) -> None:
-        """Note that a place of this page uses an equation."""
+        """Note that a place of this page uses an equation, once."""
+        place = Use(self.title, f"{self.slug}.html", anchor, words)
+        if place not in self.uses[name]:
+            self.uses[name].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
         """Let a name lead to an anchor of this page; return whether it is the first to do so."""
+        first = name not in self.document.targets
+        if first:
+            self.document.targets[name] = (f"{self.slug}.html", anchor, words)
+        return first
 
     def anchor(self, kind: str, given: str | None, word: str, number: int) -> str:
-        """Return the anchor of a figure or table, and let citations lead there."""
+        """Return the anchor of a figure or table, by its id or else its number, and let citations lead there."""
+        name = given or f"{number}"
+        self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
+        return f"{kind}-{name}"
 
     def number(self, name: str) -> str:
-        """Return the number of an equation."""
+        """Return the number of an equation; one that has none in the paper gets the next of our own."""
+        return str(self.document.numbered(name))
 
     def entry(self, name: str) -> str:
-        """Return the page of an equation's entry in the ledger, here or beside this report."""
+        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
+        return str(self.document.entry(name))
 
     def pictures(self, block: Any) -> tuple[Picture, ...]:
         """Return the pictures of a figure block."""
+        return tuple(self.document.pictures_of(block))
 
     def hold_errata(self) -> None:
         """Let this page be that of the errata."""
+        self.document.errata = self.slug
 
     def list_works(self) -> None:
         """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
+        if not self.document.report.bibliography:
+            raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
+        if self.document.listed_on:
+            raise AtlasError("the works are listed already: a report has one list.")
+        self.document.listed_on = self.slug

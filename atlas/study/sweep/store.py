@@ -234,20 +234,8 @@ class Table:
         """Return who holds the lock, as far as it is known: its record is written a moment after it is taken."""
         for _ in range(10):
             record = self._record() or {}
-            if "pid" in record and _runs(record):
+            here = record.get("host") == socket.gethostname() and os.name == "posix"
+            if "pid" in record and (not here or files.alive(int(record["pid"]))):
                 return f" (process {record['pid']} on {record['host']}, since {record['since']})"
             time.sleep(0.05)
         return ""
-
-
-def _runs(record: dict[str, Any]) -> bool:
-    """Return whether the process of a record is there; where that cannot be seen, it is believed."""
-    if os.name != "posix" or record["host"] != socket.gethostname():
-        return True
-    try:
-        os.kill(int(record["pid"]), 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        return True
-    return True
