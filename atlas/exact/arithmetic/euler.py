@@ -1,4 +1,4 @@
-"""The roots of a quartic with rational coefficients as balls, by Euler's solution: a cubic resolvent and square roots.
+"""The roots of a quartic as balls, by Euler's solution: a cubic resolvent and square roots.
 
 For Q = a0 u^4 + 4 a1 u^3 + 6 a2 u^2 + 4 a3 u + a4 with the invariants g2, g3 and the roots e_i of 4 e^3 = g2 e + g3,
 
@@ -9,33 +9,10 @@ of the discriminant says, exactly. Roots that are close cost digits, and no time
 """
 
 from collections.abc import Callable, Sequence
-from itertools import combinations, product
+from itertools import product
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpq_poly
-
-from atlas.formulas.numbers import workprec
-
-
-def quartic_roots(polynomial: fmpq_poly) -> list[acb]:
-    """Return the four roots of a quartic that has no double root; the balls do not overlap.
-
-    At least two of the roots must be real. The precision is raised above that of the moment as far as it takes.
-    """
-    c = polynomial.coeffs()
-    a = (c[4], c[3] / 4, c[2] / 6, c[1] / 4, c[0])
-    precision = ctx.prec + 32
-    while True:
-        with workprec(precision):
-            roots = _roots(*a)
-            if all(x.is_finite() for x in roots) and not any(x.overlaps(y) for x, y in combinations(roots, 2)):
-                return roots
-        precision *= 2
-
-
-def _roots(*a: fmpq) -> list[acb]:
-    """Return the roots at the precision of the moment, which may not suffice."""
-    return four_roots(a, lambda x: int(x > 0) - int(x < 0), arb)
+from flint import acb, arb
 
 
 def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:

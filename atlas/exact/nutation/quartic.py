@@ -22,11 +22,10 @@ from typing import Any
 
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
-from atlas.exact.arithmetic.euler import quartic_roots
 from atlas.exact.arithmetic.surd import Polynomial, Surd, derivative, evaluated, roots, sign_of, squarefree, trimmed
 from atlas.exact.inputs import Real
 from atlas.formulas.integrals import along_field, integrals, quartic
-from atlas.formulas.numbers import root, workprec
+from atlas.formulas.numbers import workprec
 
 Vector = tuple[fmpq, fmpq, fmpq]
 
@@ -80,17 +79,17 @@ class Quartic:
     @property
     def bend(self) -> int:
         """Sign of the leading coefficient: where in the plane of time Omega3 is infinite depends on it."""
-        return _sign(self.leading)
+        return sign_of(self.leading)
 
     @property
     def sense(self) -> int:
         """Sign of dOmega3/dt at t = 0."""
-        return _sign(self.rate)
+        return sign_of(self.rate)
 
     @property
     def bias(self) -> int:
         """Sign of the second derivative of Omega3 at t = 0."""
-        return _sign(self.polynomial.derivative()(self.u))
+        return sign_of(self.polynomial.derivative()(self.u))
 
     @cached_property
     def is_constant(self) -> bool:
@@ -99,7 +98,8 @@ class Quartic:
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
-        return sign_of_sum(self.momentum, -pole * self.I * self.c3, self.K2)
+        beside: Surd = Surd.root(self.K2) * (-pole * self.I * self.c3) + self.momentum
+        return beside.sign
 
     def roots(self) -> list[Root]:
         """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
@@ -107,23 +107,18 @@ class Quartic:
             self._known[ctx.prec] = self._isolated()
         return self._known[ctx.prec]
 
+    @cached_property
+    def _factors(self) -> list[tuple[Polynomial, int]]:
+        """Factors without multiple roots, each with the multiplicity of its roots."""
+        p = trimmed([Surd(c, fmpq(0), fmpq(1)) for c in self.polynomial.coeffs()])
+        return squarefree(p) if len(p) > 1 else []
+
     def _isolated(self) -> list[Root]:
-        """Isolate the roots; unless there are four simple ones, each belongs to a rational factor of degree two."""
-        p = self.polynomial
-        common = p.gcd(p.derivative())
-        triple = common.gcd(common.derivative())
-        if p.degree() < 4:
-            found = _of_quadratic(p, 1)
-        elif common.degree() == 0:
-            found = [Root(value, 1) for value in quartic_roots(p)]
-        elif triple.degree() == 0:
-            found = _of_quadratic(common, 2) + _of_quadratic(p // common**2, 1)
-        else:
-            line, count = triple if triple.degree() == 1 else triple.derivative(), common.degree() + 1
-            found = _of_quadratic(line, count) + _of_quadratic(p // line**count, 1)
+        """Isolate the roots."""
+        found = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
         real = [root for root in found if root.is_real]
         real.sort(key=lambda root: root.value.real.mid())
-        return real + [root for root in found if not root.is_real]
+        return real + [root for root in found if root.is_complex]
 
     @cached_property
     def _interval(self) -> tuple[int, int]:
@@ -151,34 +146,6 @@ class Quartic:
     def high(self) -> int:
         """Place of the upper end."""
         return self._interval[1]
-
-
-def sign_of_sum(x: fmpq, y: fmpq, square: fmpq) -> int:
-    """Return the sign of x + y sqrt(square), exactly."""
-    first, second = _sign(x), _sign(y) * _sign(square)
-    if first * second >= 0:
-        return _sign(fmpq(first + second))
-    return first * _sign(x * x - y * y * square)
-
-
-def _sign(x: fmpq) -> int:
-    return int(x > 0) - int(x < 0)
-
-
-def _of_quadratic(p: fmpq_poly, count: int) -> list[Root]:
-    """Return the roots of a polynomial of degree two or less, `count` times each, and a double one twice as often."""
-    c, b, a = p[0], p[1], p[2]
-    if a == 0:
-        return [Root(acb(-c / b), count)] if b != 0 else []
-    square = b * b - 4 * a * c
-    if square == 0:
-        return [Root(acb(-b / (2 * a)), 2 * count)]
-    if square < 0:
-        real, imaginary = arb(-b / (2 * a)), root(-square) / (2 * abs(a))
-        return [Root(acb(real, -imaginary), count), Root(acb(real, imaginary), count)]
-    # of the two roots the one that does not cancel first
-    larger = -(b + root(square)) / 2 if b >= 0 else (root(square) - b) / 2
-    return [Root(acb(larger / a), count), Root(acb(c / larger), count)]
 
 
 INFINITY = acb(arb("inf"))
@@ -259,12 +226,10 @@ class TopQuartic(Quartic):
 
     @cached_property
     def _factors(self) -> list[tuple[Polynomial, int]]:
+        """Factors without multiple roots, each with the multiplicity of its roots."""
         return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:
-        """Isolate the roots."""
-        found = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
-        real = [root for root in found if root.is_real]
-        real.sort(key=lambda root: root.value.real.mid())
+        """Isolate the roots; those that have gone to infinity come last."""
         lost = 5 - len(self.polynomial)
-        return real + [root for root in found if root.is_complex] + [Root(INFINITY, lost)] * bool(lost)
+        return super()._isolated() + [Root(INFINITY, lost)] * bool(lost)

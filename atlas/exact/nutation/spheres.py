@@ -17,8 +17,9 @@ from dataclasses import dataclass
 
 from flint import acb, arb, fmpq
 
+from atlas.exact.arithmetic.surd import Surd
 from atlas.exact.inputs import Real
-from atlas.exact.nutation.quartic import Quartic, Vector, sign_of_sum
+from atlas.exact.nutation.quartic import Quartic, Vector
 from atlas.formulas.numbers import root
 
 POLES = (-1, 1)
@@ -64,7 +65,7 @@ def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
         length=root(x * x + y * y + z * z),
         poles={pole: q.c3 - pole * arb(b) for pole in POLES},
         torques={pole: q.momentum - pole * arb(b) * q.I * q.c3 for pole in POLES},
-        signs={pole: sign_of_sum(q.momentum, -pole * q.I * q.c3, q.K2) for pole in POLES},
+        signs={pole: q.sign_beside(pole) for pole in POLES},
         frames={pole: (-b - pole * (1 - q.I) * q.c3) / 2 for pole in POLES},
         slopes={-1: acb(-w1, w2) / 2, 1: acb(w1, w2) / 2},
         precession=-b,
@@ -83,7 +84,7 @@ def sphere_of_velocity(q: Quartic) -> Sphere:
         length=root(q.E),
         poles={pole: -pole * end for pole in POLES},
         torques={pole: square + q.c5 + pole * (2 - q.I) * q.c3 * end for pole in POLES},
-        signs={pole: sign_of_sum(square + q.c5, pole * (2 - q.I) * q.c3, square) for pole in POLES},
+        signs={pole: (Surd.root(square) * (pole * (2 - q.I) * q.c3) + (square + q.c5)).sign for pole in POLES},
         frames={pole: fmpq(0) for pole in POLES},
         slopes={-1: turn, 1: -turn.conjugate()},
         precession=fmpq(0),
