@@ -29,8 +29,11 @@ def composed(
     progress: Progress,
     jobs: int | None,
     targets: tuple[str, ...] = (),
+    style: str | None = None,
 ) -> "tuple[Document, dict[str, FigureBuild]]":
     """Return a report, its tables computed, and its figures by the stems of their pictures, drawn in these formats.
+
+    `style`, or that of the report, is a style sheet of Matplotlib, a file or a name.
 
     Each figure is made for the first of the targets that is wide enough.
 
@@ -48,7 +51,7 @@ def composed(
     report = load(file)
     cache, wanted = Cache(cache_folder(out)), pictures(report)
     builds = {
-        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(one), None, targets): one
+        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(one), style or report.style or None, targets): one
         for one in wanted.values()
         if not one.failure
     }
@@ -73,6 +76,7 @@ def build_data(
     *,
     jobs: int | None = None,
     parquet: bool = True,
+    style: str | None = None,
 ) -> Path:
     """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
 
@@ -85,7 +89,7 @@ def build_data(
     from atlas.report.data_package import DESCRIPTION, package
 
     place = out / find(str(name)).stem
-    document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs)
+    document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs, style=style)
     views: list[FigureView] = document.listed("figure")
     stems = {view.id: view.pictures[0].stem for view in views}
     drawn = {
@@ -108,6 +112,7 @@ def build_tex(
     progress: Progress = lambda _done, _total, _what: None,
     *,
     jobs: int | None = None,
+    style: str | None = None,
 ) -> Path:
     """Write a report as LaTeX into `out`/NAME, and return the place of the paper.
 
@@ -119,7 +124,7 @@ def build_tex(
 
     place = out / find(str(name)).stem
     document, figures = composed(
-        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS
+        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS, style
     )
     document.set("latex")
     pictures = {}

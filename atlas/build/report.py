@@ -72,10 +72,10 @@ def build_report(
 
     `progress` is called with the steps done, their number, and what comes next; `formats` may leave out the pages or
     the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all that belongs to it; `style`
-    is a style sheet of Matplotlib for the figures, a file or a name; `jobs` workers draw them, one a core when it is
-    not given. A figure that fails leaves a framed note in its place and an entry in `failures`. Raises AtlasError, in
-    one sentence, for anything wrong with the file, and OSError when something can't be written; then the last report
-    stays.
+    is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
+    them, one a core when it is not given. A figure that fails leaves a framed note in its place and an entry in
+    `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something
+    can't be written; then the last report stays.
     """
     file, formats = find(str(name)), [one for one in LANGUAGES if one in formats]
     cache = Cache(cache_folder(out))
@@ -94,7 +94,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     from atlas.draw import gl
 
     text = file.read_bytes()
-    near = (path for kind in ("*.py", "*.md") for path in file.absolute().parent.glob(kind))
+    near = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
     beside = (path for path in near if os.fsencode(path.name) in text)
     code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py"), *beside]
     places = folder("templates"), folder("reports") / "data", PACKAGE
@@ -150,7 +150,7 @@ def _build(
     _check(report.name, file)
     cache.prune()
     found = pictures(report)
-    wanted = _figures(found, formats, style, gl.library())
+    wanted = _figures(found, formats, style or report.style or None, gl.library())
     figures.find(list(wanted), cache, sources, gl.library())
     times["look"] = time.perf_counter()
     steps, jobs = len(wanted) + 2, jobs or figures.cores()

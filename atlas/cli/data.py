@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from atlas.cli.options import Command, examples, jobs_option, out_option
+from atlas.cli.options import Command, examples, jobs_option, out_option, style_option
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
@@ -15,8 +15,9 @@ from atlas.libraries import of_sweeps
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
 @out_option("build/data")
+@style_option
 @jobs_option
-def command(name: str, out: Path, jobs: int | None) -> None:
+def command(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     """Write the tables of a report, and the points that its figures draw, as CSV and, with pyarrow, as Parquet.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. The file
@@ -33,5 +34,5 @@ def command(name: str, out: Path, jobs: int | None) -> None:
         parquet = False
         click.echo(f"atlas: CSV alone: {error}", err=True)
     with bar(f"data of {Path(name).stem}", every=10) as tell:
-        place = build_data(name, out, tell, jobs=jobs, parquet=parquet)
+        place = build_data(name, out, tell, jobs=jobs, parquet=parquet, style=style)
     click.echo(place)

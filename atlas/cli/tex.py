@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from atlas.cli.options import Command, examples, jobs_option, out_option
+from atlas.cli.options import Command, examples, jobs_option, out_option, style_option
 from atlas.cli.progress import bar
 
 
@@ -13,8 +13,9 @@ from atlas.cli.progress import bar
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
 @out_option("build/tex")
+@style_option
 @jobs_option
-def command(name: str, out: Path, jobs: int | None) -> None:
+def command(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     r"""Write a report as LaTeX: numbers by key, tables, figures, references, and a paper in REVTeX.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. In a manuscript,
@@ -28,5 +29,5 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     from atlas.build.composed import build_tex
 
     with bar(f"{Path(name).stem} as LaTeX", every=10) as tell:
-        place = build_tex(name, out, tell, jobs=jobs)
+        place = build_tex(name, out, tell, jobs=jobs, style=style)
     click.echo(place)

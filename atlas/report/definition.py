@@ -49,13 +49,19 @@ class Index(StrictStruct, frozen=True):
     symbols: tuple[Symbol, ...] = ()
 
 
+SHORT = 2
+"""So many pages have no cover of their own."""
+
+
 class Report(StrictStruct, frozen=True):
     """The whole file.
 
     ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
     this one: the contents lead to them, and so do citations of what they have and this one has not.
-    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. Without
-    ``front_matter`` the PDF has no cover, contents and lists: its title stands above the text, whose heads have no
+    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is a
+    style sheet of Matplotlib for the figures, a name or a file beside this one. Without
+    ``front_matter``, as in a report of one or two pages that does not ask for it, the PDF has no cover, contents and
+    lists: its title stands above the text, whose heads have no
     numbers, and a single page has no head of its own.
     """
 
@@ -66,8 +72,14 @@ class Report(StrictStruct, frozen=True):
     authors: tuple[str, ...] = ()
     abstract: str = ""
     cover: Id | None = None
-    front_matter: bool = True
+    front_matter: bool | None = None
+    style: str = ""
     related: dict[str, str] = msgspec.field(default_factory=dict)
     bibliography: str = ""
     parameters: BodiesAndFields = BodiesAndFields()
     index: Index = Index()
+
+    @property
+    def bound(self) -> bool:
+        """Whether the PDF has a cover, contents and lists."""
+        return len(self.pages) > SHORT if self.front_matter is None else self.front_matter

@@ -37,7 +37,7 @@ def load(path: Path) -> Report:
 
 
 def _located(report: Report, folder: Path) -> Report:
-    """Return the report with the places of the recipes that lie beside it; AtlasError where one doesn't."""
+    """Return the report with the places of the recipes and the style that lie beside it; AtlasError for no recipe."""
 
     def place(block: Block) -> Block:
         if not isinstance(block, Figure) or not block.recipe.endswith(".py"):
@@ -47,7 +47,9 @@ def _located(report: Report, folder: Path) -> Report:
             raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
         return replace(block, recipe=str(file))
 
-    return replace(report, pages=tuple(replace(page, blocks=tuple(map(place, page.blocks))) for page in report.pages))
+    pages = tuple(replace(page, blocks=tuple(map(place, page.blocks))) for page in report.pages)
+    beside = folder / report.style
+    return replace(report, pages=pages, style=str(beside) if beside.is_file() else report.style)
 
 
 def _consistent(report: Report) -> Report:

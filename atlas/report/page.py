@@ -128,7 +128,6 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         "name": asked.name,
         "title": asked.title or case,
         "subtitle": given,
-        "front_matter": False,
         "abstract": f"{asked.note} All digits of the tables are proven unless they say otherwise; figures are drawn to "
         "a fraction of a pixel. The report file beside this page can be changed and built again.".lstrip(),
         "parameters": {kind: {name: record} for kind, name, record in records if record},

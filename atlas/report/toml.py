@@ -24,7 +24,7 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
     }
     for key, value in values.items():
         if key not in tables and value is not None:
-            yield f"{key} = {_value(value)}\n"
+            yield f"{key} = {written(value)}\n"
     for key, several in tables.items():
         name = f"{place}.{key}".lstrip(".")
         for one in several:
@@ -35,12 +35,12 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
             yield from lines(one, name)
 
 
-def _value(value: Any) -> str:
+def written(value: Any) -> str:
     """Write a value; strings of JSON are strings of TOML."""
     if isinstance(value, dict):
-        return f"{{ {', '.join(f'{key} = {_value(one)}' for key, one in value.items() if one is not None)} }}"
+        return f"{{ {', '.join(f'{key} = {written(one)}' for key, one in value.items() if one is not None)} }}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_value, value))}]"
+        return f"[{', '.join(map(written, value))}]"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

@@ -265,7 +265,7 @@ title = "Own"
     (tmp_path / "own.toml").write_text(text, encoding="utf-8")
     made = build_tex(tmp_path / "own.toml", tmp_path / "out").parent
     found = {key: (value, unit) for key, _, value, unit in KEY.findall((made / "atlas-numbers.tex").read_text("utf-8"))}
-    assert {unit for _, unit in found.values()} == {"", "time", "time^{-1}", "time^{-2}"}
+    assert {unit for _, unit in found.values()} == {"", "rad", "time", "time^{-1}", "time^{-2}"}
     assert {"general/roots_0", "general/period", "hyperbola/pole"} < set(found)
     assert "hyperbola/least_stability" not in found
     head = "\\documentclass{article}\\usepackage{siunitx}\\input{atlas-numbers}\\begin{document}"

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from pypdf import PdfReader
 
+from atlas.build.composed import composed
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report.appendices import Appendices
@@ -17,6 +18,7 @@ from atlas.report.tables.table import Data
 BOOK = r"""
 name = "book"
 title = "A Small Book"
+front_matter = true
 
 [parameters.bodies.ball]
 title = "charged ball"
@@ -169,3 +171,54 @@ def test_an_option_is_not_broken_at_its_hyphens(tmp_path: Path) -> None:
     assert not [line for line in lines if line.rstrip().endswith("-")]
     page = built.index.read_text(encoding="utf-8")
     assert page.count('<code><span class="option">--option</span> 1</code>') == 24
+
+
+SHORT = """name = "short"
+title = "A short report"
+
+[[pages]]
+slug = "index"
+title = "Only page"
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "hyperbola"
+
+[[pages.blocks]]
+kind = "prose"
+text = "What it says."
+"""
+
+
+def test_a_short_report_has_its_title_first_and_no_empty_head(tmp_path: Path) -> None:
+    """No cover, and no heading for an abstract that is not there, in a bound one neither; a figure stays below."""
+    (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
+    built = build_report(tmp_path / "short.toml", tmp_path, formats=("pdf",))
+    pages = [page.extract_text() for page in PdfReader(built.pdf).pages]
+    assert len(pages) == 1
+    assert pages[0].startswith("A short report")
+    (tmp_path / "short.toml").write_text(SHORT.replace("[[", "front_matter = true\n[[", 1), encoding="utf-8")
+    bound = build_report(tmp_path / "short.toml", tmp_path, formats=("pdf",))
+    pages = [page.extract_text() for page in PdfReader(bound.pdf).pages]
+    assert any("Contents" in page for page in pages)
+    assert not any("Abstract" in page for page in pages)
+
+
+def test_a_report_has_its_style_wherever_it_is_drawn(tmp_path: Path) -> None:
+    """`style` in the file, a sheet beside it, draws what `--style` does, in LaTeX, data and pages; the latter wins."""
+    (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
+    (tmp_path / "wide.mplstyle").write_text("axes.linewidth: 3", encoding="utf-8")
+
+    def drawn(style: str | None = None) -> bytes:
+        file = tmp_path / "short.toml"
+        _, figures = composed(file, tmp_path, lambda _: ("pdf",), lambda *_: None, 1, style=style)
+        return bytes(next(iter(figures.values())).contents["pdf"])
+
+    plain, typed = drawn(), drawn(str(tmp_path / "wide.mplstyle"))
+    assert plain != typed
+    (tmp_path / "short.toml").write_text('style = "wide.mplstyle"\n' + SHORT, encoding="utf-8")
+    assert drawn() == typed
+    assert drawn("default") != typed
+    build_report(tmp_path / "short.toml", tmp_path, formats=("html",))
+    (page,) = (tmp_path / "short").glob("figures/*.pdf")
+    assert page.read_bytes() == typed

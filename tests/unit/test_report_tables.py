@@ -1,9 +1,11 @@
 """Tables: every digit printed is that of the true value, computed here in another way."""
 
+import re
 import string
 import unicodedata
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 
 import flint
 import mpmath
@@ -17,8 +19,10 @@ from atlas.report.body_and_field import body_and_field
 from atlas.report.digits import MINUS, THIN, Number, room
 from atlas.report.fonts import ALWAYS, FACES, ITALIC, source
 from atlas.report.given import Body, Field
+from atlas.report.load import load
 from atlas.report.tables import TABLES, compute
 from atlas.report.tables.table import Data, Request, column, scaled
+from atlas.scene.style import STYLES
 
 BODY = Body(title="short solenoid", ratio=1.5)
 OBLIQUE = Field(title="oblique field", prime=(1.0, 2.0))
@@ -355,3 +359,30 @@ def test_the_monodromy_of_a_table_is_that_of_its_loop() -> None:
     (row,) = compute("monodromy", Request((), {"loops": [loop], "points": 24}, 3)).rows
     assert r"0&1&0\\-1&1&1\end" in row[6]
     assert float(row[7].digits) < 0.25
+
+
+def test_the_keys_of_a_block_that_are_called_needed_are(tmp_path: Path) -> None:
+    """A block with these alone is read; without any one of them it is refused by its name."""
+    values = {"columns": '["a"]', "rows": '[["b"]]', "names": '["Quadric"]', "source": '"trial"', "section": '"II"'}
+    page = '[[pages]]\nslug = "index"\ntitle = "t"\n[[pages.blocks]]\n'
+    for kind, _, keys in compute("blocks", Request([], {}, 10)).rows:
+        needed = re.findall(r"\*\*`(\w+)`\*\*", str(keys))
+        for left_out in (None, *needed):
+            written = {"kind": f'"{kind}"'.replace("`", "")} | {
+                key: values.get(key, '"(71)"') for key in needed if key != left_out
+            }
+            text = 'name = "n"\ntitle = "t"\n' + page + "".join(f"{k} = {v}\n" for k, v in written.items())
+            (tmp_path / "n.toml").write_text(text, encoding="utf-8")
+            if left_out is None:
+                assert load(tmp_path / "n.toml").name == "n"
+            else:
+                with pytest.raises(AtlasError, match=rf"\b{left_out}\b"):
+                    load(tmp_path / "n.toml")
+
+
+def test_the_roles_of_a_table_are_those_of_the_style() -> None:
+    """Each role stands in it once, and so does each layer of the scene."""
+    roles = [name for row in compute("roles", Request([], {}, 10)).rows for name in re.findall(r"`(\w+)`", str(row[0]))]
+    assert sorted(roles) == sorted(STYLES)
+    names = [str(row[0]).strip("`") for row in compute("layers", Request([], {}, 10)).rows]
+    assert {"Scene", "Plane", "Space", "Curve", "Points", "Arrow", "Label", "Surface", "Region", "Image"} == set(names)

@@ -6,7 +6,7 @@ from atlas.errors import unknown
 from atlas.report.tables.body_and_field import body_and_field
 from atlas.report.tables.charges import charges, diamagnetism
 from atlas.report.tables.closed import closed, companions
-from atlas.report.tables.families import quantities, targets
+from atlas.report.tables.families import blocks, layers, quantities, report_keys, roles, targets
 from atlas.report.tables.motion import motion, samples, sheet
 from atlas.report.tables.observed import coats, swings
 from atlas.report.tables.particle import ball, flight, particle
@@ -22,7 +22,7 @@ TABLES: Mapping[str, Maker] = {
     for made in (
         *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
         *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
-        *(periods, asymmetric),
+        *(periods, asymmetric, roles, layers, blocks, report_keys),
     )
 }
 

@@ -1,9 +1,15 @@
-"""What there is to ask for: the families of the register and their quantities, and the targets of figures."""
+"""What there is to ask for: families with their quantities, targets of figures, roles, layers, blocks of reports."""
 
+import re
 from collections.abc import Iterator
+from dataclasses import MISSING, fields
 from itertools import groupby
+from typing import get_args
+
+import msgspec
 
 from atlas.families import FAMILIES, Family
+from atlas.report import toml
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.properties import cited
@@ -79,3 +85,101 @@ def _sizes(one: Target) -> tuple[str, ...]:
     least, greatest = one.lines
     lines = f"{least:g}" if greatest == ANY else f"{least:g} to {greatest:g}"
     return f"{one.width:g}", f"{one.height:g}", f"{one.type:g}", lines, f"{one.dpi:g}"
+
+
+def roles(request: Request) -> Data:
+    """List the roles of layers, each with its look and what sets it."""
+    from atlas.scene.style import LINES, STYLES
+
+    request.take(StrictStruct)
+    looks: dict[tuple[str, ...], list[str]] = {}
+    for name, one in STYLES.items():
+        if name in LINES:
+            look = ("`axes.prop_cycle`", "`lines.linewidth`", "", "")
+        else:
+            dash = " ".join(f"{x:g}" for x in one.dash)
+            look = (f"`{one.colour}`", f"{one.width:g}", dash, one.marker and f"`{one.marker}` {one.size:g}")
+        looks.setdefault(look, []).append(name)
+    columns = (Column("Role"), Column("Colour"), Column("Width", "pt"), Column("Dashes", "pt"), Column("Marker", "pt"))
+    return Data(
+        columns,
+        tuple((_names(tuple(names)), *look) for look, names in looks.items()),
+        "The roles of layers. What stands in typewriter as a name of Matplotlib's is set by a style sheet, as are all "
+        "texts (`font.family`, `font.size`, `axes.labelsize`), frames, ticks, legends and the colours of maps "
+        "(`image.cmap`); the rest is the atlas's own, in `atlas/scene/style.py`.",
+    )
+
+
+def blocks(request: Request) -> Data:
+    """List the kinds of blocks that a page of a report has, with their keys, from their records."""
+    from atlas.report.blocks import KINDS
+
+    request.take(StrictStruct)
+    rows = [(f"`{name}`", _first(kind.record), _keys(kind.record)) for name, kind in KINDS.items()]
+    return Data(
+        (Column("Kind"), Column("What it is"), Column("Keys")),
+        tuple(rows),
+        'The kinds of blocks, `kind = "NAME"`, with their keys; those in bold are needed, of others the value is what '
+        "holds where they are left out.",
+    )
+
+
+def report_keys(request: Request) -> Data:
+    """List the keys of a report file, of its pages, bodies and fields, from their records."""
+    from atlas.report.definition import Index, Page, Report, Thumbnail
+    from atlas.report.given import Body, Field
+
+    request.take(StrictStruct)
+    where = {
+        "": Report, "[[pages]]": Page, "thumbnail": Thumbnail, "[index]": Index, "[parameters.bodies.NAME]": Body,
+        "[parameters.fields.NAME]": Field,
+    }  # fmt: skip
+    rows = [(f"`{place}`" if place else "at the top", _first(kind), _keys(kind)) for place, kind in where.items()]
+    return Data(
+        (Column("Where"), Column("What it is"), Column("Keys")),
+        tuple(rows),
+        "The keys of a report file; those in bold are needed, of others the value is what holds where they are left "
+        "out.",
+    )
+
+
+def layers(request: Request) -> Data:
+    """List what a recipe returns, a scene, and what it is made of."""
+    from atlas.scene import layers as made
+
+    request.take(StrictStruct)
+    kinds = (made.Scene, made.Plane, made.Space, *get_args(made.Layer))
+    rows = [
+        (
+            f"`{kind.__name__}`",
+            _first(kind),
+            ", ".join(
+                f"**`{one.name}`**" if one.default is one.default_factory is MISSING else f"`{one.name}`"
+                for one in fields(kind)
+            ),
+        )
+        for kind in kinds
+    ]
+    return Data(
+        (Column("Name in `atlas.scene`"), Column("What it is"), Column("Fields")),
+        tuple(rows),
+        "What a recipe may return: a `Scene` of panels `Plane` and `Space`, with layers. Fields in bold are needed.",
+    )
+
+
+def _first(kind: type) -> str:
+    """Return the first sentence of a docstring, in Markdown."""
+    sentence = re.split(r"[.:;]*(?:\. (?=[A-Z`])|$)", " ".join(str(kind.__doc__).split()), maxsplit=1)[0]
+    return re.sub(r"``(.+?)``", r"`\1`", sentence)
+
+
+def _keys(kind: type) -> str:
+    """Return the keys of a record, with the values that hold where they are left out."""
+    return ", ".join(map(_key, msgspec.structs.fields(kind)))
+
+
+def _key(one: msgspec.structs.FieldInfo) -> str:
+    if one.required:
+        return f"**`{one.name}`**"
+    plain = isinstance(one.default, str | int | float | bool) and one.default != ""
+    return f"`{one.name}` = {toml.written(one.default)}" if plain else f"`{one.name}`"
