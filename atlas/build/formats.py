@@ -1,6 +1,7 @@
 """A composed report in each format: its texts set, its pages, the one file, the PDF."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -67,6 +68,13 @@ def _pages(
         if name
     }
     files = {name: page.encode() for name, page in pages.items()} | drawn
+    cutting = sources.closure([PACKAGE / "report" / "html.py"])
+    if len(cards := html.cards(document)) > 1:
+        for card in cards:
+            png = drawn[card.figure.pictures[0].files["png"]]
+            files[card.file] = cache.recall(
+                digest("card", cutting, png, card.cut), partial(html.thumbnail, png, card.cut)
+            )
     files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
     files[MANIFEST] = manifest_of(document)
     return {f"{document.report.name}/{name}": content for name, content in files.items()}

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape as escaped
 from html import unescape
+from io import BytesIO
 from itertools import pairwise
 from typing import Any, NamedTuple
 from unicodedata import normalize
@@ -28,7 +29,9 @@ from atlas.report.versions import versions
 
 SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
-turns figures in space, what lets figures move in time, and what moves an elementary motion."""
+turns figures in space, what lets figures move in time, and motions with sliders."""
+CARD = (400, 250)
+"""The size of a small picture in pixels."""
 
 
 class Card(NamedTuple):
@@ -36,7 +39,12 @@ class Card(NamedTuple):
 
     page: PageView
     figure: FigureView
-    thumbnail: Thumbnail = Thumbnail()
+    cut: Thumbnail = Thumbnail()
+
+    @property
+    def file(self) -> str:
+        """The place of its small picture in the report."""
+        return f"cards/{self.page.slug}.webp"
 
 
 def pages(document: Document) -> dict[str, str]:
@@ -44,19 +52,13 @@ def pages(document: Document) -> dict[str, str]:
     environment = templates(plain=plain)
     texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
-    figures = [
-        Card(page, block)
-        for page in document.pages
-        for block in page.blocks
-        if isinstance(block, FigureView) and not block.failure
-    ]
     common: dict[str, Any] = {
         "document": document,
         "texts": texts,
         "versions": versions(),
         "report": document.report,
-        "cover": _cover(document, figures),
-        "cards": [cut(card, document) for card in {card.page.slug: card for card in reversed(figures)}.values()][::-1],
+        "cover": _cover(document),
+        "cards": cards(document),
     }
     set_pages = {
         page.file: anchored(template.render(page=page, before=before, after=after, **common))
@@ -105,24 +107,58 @@ def _with_sections(page: str) -> str:
     )
 
 
-def cut(card: Card, document: Document) -> Card:
-    """Return the card of a page with the figure and the cut that the report asks for."""
-    wanted = next(page for page in document.report.pages if page.slug == card.page.slug).thumbnail
-    figures = (block for block in card.page.blocks if isinstance(block, FigureView) and not block.failure)
-    chosen = card.figure if not wanted.figure else next((f for f in figures if f.id == f"fig-{wanted.figure}"), None)
-    if chosen is None:
-        raise AtlasError(f"page {card.page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn on this page.")
-    return Card(card.page, chosen, wanted)
+def _figures(document: Document) -> list[Card]:
+    """Return the figures that are drawn, in their order."""
+    return [
+        Card(page, block)
+        for page in document.pages
+        for block in page.blocks
+        if isinstance(block, FigureView) and not block.failure
+    ]
 
 
-def _cover(document: Document, figures: Sequence[Card]) -> Card | None:
+def cards(document: Document) -> list[Card]:
+    """Return the cards of the pages: the first figure of each, or the one of the report that its thumbnail names."""
+    figures, found = _figures(document), []
+    cuts = {one.slug: one.thumbnail for one in document.report.pages}
+    for page in document.pages:
+        wanted = cuts.get(page.slug, Thumbnail())
+        fits = (
+            one for one in figures if (one.figure.id == f"fig-{wanted.figure}" if wanted.figure else one.page is page)
+        )
+        chosen = next(fits, None)
+        if chosen:
+            found.append(Card(page, chosen.figure, wanted))
+        elif wanted.figure:
+            raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn in this report.")
+    return found
+
+
+def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
+    """Cut a picture about a place, `CARD` pixels large, as WebP."""
+    from PIL import Image
+
+    with Image.open(BytesIO(png)) as picture:
+        scale = cut.zoom * max(want / size for want, size in zip(CARD, picture.size, strict=True))
+        seen = [want / scale for want in CARD]
+        left, top = (at * (size - part) for at, size, part in zip(cut.at, picture.size, seen, strict=True))
+        white = Image.new("RGBA", picture.size, "white")
+        white.alpha_composite(picture.convert("RGBA"))
+        box = (left, top, left + seen[0], top + seen[1])
+        small = white.convert("RGB").resize(CARD, Image.Resampling.LANCZOS, box, reducing_gap=3.0)
+    out = BytesIO()
+    small.save(out, "webp", quality=82, method=4)
+    return out.getvalue()
+
+
+def _cover(document: Document) -> Card | None:
     """Return the figure of the front page: the one that the report names."""
     if document.report.cover is None:
         return None
     anchor = f"fig-{document.report.cover}"
     if f"fig:{document.report.cover}" not in document.targets:
         raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
-    return next((card for card in figures if card.figure.id == anchor), None)
+    return next((card for card in _figures(document) if card.figure.id == anchor), None)
 
 
 def _neighbours(pages: Sequence[Any]) -> list[tuple[Any, Any, Any]]:

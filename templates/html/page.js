@@ -9,7 +9,7 @@ narrow.addEventListener("change", fold);
 fold();
 
 const focusable = () => {
-  for (const box of document.querySelectorAll(".formula, pre")) {
+  for (const box of document.querySelectorAll(".formula, pre, .scroll")) {
     if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; else box.removeAttribute("tabindex");
   }
 };
@@ -36,11 +36,10 @@ const load = folder => new Promise((resolve, reject) => {
 let found;
 const index = () => (found ??= load(""));
 
-// The search box: in the head of the front page, else above the contents; on the first screen in both.
+// The search box: in the head of the front page, else above the contents; the page keeps its place.
 const box = element("input", {type: "search", id: "search", placeholder: "Search: words, I=3/2, omega2, (72)", "aria-label": "Search this report and those beside it", autocomplete: "off", role: "combobox", "aria-expanded": "false", "aria-controls": "results"});
 const results = element("ul", {class: "results", id: "results", "aria-live": "polite", "aria-label": "Results"});
-const place = document.querySelector("header.title .h") ?? document.querySelector(".contents .book");
-place.after(element("search", {}, box, results));
+document.querySelector("search").append(box, results);
 results.hidden = true;
 
 // Letters as they are typed: Greek by name, no accents and primes, no space about the sign of a relation.

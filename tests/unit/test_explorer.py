@@ -1,20 +1,23 @@
 """The script of the explorer beside Python: the same motions, rotation matrices and quadrics."""
 
 import json
-import re
 import shutil
 import subprocess
+from io import BytesIO
 from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from atlas import ElementaryMotion, GeneralMotion, Hyperbola, Quadric
+from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.places import folder
-from atlas.report.blocks.explorer import Explorer, tables, view
+from atlas.report.blocks.explorer import Explorer, view
 from atlas.report.compose import compose
-from atlas.report.html import pages
+from atlas.report.definition import Thumbnail
+from atlas.report.html import CARD, cards, pages, thumbnail
 from atlas.report.load import load
 from atlas.report.pictures import pictures
 
@@ -29,6 +32,7 @@ console.log(JSON.stringify(cases.map(([I, B2, B3, w, t]) => {
   return [[m.omega3, m.k, m.phi, m.stability, q.beta], rotation(B2, B3, m.k, m.phi, t).flat(), q.axis, q.form, kind(I)];
 })));
 """
+GIVEN = "JSON.parse(require('fs').readFileSync(0, 'utf8'))"
 node = shutil.which("node")
 
 
@@ -82,25 +86,40 @@ def check_quadric(I: float, B2: float, B3: float, beta: float, axis: Any, form: 
         assert abs(y @ full @ y - q.residual(np.array(omega))) <= 100.0 * WITHIN
 
 
-@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_tables_of_general_motions_give_the_motion() -> None:
-    """Over many periods R from the table of one is the motion's within 1/500 of its size, a fraction of a pixel.
+def run(program: str, given: Any) -> Any:
+    """Return what a program beside the script prints of some input."""
+    words = [str(node), "-e", f"require(process.argv[1]);const given={GIVEN};{program}", str(SCRIPT)]
+    done = subprocess.run(words, input=json.dumps(given), capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
 
-    No zero of a table has a sign, which would be that of a rounding error.
-    """
-    assert "-0.0," not in tables().replace("]", ",")
-    program = (
-        "require(process.argv[1]); const [table, B2, B3, times] = JSON.parse(require('fs').readFileSync(0, 'utf8'));"
-        "console.log(JSON.stringify(times.map(globalThis.atlasMotion.tabled(table, B2, B3))))"
-    )
-    for table in json.loads(tables())[1::3]:
-        ratio, B2, B3, *omega = (float(word) for word in table["command"].split() if word[0].isdigit())
-        times = np.linspace(0.0, 40.0, 97)
-        words = [str(node), "-e", program, str(SCRIPT)]
-        given = json.dumps([table, B2, B3, times.tolist()])
-        done = subprocess.run(words, input=given, capture_output=True, text=True, check=True)
-        off = np.abs(np.array(json.loads(done.stdout)) - GeneralMotion(ratio, (B2, B3), omega).rotation(times))
-        assert off.max() < 1 / 500
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_courses_of_the_script_are_general_motions() -> None:
+    """Over a minute R within 1/500 of its size, and Omega3 and its rate are on the line of the portrait."""
+    random = np.random.default_rng(7)
+    for _ in range(12):
+        I, angle = random.uniform(0.1, 2.0), random.uniform(0.1, 1.5)
+        field = np.sqrt(5.0) * np.array([np.cos(angle), np.sin(angle)])
+        omega, times = random.uniform(-3.0, 3.0, 3), np.linspace(0.0, 60.0, 61)
+        program = """const [I, B2, B3, omega, times] = given, {course, portrait, rate} = globalThis.atlasMotion;
+        const state = course(I, B2, B3, omega), {b, c3, own, squared} = portrait(I, B2, B3, omega);
+        const row = y => [y, rate(I, B2, B3, y)[2], squared((c3 - y[2]) / b, own)];
+        console.log(JSON.stringify(times.map(t => row(state(t)))));"""
+        made = run(program, [I, *field, omega.tolist(), times.tolist()])
+        motion = GeneralMotion(I, tuple(field), omega)
+        states = np.array([row[0] for row in made])
+        assert np.abs(states[:, 3:].reshape(-1, 3, 3) - motion.rotation(times)).max() < 1 / 500
+        assert np.abs(states[:, :3] - motion.angular_velocity(times)).max() < 1 / 50
+        assert all(row[1] ** 2 == pytest.approx(row[2], abs=0.05) for row in made)
+
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_fractions_of_the_script_are_closed_motions() -> None:
+    """Their omega2 is that of `Hyperbola.closed`."""
+    asked = [(I, 1.0, 0.7, p, q) for I in (0.5, 1.5) for p, q in ((1, 2), (-2, 3), (3, 5), (0, 1))]
+    found = run("console.log(JSON.stringify(given.map(x => globalThis.atlasMotion.closed(...x))));", asked)
+    true = [float(Hyperbola(I, (B2, B3)).closed(p, q).omega2) for I, B2, B3, p, q in asked]
+    assert found == pytest.approx(true, abs=1e-12)
 
 
 class Texts:
@@ -112,19 +131,19 @@ class Texts:
         return 0
 
 
-def test_general_motions_are_tabled_at_each_place_of_their_sliders() -> None:
-    """In the order in which the script counts them; they start at one of them, with numbers that do for a pixel."""
-    body, push, time = view(Explorer("x", motion="general"), Texts()).sliders  # type: ignore[arg-type]
-    assert (body.low, body.step, body.high) == (0.5, 0.5, 2.0)
-    assert (push.low, push.step, push.high) == (0.0, pytest.approx(0.6), 3.0)
-    assert (time.low, time.step, time.high, time.start) == (0.0, 0.05, 60.0, 0.0)
-    places = [np.arange(one.low, one.high + one.step / 2, one.step) for one in (body, push)]
-    assert all(np.abs(at - one.start).min() < 1e-12 for at, one in zip(places, (body, push), strict=True))
-    made = json.loads(tables())
-    words = [table["command"].split() for table in made]
-    given = [(float(word[3]), float(word[8])) for word in words]
-    assert given == pytest.approx(np.stack(np.meshgrid(*places, indexing="ij"), axis=-1).reshape(-1, 2))
-    assert all(number == round(number, 4) for table in made for row in table["columns"] for number in row)
+def test_an_explorer_has_the_sliders_that_are_asked_for() -> None:
+    """They start where the block says, with the time if anything moves; what there is not is refused by name."""
+    block = Explorer("x", panels=("portrait",), sliders=("I", "omega1"), start={"omega1": 0.3}, at=(1.0, 0.1))
+    made: Any = view(block, Texts())  # type: ignore[arg-type]
+    assert [(one.name, one.start) for one in made.sliders] == [("I", 1.5), ("omega1", 0.3), ("t", 0.0)]
+    assert made.field == (1.0, 0.1)
+    assert not made.in_space
+    still = view(Explorer("x", panels=("frequencies",), sliders=("I",)), Texts())  # type: ignore[arg-type]
+    assert [one.name for one in still.sliders] == ["I"]
+    with pytest.raises(AtlasError, match=r"no slider 'omega4' \(did you mean 'omega"):
+        view(Explorer("x", sliders=("omega4",)), Texts())  # type: ignore[arg-type]
+    with pytest.raises(AtlasError, match="only what has a slider"):
+        view(Explorer("x", sliders=("I",), start={"omega2": 1.0}), Texts())  # type: ignore[arg-type]
 
 
 def test_sliders_have_the_ranges_of_the_register() -> None:
@@ -136,6 +155,7 @@ def test_sliders_have_the_ranges_of_the_register() -> None:
     assert {one.step for one in made.sliders if one.name != "t"} == {0.01}
     assert (sliders["I"].low, sliders["I"].high) == known["ratio"].range
     assert (sliders["omega2"].low, sliders["omega2"].high) == known["omega2"].range
+    assert sliders["omega3"].start == 0.0  # the script puts it on the hyperbola
     angle = np.radians(sliders["angle"].start)
     assert made.field == known["field"].default  # exact until a slider moves
     assert np.tan(angle) == pytest.approx(made.field[1] / made.field[0], rel=1e-3)
@@ -157,19 +177,38 @@ def test_an_explorer_is_hidden_until_its_script_runs(tmp_path: Any) -> None:
 
 
 def test_the_front_page_shows_a_cut_of_a_figure_of_each_page(tmp_path: Any) -> None:
-    """The first figure about its middle, as large as it is, or the one that the page names, about the place named."""
+    """The first figure of the page, or any that the page names; a page without one has none."""
 
-    def page(slug: str, more: str = "") -> str:
-        figures = (f"[[pages.blocks]]\nkind = 'figure'\nid = '{slug}-{x}'\nrecipe = '{x}'\n" for x in ("cone", "loop"))
-        return f"[[pages]]\nslug = '{slug}'\ntitle = 'T'\n{more}" + "".join(figures)
+    def page(slug: str, more: str = "", figures: str = "") -> str:
+        blocks = (f"[[pages.blocks]]\nkind = 'figure'\nid = '{slug}-{x}'\nrecipe = '{x}'\n" for x in figures.split())
+        return f"[[pages]]\nslug = '{slug}'\ntitle = 'T'\n{more}blocks = []\n" * (not figures) + (
+            f"[[pages]]\nslug = '{slug}'\ntitle = 'T'\n{more}" * bool(figures) + "".join(blocks)
+        )
 
-    named = "thumbnail = {figure = 'other-loop', at = [0.25, 1.0], zoom = 1.5}\n"
+    named = "thumbnail = {figure = 'index-loop', at = [0.25, 1.0], zoom = 1.5}\n"
     file = tmp_path / "mine.toml"
-    file.write_text("name = 'mine'\ntitle = 'M'\n" + page("index") + page("other", named))
+    file.write_text(
+        "name = 'mine'\ntitle = 'M'\n" + page("index", "", "cone loop") + page("other", named) + page("none")
+    )
     report = load(file)
     document = compose(report, pictures(report))
     document.set("html")
-    places = re.findall(
-        r"object-position:(.*?);transform-origin:(.*?);transform:scale\((.*?)\)", pages(document)["index.html"]
-    )
-    assert places == [("50% 50%", "50% 50%", "1"), ("25% 100%", "25% 100%", "1.5")]
+    made = cards(document)
+    assert [(card.page.slug, card.figure.id, card.cut.zoom) for card in made] == [
+        ("index", "fig-index-cone", 1.0),
+        ("other", "fig-index-loop", 1.5),
+    ]
+    assert [card.file in pages(document)["index.html"] for card in made] == [True, True]
+
+
+def test_a_thumbnail_is_the_place_that_is_asked_for() -> None:
+    """A picture that is white but for one corner: that corner alone is seen about it, and fills a cut near it."""
+    picture = Image.new("RGBA", (800, 600), "white")
+    picture.paste((200, 0, 0, 255), (600, 450, 800, 600))
+    out = BytesIO()
+    picture.save(out, "png")
+    for at, zoom, red in (((1.0, 1.0), 5.0, 1.0), ((0.0, 0.0), 1.5, 0.0)):
+        with Image.open(BytesIO(thumbnail(out.getvalue(), Thumbnail(at=at, zoom=zoom)))) as small:
+            assert small.size == CARD
+            share = (np.asarray(small.convert("RGB"))[..., 1] < 100).mean()
+        assert share == pytest.approx(red, abs=0.01)
