@@ -1,5 +1,6 @@
 """Charged ball: core and exact say what the ledger's (26) to (30) say."""
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -25,6 +26,8 @@ def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
 
 
 POINTS = launches(38, 8)
+at_points = partial(Tie, points=POINTS)
+in_core = partial(Tie, points=POINTS, floors=("core",))
 ALONG = launches(40, 5, along=True)
 REST = [SimpleNamespace(I0=1.5, alpha=alpha, m2=0.0, m3=-1.5 * alpha, t=3.1) for alpha in (0.75, -2.0)]
 SAME_SENSE = [p for p in launches(41, 40, along=True) if p.alpha > 0 and p.m3 > 0][:5]
@@ -58,7 +61,7 @@ def spin(say: Ledger, p: Any) -> Any:
 MATRIX = "(28) (29)"
 
 TIES = (
-    Tie("BallMotion.gamma", "(29)", lambda f, p: motion(f, p).gamma, lambda say, p: constants(say, p)["gamma"], POINTS),
+    at_points("BallMotion.gamma", "(29)", lambda f, p: motion(f, p).gamma, lambda say, p: constants(say, p)["gamma"]),
     Tie(
         "BallMotion.gamma",
         "text-ball-parallel",
@@ -66,12 +69,11 @@ TIES = (
         lambda say, p: say("text-ball-parallel", "gamma", **letters(p, "alpha m3 I0")),
         [*SAME_SENSE, *REST],
     ),
-    Tie(
+    at_points(
         "BallMotion.k_hat",
         "(29)",
         lambda f, p: motion(f, p).k_hat,
         lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
-        POINTS,
         size=length,
     ),
     Tie(
@@ -88,12 +90,11 @@ TIES = (
         lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "k3")],
         SAME_SENSE,
     ),
-    Tie(
+    at_points(
         "BallMotion.rotation",
         MATRIX,
         lambda f, p: motion(f, p).rotation(p.t),
         lambda say, p: rotation(say, p, p.t),
-        POINTS,
         size=unit,
     ),
     Tie(
@@ -112,32 +113,26 @@ TIES = (
         REST,
         size=unit,
     ),
-    Tie(
+    in_core(
         "BallMotion.rotation_grid",
         MATRIX,
         lambda f, p: motion(f, p).rotation_grid(*GRID),
         lambda say, p: [rotation(say, p, t) for t in TIMES],
-        POINTS,
         size=unit,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "BallMotion.column",
         MATRIX,
         lambda f, p: [motion(f, p).column(j, p.t) for j in (1, 2, 3)],
         lambda say, p: rotation(say, p, p.t).T,
-        POINTS,
         size=unit,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "BallMotion.third_axis",
         MATRIX,
         lambda f, p: motion(f, p).third_axis(p.t),
         lambda say, p: rotation(say, p, p.t).col(2),
-        POINTS,
         size=unit,
-        floors=("core",),
     ),
     Tie(
         "BallMotion.angular_momentum",
@@ -147,12 +142,11 @@ TIES = (
         [*POINTS, *ALONG, *REST],
         size=length,
     ),
-    Tie(
+    at_points(
         "BallMotion.angular_velocity",
         f"{MATRIX} (26)",
         lambda f, p: motion(f, p).angular_velocity(p.t),
         spin,
-        POINTS,
         size=length,
         ulps=8,
     ),

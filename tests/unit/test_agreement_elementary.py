@@ -1,5 +1,6 @@
 """Elementary motion and the free body beside it: core and exact say what the ledger's (71) to (88) say."""
 
+from functools import partial
 from typing import Any
 
 import pytest
@@ -25,6 +26,8 @@ from atlas.formulas import elementary as formulas
 from atlas.proof.ball import rodrigues
 
 POINTS = bodies(76, 8)
+at_points = partial(Tie, points=POINTS)
+in_core = partial(Tie, points=POINTS, floors=("core",))
 REST = bodies(90, 1, omega=(0.0, 0.0, 0.0))
 BALL = bodies(1, 4, body=1.0, omega=lambda p: (0.0, -p.B2, p.omega[2]))
 EQUATOR = bodies(2, 4, B3=0.0, omega=lambda p: (0.0, -p.B2, p.omega[2]))
@@ -165,12 +168,11 @@ PRECESSION = (
         )
         for name in ("omega3", "k", "phi")
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.period",
         CONSTANTS,
         lambda f, p: motion(f, p).period,
         lambda say, p: 2 * sympy.pi / abs(elementary(say, p)["k"]),
-        POINTS,
     ),
     Tie(
         "ElementaryMotion.rotation",
@@ -180,97 +182,74 @@ PRECESSION = (
         [*POINTS, *REST],
         size=unit,
     ),
-    Tie(
-        "ElementaryMotion.quaternion",
-        MATRIX,
-        quaternion_rotation,
-        lambda say, p: rotation(say, p, p.t),
-        POINTS,
-        size=unit,
+    at_points(
+        "ElementaryMotion.quaternion", MATRIX, quaternion_rotation, lambda say, p: rotation(say, p, p.t), size=unit
     ),
-    Tie(
+    in_core(
         "ElementaryMotion.rotation_grid",
         MATRIX,
         lambda f, p: motion(f, p).rotation_grid(*GRID),
         lambda say, p: [rotation(say, p, t) for t in TIMES],
-        POINTS,
         size=unit,
-        floors=("core",),
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.column",
         MATRIX,
         lambda f, p: [motion(f, p).column(j, p.t) for j in (1, 2, 3)],
         lambda say, p: rotation(say, p, p.t).T,
-        POINTS,
         size=unit,
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.third_axis",
         MATRIX,
         lambda f, p: motion(f, p).third_axis(p.t),
         lambda say, p: rotation(say, p, p.t).col(2),
-        POINTS,
         size=unit,
     ),
-    Tie(
-        "ElementaryMotion.axis",
-        "(77)",
-        lambda f, p: motion(f, p).axis,
-        axis,
-        POINTS,
-        floors=("exact",),
-    ),
-    Tie(
+    at_points("ElementaryMotion.axis", "(77)", lambda f, p: motion(f, p).axis, axis, floors=("exact",)),
+    at_points(
         "ElementaryMotion.angular_velocity",
         f"{CONSTANTS} (73)",
         lambda f, p: motion(f, p).angular_velocity(p.t),
         lambda say, p: spin(say, p, p.t),
-        POINTS,
         size=length,
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.field_in_body",
         f"{CONSTANTS} (73) (62) (60)",
         lambda f, p: motion(f, p).field_in_body(p.t),
         field,
-        POINTS,
         size=length,
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.field_in_body",
         f"{MATRIX} (32)",
         lambda f, p: motion(f, p).field_in_body(p.t),
         field_seen,
-        POINTS,
         size=length,
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.angular_momentum",
         f"{MATRIX} (73) text-momentum",
         lambda f, p: motion(f, p).angular_momentum(p.t),
         lambda say, p: momentum(say, p, p.t),
-        POINTS,
         size=length,
     ),
-    Tie(
+    at_points(
         "ElementaryMotion.invariants",
         f"{MATRIX} (36) (37) (40) (41) (73) (88) text-momentum",
         lambda f, p: motion(f, p).invariants(p.t),
         invariants,
-        POINTS,
         size=strongest,
         ulps=8,
         exact=lambda f, p: motion(f, p).invariants,
     ),
-    Tie(
+    in_core(
         "ElementaryMotion.beside",
         "text-affirmation-free",
         lambda f, p: motion(f, p).beside.angular_velocity(0.0),
         lambda say, p: say("text-affirmation-free", "at0(Omega)", **letters(p, "omega2 I2 I3 B2 B3")),
-        POINTS,
         size=length,
-        floors=("core",),
     ),
 )
 

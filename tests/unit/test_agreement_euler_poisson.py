@@ -1,5 +1,6 @@
 """Equations of motion, inertia and units: the kernels say what the ledger's (8) to (18) and (32) to (39) say."""
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,6 +30,8 @@ def states(seed: int, count: int) -> list[Any]:
 
 
 POINTS = states(27, 6)
+at_points = partial(Tie, points=POINTS)
+in_core = partial(Tie, points=POINTS, floors=("core",))
 SYMMETRIC = bodies(46, 8)
 
 
@@ -115,50 +118,40 @@ def shell_ratio(f: Floor, p: Any) -> Any:
 
 
 EQUATIONS = (
-    Tie(
+    in_core(
         "euler_poisson.hat",
         "(74)",
         lambda f, p: p.K @ f.euler_poisson.hat(p.Omega),
         lambda say, p: say("(74)", "dgamma", gamma=p.K, Omega=p.Omega),
-        POINTS,
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.bracket",
         "(74)",
         lambda f, p: f.euler_poisson.bracket(p.K, p.Omega),
         lambda say, p: say("(74)", "dgamma", gamma=p.K, Omega=p.Omega),
-        POINTS,
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.rotation_rate",
         "(12)",
         lambda f, p: f.euler_poisson.rotation_rate(p.R, p.Omega),
         lambda say, p: say("(12)", "d(R[i,j])", R=p.R, Omega=p.Omega),
-        POINTS,
         size=lambda _true, p: norm(p.R) * norm(p.Omega),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.field_in_body",
         "(32)",
         lambda f, p: f.euler_poisson.field_in_body(p.R, p.B),
         lambda say, p: say("(32)", "K", Bp=p.B, R=p.R),
-        POINTS,
         size=lambda _true, p: norm(p.R) * norm(p.B),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.field_rate",
         "(35)",
         lambda f, p: f.euler_poisson.field_rate(p.K, p.Omega),
         lambda say, p: say("(35)", "dK", K=p.K, Omega=p.Omega),
-        POINTS,
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
-        floors=("core",),
     ),
     Tie(
         "euler_poisson.field_rate",
@@ -169,25 +162,21 @@ EQUATIONS = (
         size=power(2),
         floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.angular_acceleration",
         "(34) text-inertia-tensor",
         lambda f, p: f.euler_poisson.angular_acceleration(p.inertia, p.K, p.Omega),
         acceleration,
-        POINTS,
         size=lambda _true, p: np.linalg.cond(p.inertia) * (norm(p.Omega) + norm(p.K)) * norm(p.Omega),
         ulps=8,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.angular_acceleration",
         "(16) text-inertia-tensor",
         lambda f, p: f.euler_poisson.angular_acceleration(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.Omega),
         acceleration_in_field,
-        POINTS,
         size=lambda _true, p: np.linalg.cond(p.inertia) * (norm(p.Omega) + norm(p.R) * norm(p.B)) * norm(p.Omega),
         ulps=8,
-        floors=("core",),
     ),
     Tie(
         "euler_poisson.angular_acceleration",
@@ -199,12 +188,11 @@ EQUATIONS = (
         ulps=8,
         floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.body_momentum_rate",
         "(18) text-inertia-tensor",
         lambda f, p: f.euler_poisson.body_momentum_rate(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.M),
         lambda say, p: say("(18)", "dM", mu=2, c=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
-        POINTS,
         size=lambda _true, p: (
             (norm(p.M) + norm(p.inertia) * norm(p.R) * norm(p.B))
             * norm(np.linalg.inv(p.inertia))
@@ -212,17 +200,14 @@ EQUATIONS = (
             * np.linalg.cond(p.inertia)
         ),
         ulps=8,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "euler_poisson.momentum_rate",
         "(17) text-inertia-tensor",
         lambda f, p: f.euler_poisson.momentum_rate(p.inertia, p.B, p.R, p.m),
         lambda say, p: say("(17)", "dm", mu=2, c=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
-        POINTS,
         size=lambda _true, p: norm(p.R) ** 4 * norm(p.B) * norm(p.m) * np.linalg.cond(p.inertia),
         ulps=16,
-        floors=("core",),
     ),
     Tie(
         "euler_poisson.energy",
@@ -244,42 +229,34 @@ EQUATIONS = (
 )
 
 MATTER = (
-    Tie(
+    in_core(
         "inertia.mass_matrix",
         "text-inertia-tensor",
         lambda f, p: f.inertia.mass_matrix(p.inertia),
         lambda say, p: body(say, p)["g"],
-        POINTS,
         size=lambda _true, p: norm(p.inertia),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "inertia.mass_matrix_from_inertia",
         "text-mass-moments",
         lambda f, p: f.inertia.mass_matrix_from_inertia(p.inertia.diagonal()),
         lambda say, p: mass_elements(say, p.inertia.diagonal()),
-        POINTS,
         size=lambda _true, p: norm(p.inertia),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "inertia.inertia_from_mass_matrix",
         "text-inertia-tensor",
         lambda f, p: f.inertia.inertia_from_mass_matrix(p.inertia),
         lambda say, p: say("text-inertia-tensor", "I[i,j]", g=p.inertia),
-        POINTS,
         size=lambda _true, p: norm(p.inertia),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "inertia.mass_matrix_of_points",
         "(8)",
         lambda f, p: f.inertia.mass_matrix_of_points(p.masses, p.places),
         of_points,
-        POINTS,
         size=lambda _true, p: norm(p.masses) * norm(p.places) ** 2,
         ulps=8,
-        floors=("core",),
     ),
     Tie(
         "SymmetricBody.ratio",
@@ -298,39 +275,32 @@ MATTER = (
         size=lambda _true, p: float(p.I2),
         floors=("core",),
     ),
-    Tie(
+    in_core(
         "SymmetricBody.cylindrical_shell",
         "text-short-cylinder",
         lambda f, p: f.SymmetricBody.cylindrical_shell(p.mass, p.c, abs(p.mu)).ratio,
         lambda say, p: say("text-short-cylinder", "I", r=p.c, h=abs(p.mu)),
-        POINTS,
-        floors=("core",),
     ),
-    Tie(
+    at_points(
         "body.shape_moments",
         "text-short-cylinder",
         shell_ratio,
         lambda say, p: say("text-short-cylinder", "I", r=p.c, h=abs(p.mu)),
-        POINTS,
         floors=("exact",),
     ),
-    Tie(
+    in_core(
         "Field.prime",
         "(32)",
         lambda f, p: f.Field(p.B, mu=p.mu, c=p.c).prime,
         lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
-        POINTS,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "units.prime",
         "(32)",
         lambda f, p: f.units.prime(p.mu, p.B, p.c),
         lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
-        POINTS,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "units.larmor_field",
         "(27) (32)",
         lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
@@ -338,26 +308,20 @@ MATTER = (
             *say("(32)", "Bp", mu=p.mu, c=1, Bf=p.B),
             say("(27)", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
         ],
-        POINTS,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "units.cyclotron_frequency",
         "(97)",
         lambda f, p: f.units.cyclotron_frequency(p.mu, p.c),
         lambda say, p: say("(97)", "omega", mu=p.mu, b=p.c, c=1),
-        POINTS,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "units.charge_to_mass",
         "(89)",
         lambda f, p: f.units.charge_to_mass(p.mu, p.mass),
         lambda say, p: (
             say("(89)", "m*ddy", e=p.mu, c=1, E=[1, 0, 0], v=[0, 0, 0], Bf=[0, 0, 0])[0] / sympy.Rational(p.mass)
         ),
-        POINTS,
-        floors=("core",),
     ),
 )
 

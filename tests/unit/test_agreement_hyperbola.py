@@ -1,6 +1,7 @@
 """Hyperbola: core and exact say what the ledger's (67) to (79) and the theorems on stability say."""
 
 import dataclasses
+from functools import partial
 from typing import Any
 
 import pytest
@@ -14,6 +15,7 @@ from atlas.proof import formula
 from atlas.proof.run import trial
 
 POINTS = bodies(72, 8)
+at_points = partial(Tie, points=POINTS)
 BAND = [*bodies(8, 3, body=0.3, B3=lambda p: p.B2 / 4), *bodies(9, 3, body=0.85, B3=lambda p: -p.B2 / 9)]
 FOLDED = [p for p in [*POINTS, *BAND] if p.I != 1 and p.B3]
 """Points whose curve has a least stability, and not at the pole."""
@@ -87,23 +89,18 @@ def curve(f: Floor, p: Any) -> Any:
 
 
 TIES = (
-    Tie(
-        "Hyperbola.omega3",
-        "(71)",
-        lambda f, p: curve(f, p).omega3(p.omega2),
-        lambda say, p: ordinate(say, p, p.omega2),
-        POINTS,
+    at_points(
+        "Hyperbola.omega3", "(71)", lambda f, p: curve(f, p).omega3(p.omega2), lambda say, p: ordinate(say, p, p.omega2)
     ),
-    Tie(
+    at_points(
         "Hyperbola.frequencies",
         "(71) (72) (79)",
         lambda f, p: curve(f, p).frequencies(p.omega2),
         lambda say, p: [elementary(say, p)[name] for name in ("k", "phi")],
-        POINTS,
     ),
-    Tie("Hyperbola.pole", "(71)", lambda f, p: curve(f, p).pole, pole, POINTS),
-    Tie("Hyperbola.special", "(71) (72)", lambda f, p: curve(f, p).special, special, POINTS),
-    Tie("Hyperbola.asymptotes", "(67)", lambda f, p: curve(f, p).asymptotes, asymptotes, POINTS),
+    at_points("Hyperbola.pole", "(71)", lambda f, p: curve(f, p).pole, pole),
+    at_points("Hyperbola.special", "(71) (72)", lambda f, p: curve(f, p).special, special),
+    at_points("Hyperbola.asymptotes", "(67)", lambda f, p: curve(f, p).asymptotes, asymptotes),
     Tie(
         "Hyperbola.stability",
         "theorem-stability",

@@ -1,5 +1,6 @@
 """Integrals and pseudo-oscillator: core and exact say what the ledger's (36) to (49) say."""
 
+from functools import partial
 from typing import Any
 
 import pytest
@@ -10,6 +11,8 @@ from atlas.core.motions import pseudo_oscillator
 from atlas.core.motions.integrals import Integrals
 
 POINTS = bodies(55, 8)
+at_points = partial(Tie, points=POINTS)
+in_core = partial(Tie, points=POINTS, floors=("core",))
 MOVING = bodies(50, 8, u=lambda p: p.omega[2])
 """States with Omega3 = u."""
 
@@ -105,59 +108,51 @@ def spin(say: Ledger, p: Any) -> list[Any]:
 INTEGRALS = "(36) (37) (40) (41)"
 
 TIES = (
-    Tie(
+    in_core(
         "integrals.integrals",
         INTEGRALS,
         lambda f, p: f.integrals.integrals(p.body, p.omega, p.K),
         lambda say, p: in_motion(say, p).values(),
-        POINTS,
         size=power(2),
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "integrals.shape_factors",
         "(33)",
         lambda f, p: f.integrals.shape_factors(p.body),
         lambda say, p: [n + s * say("(33)", "I", I3=p.I3, I2=p.I2) for n, s in ((0, 1), (1, -1), (2, -1))],
-        POINTS,
-        floors=("core",),
     ),
-    Tie(
+    at_points(
         "PseudoOscillator.integrals",
         INTEGRALS,
         lambda f, p: oscillator(f, p).integrals,
         lambda say, p: at_start(say, p).values(),
-        POINTS,
         size=power(2),
     ),
-    Tie(
+    at_points(
         "PseudoOscillator.coefficients",
         f"{INTEGRALS} (48)",
         lambda f, p: oscillator(f, p).coefficients,
         lambda say, p: cubic(say, p, at_start(say, p)).values(),
-        POINTS,
         size=power(3),
         ulps=16,
     ),
-    Tie(
+    at_points(
         "PseudoOscillator.quartic_coefficients",
         f"{INTEGRALS} theorem-quartic",
         lambda f, p: oscillator(f, p).quartic_coefficients,
         lambda say, p: powers(quartic(say, p, sympy.Symbol("u"), at_start(say, p)), sympy.Symbol("u")),
-        POINTS,
         size=power(4),
         ulps=16,
     ),
-    Tie(
+    at_points(
         "PseudoOscillator.acceleration",
         f"{INTEGRALS} (47) (48)",
         lambda f, p: oscillator(f, p).acceleration(p.u),
         lambda say, p: acceleration(say, p, p.u),
-        POINTS,
         size=power(3),
         ulps=16,
     ),
-    Tie(
+    at_points(
         "PseudoOscillator.acceleration",
         "(37) (49)",
         lambda f, p: oscillator(f, p).acceleration(p.u),
@@ -168,48 +163,40 @@ TIES = (
             Bsquare=say("(37)", "at0(K^2)", **letters(p, "B2 B3")),
             **letters(p, "I B2 B3 omega1 omega2 omega3"),
         ),
-        POINTS,
         size=power(3),
         ulps=16,
     ),
-    Tie(
+    in_core(
         "PseudoOscillator.stiffness",
         f"{INTEGRALS} (47) (48)",
         lambda f, p: oscillator(f, p).stiffness(p.u),
         stiffness,
-        POINTS,
         size=power(2),
         ulps=64,
-        floors=("core",),
     ),
-    Tie(
+    at_points(
         "PseudoOscillator.quartic",
         f"{INTEGRALS} theorem-quartic",
         lambda f, p: oscillator(f, p).quartic(p.u),
         lambda say, p: quartic(say, p, p.u, at_start(say, p)),
-        POINTS,
         size=power(4),
         ulps=64,
     ),
-    Tie(
+    in_core(
         "pseudo_oscillator.cubic",
         "(48)",
         lambda f, p: f.pseudo_oscillator.cubic(p.body, conserved(p)),
         lambda say, p: [say("(48)", name, **same(p)) for name in ("a0", "a1", "a2", "a3")],
-        POINTS,
         size=power(3),
         ulps=16,
-        floors=("core",),
     ),
-    Tie(
+    in_core(
         "pseudo_oscillator.quartic",
         "theorem-quartic",
         lambda f, p: f.pseudo_oscillator.quartic(p.body, conserved(p)),
         lambda say, p: powers(say("theorem-quartic", "Q", u=sympy.Symbol("u"), **same(p)), sympy.Symbol("u")),
-        POINTS,
         size=power(4),
         ulps=16,
-        floors=("core",),
     ),
 )
 

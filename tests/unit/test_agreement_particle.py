@@ -1,5 +1,6 @@
 """Point particle and flight: core and exact say what the ledger's (89) to (99) say, for either sign of the charge."""
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -39,6 +40,8 @@ def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
 
 
 POINTS = launches(10, 8)
+at_points = partial(Tie, points=POINTS)
+in_core = partial(Tie, points=POINTS, floors=("core",))
 DARK = launches(2, 3, B=(0.0, 0.0, 0.0))
 BODIES = bodies(
     17,
@@ -196,40 +199,23 @@ PATH = f"{ACROSS} (93) (101)"
 MATRIX = "(71) (72) (79) (84)"
 
 TIES = (
-    Tie("ParticleMotion.cyclotron_frequency", "(97)", lambda f, p: motion(f, p).cyclotron_frequency, frequency, POINTS),
-    Tie(
+    at_points("ParticleMotion.cyclotron_frequency", "(97)", lambda f, p: motion(f, p).cyclotron_frequency, frequency),
+    at_points(
         "ParticleMotion.period",
         "(97)",
         lambda f, p: motion(f, p).period,
         lambda say, p: 2 * sympy.pi / abs(frequency(say, p)),
-        POINTS,
     ),
-    Tie(
+    in_core(
         "ParticleMotion.prime",
         "(32)",
         lambda f, p: motion(f, p).prime,
         lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
-        POINTS,
-        floors=("core",),
     ),
-    Tie("ParticleMotion.drift", "text-drift", lambda f, p: motion(f, p).drift, drift, POINTS, size=length),
-    Tie(
-        "ParticleMotion.radius",
-        ACROSS,
-        lambda f, p: motion(f, p).radius,
-        lambda say, p: circle(say, p)[0],
-        POINTS,
-    ),
-    Tie(
-        "ParticleMotion.axes",
-        "text-drift-direction",
-        lambda f, p: motion(f, p).axes,
-        frame,
-        POINTS,
-        size=unit,
-        floors=("core",),
-    ),
-    Tie("ParticleMotion.position", PATH, lambda f, p: motion(f, p).position(p.t), place, POINTS, size=travelled),
+    at_points("ParticleMotion.drift", "text-drift", lambda f, p: motion(f, p).drift, drift, size=length),
+    at_points("ParticleMotion.radius", ACROSS, lambda f, p: motion(f, p).radius, lambda say, p: circle(say, p)[0]),
+    in_core("ParticleMotion.axes", "text-drift-direction", lambda f, p: motion(f, p).axes, frame, size=unit),
+    at_points("ParticleMotion.position", PATH, lambda f, p: motion(f, p).position(p.t), place, size=travelled),
     Tie(
         "ParticleMotion.position",
         "text-no-magnetic-field",
@@ -238,23 +224,16 @@ TIES = (
         DARK,
         size=travelled,
     ),
-    Tie("ParticleMotion.velocity", PATH, lambda f, p: motion(f, p).velocity(p.t), velocity, POINTS, size=quick, ulps=8),
-    Tie(
-        "ParticleMotion.guiding_centre",
-        PATH,
-        lambda f, p: motion(f, p).guiding_centre(p.t),
-        centre,
-        POINTS,
-        size=travelled,
+    at_points("ParticleMotion.velocity", PATH, lambda f, p: motion(f, p).velocity(p.t), velocity, size=quick, ulps=8),
+    at_points(
+        "ParticleMotion.guiding_centre", PATH, lambda f, p: motion(f, p).guiding_centre(p.t), centre, size=travelled
     ),
-    Tie(
+    in_core(
         "ParticleMotion.trochoid",
         "(93) (97) (101) (99) text-drift-direction",
         lambda f, p: f.ParticleMotion.trochoid(p.mu, p.E, p.B, p.a, p.c).position(p.t),
         trochoid,
-        POINTS,
         size=travelled,
-        floors=("core",),
     ),
     Tie(
         "Flight.arm",

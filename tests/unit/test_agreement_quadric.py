@@ -1,5 +1,6 @@
 """Quadric: core and exact say what the ledger's (51) to (57) say."""
 
+from functools import partial
 from typing import Any
 
 import pytest
@@ -9,6 +10,7 @@ from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letter
 from atlas.formulas import quadric as formulas
 
 POINTS = bodies(58, 8)
+at_points = partial(Tie, points=POINTS)
 TWO_SHEETS = bodies(61, 3, body=1.7)
 ONE_SHEET = bodies(63, 3, body=0.3)
 
@@ -52,20 +54,18 @@ def off_canonical(say: Ledger, p: Any) -> Any:
 
 
 TIES = (
-    Tie("Quadric.beta", "text-beta", lambda f, p: f.Quadric(p.body, p.field).beta, beta, POINTS),
-    Tie(
+    at_points("Quadric.beta", "text-beta", lambda f, p: f.Quadric(p.body, p.field).beta, beta),
+    at_points(
         "Quadric.a2",
         "(54) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).a2,
         lambda say, p: say("(54)", "a2", beta=beta(say, p)),
-        POINTS,
     ),
-    Tie(
+    at_points(
         "Quadric.a3",
         "(54) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).a3,
         lambda say, p: say("(54)", "a3", beta=beta(say, p)),
-        POINTS,
     ),
     Tie(
         "Quadric.semi_axes",
@@ -81,22 +81,20 @@ TIES = (
         semi_axes,
         ONE_SHEET,
     ),
-    Tie("Quadric.centre", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).centre, centre, POINTS),
-    Tie("Quadric.axes", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).axes, axes, POINTS),
-    Tie(
+    at_points("Quadric.centre", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).centre, centre),
+    at_points("Quadric.axes", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).axes, axes),
+    at_points(
         "Quadric.canonical",
         "(53) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).canonical(p.omega),
         lambda say, p: coordinates(say, p, p.omega),
-        POINTS,
         size=length,
     ),
-    Tie(
+    at_points(
         "Quadric.residual",
         "(50)",
         lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
         lambda say, p: say("(50)", "0", **letters(p, "I B2 B3 omega1 omega2 omega3")),
-        POINTS,
     ),
     Tie(
         "Quadric.residual",

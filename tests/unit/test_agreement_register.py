@@ -128,7 +128,6 @@ UNTIED = {
     "body.kept_ratio": GIVEN,
     "body.ratio_of": GIVEN,
     "body.from_shape": GIVEN,
-    "body.float_text": NAME,
     "inertia.inertia_tensor": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
     "units.system": NAME,
