@@ -27,36 +27,45 @@ def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str, known
     do that and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one
     before; what else it leaves is removed by the next one. Two builds at once take turns.
 
-    In the folder only files that are still as they were written are replaced or removed; `known` are lines of such a
-    list for a folder without one. Raises AtlasError, with all written, where a file was edited: the new one is beside.
+    Only files that are still as they were written are replaced or removed; `known` are lines of such a list, by names
+    in `out`, for a folder without one. Raises AtlasError, with all written, where a file was edited: the new one is
+    beside it.
     """
     files = {path: content for contents in made.values() for path, content in contents.items()}
     inside = {path.removeprefix(f"{name}/"): content for path, content in files.items() if path.startswith(f"{name}/")}
     lone = {path: content for path, content in files.items() if not path.startswith(f"{name}/")}
+    known = {*known}
     edited: dict[str, str] = {}
-    with named(out / name), _written(lone, out) as work:
+    with named(out / name), _work(out) as work:
         if inside:
-            place, before = out / name, _lines(out / name) or {*known}
-            inside, edited, foreign = _beside(inside, place, before)
-            lines = {_line(path, content) for path, content in inside.items()}
-            lines |= {line for line in before if line[66:] in edited}
-            lines |= {_line(path, inside[new]) for path, new in edited.items()}
-            inside[WRITTEN] = "".join(f"{line}\n" for line in sorted(lines)).encode()
-            for path, content in inside.items():
-                (work / name / path).parent.mkdir(parents=True, exist_ok=True)
-                (work / name / path).write_bytes(content)
+            place, inner = out / name, f"{name}/"
+            of_pages = {f"{line[:66]}{line[66:].removeprefix(inner)}" for line in known if line[66:].startswith(inner)}
+            before = _lines(place) | of_pages
+            inside, beside = _beside(inside, place, before)
+            edited |= {f"{inner}{old}": new for old, new in beside.items()}
+            foreign = _foreign(place, before, inside)
+            _list(inside, before, beside)
+            _write(inside, work / name)
             whole = not place.is_symlink()
             for path in foreign if whole else ():
                 (work / name / path).parent.mkdir(parents=True, exist_ok=True)
                 os.link(place / path, work / name / path, follow_symlinks=False)
             if not (whole and exchange(work / name, place)):
                 place.mkdir(parents=True, exist_ok=True)
-                (place / WRITTEN).write_text("".join(f"{line}\n" for line in sorted(before | lines)), encoding="utf-8")
+                lines = before | {*inside[WRITTEN].decode().splitlines()}
+                (place / WRITTEN).write_text("".join(f"{line}\n" for line in sorted(lines)), encoding="utf-8")
                 _place(work / name, place, inside)
                 _remove_others(place, {*inside, *foreign})
-        _place(work, out, lone)
+        if lone:
+            before = _lines(out) | {line for line in known if line[66:] in lone}
+            lone, beside = _beside(lone, out, before)
+            edited |= beside
+            before = {line for line in before if line[66:] not in lone or not _edited(out, line[66:], {line})}
+            _list(lone, before, {line[66:]: beside.get(line[66:]) for line in before})
+            _write(lone, work)
+            _place(work, out, sorted(lone, key=lambda path: path != WRITTEN))
     if edited:
-        told = "; ".join(f"{out / name / old} was edited: the new text is {new}" for old, new in edited.items())
+        told = "; ".join(f"{out / old} was edited: the new text is {Path(new).name}" for old, new in edited.items())
         raise AtlasError(f"{told}.")
 
 
@@ -77,44 +86,59 @@ def _lines(place: Path) -> set[str]:
         return set()
 
 
-def _beside(
-    files: Mapping[str, bytes], place: Path, lines: set[str]
-) -> tuple[dict[str, bytes], dict[str, str], list[str]]:
-    """Return the files under names that are free, those that were edited with the new name, and what is not ours."""
-    there = {
-        path.relative_to(place).as_posix(): path for path in place.rglob("*") if path.is_symlink() or not path.is_dir()
-    }
-    theirs = {
-        name
-        for name, path in there.items()
-        if name != WRITTEN and (path.is_symlink() or not path.is_file() or _line(name, path.read_bytes()) not in lines)
-    }
+def _list(files: dict[str, bytes], before: set[str], stay: Mapping[str, str | None]) -> None:
+    """Put the list of files among them: their lines, and those before it of names that stay."""
+    lines = {_line(path, content) for path, content in files.items()} | {line for line in before if line[66:] in stay}
+    lines |= {_line(path, files[new]) for path, new in stay.items() if new}
+    files[WRITTEN] = "".join(f"{line}\n" for line in sorted(lines)).encode()
+
+
+def _edited(place: Path, name: str, lines: set[str]) -> bool:
+    """Whether something stands there that is no folder, and no file as it was written."""
+    path = place / name
+    if path.is_symlink():
+        return True
+    return path.exists() and not path.is_dir() and not (path.is_file() and _line(name, path.read_bytes()) in lines)
+
+
+def _foreign(place: Path, lines: set[str], files: Mapping[str, bytes]) -> list[str]:
+    """Return what a folder holds beside these files that is not ours."""
+    there = (path.relative_to(place).as_posix() for path in place.rglob("*"))
+    return sorted(name for name in there if name not in {WRITTEN, *files} and _edited(place, name, lines))
+
+
+def _beside(files: Mapping[str, bytes], place: Path, lines: set[str]) -> tuple[dict[str, bytes], dict[str, str]]:
+    """Return the files under names that are free, and of those that were edited the new name."""
     found, edited = {}, {}
     for path, content in files.items():
         free = path
-        while free in theirs and (there[free].is_symlink() or there[free].read_bytes() != content):
+        while _edited(place, free, lines) and ((place / free).is_symlink() or (place / free).read_bytes() != content):
             free = str(Path(free).with_suffix(f".new{Path(free).suffix}"))
         found[free] = content
         if free != path:
             edited[path] = free
-    return found, edited, sorted(theirs - found.keys())
+    return found, edited
 
 
 @contextmanager
-def _written(files: Mapping[str, bytes], out: Path) -> Iterator[Path]:
-    """Give a folder with these files, on the disk of `out` and in its turn; what a killed process left is removed."""
+def _work(out: Path) -> Iterator[Path]:
+    """Give a folder to write to, on the disk of `out` and in its turn; what a killed process left is removed."""
     out.mkdir(parents=True, exist_ok=True)
     with _turn(out):
         for left in out.glob(f"{UNFINISHED}*"):
             shutil.rmtree(left, ignore_errors=True)
         work = Path(mkdtemp(dir=out, prefix=UNFINISHED))
         try:
-            for path, content in files.items():
-                (work / path).parent.mkdir(parents=True, exist_ok=True)
-                (work / path).write_bytes(content)
             yield work
         finally:
             shutil.rmtree(work, ignore_errors=True)
+
+
+def _write(files: Mapping[str, bytes], folder: Path) -> None:
+    """Write files into a folder that is made."""
+    for path, content in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(content)
 
 
 def _place(work: Path, out: Path, files: Iterable[str]) -> None:

@@ -172,8 +172,8 @@ def _build(
     progress(steps - 1, steps, "pages")
     made = {one: MAKERS[one](document, wanted, cache, sources) for one in formats}
     last: dict[str, Any] = cache.load(_noted(report.name, out))
-    noted = last.get("html", {"files": {}})["files"].items()
-    publish(made, out, report.name, [f"{there}  {path.removeprefix(f'{report.name}/')}" for path, there in noted])
+    noted = [item for one in LANGUAGES for item in last.get(one, {"files": {}})["files"].items()]
+    publish(made, out, report.name, [f"{there}  {path}" for path, there in noted])
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
     failures = [figure for figure in wanted if figure.failure]

@@ -139,6 +139,8 @@ def command() -> None:
     It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
     neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all
     that belongs to it; NAME.pdf is the same to print, and NAME.toml the report that both are made from, to go on with.
+    Beside a page or PDF that you edited, or that is another's, the new one is written, as NAME.new.html, and then the
+    exit status is 2.
 
     COMMAND is that of a family and takes its options; without it, it is the one that the options are of: --omega2 makes
     an elementary motion, --omega any motion, neither of them the quadric of the body in the field.

@@ -44,7 +44,7 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
     something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status
     is 1. Beside the PDF, NAME.costs.json says what each figure cost.
 
-    What you put into the folder of the pages stays. Beside a page that you edited the new one is written, as
+    What you put into the folder of the pages stays. Beside a page or PDF that you edited the new one is written, as
     NAME.new.html, and then the exit status is 2.
     """
     from atlas.build.report import FORMATS, build_report

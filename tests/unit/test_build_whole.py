@@ -127,6 +127,29 @@ def test_an_edited_file_stays_and_the_new_one_is_beside_it(tmp_path: Path, *, li
     assert {name for name in state(place) if name != WRITTEN} == {"a.tex", "a.new.tex", "s/c.tex"}
 
 
+def test_a_pdf_or_a_page_beside_the_folder_is_kept_by_the_same_rule(tmp_path: Path) -> None:
+    """One that was edited, or is none of ours, stays; the new one is beside it, and what is beside it is as it was."""
+    (tmp_path / "other.pdf").write_text("of somebody")
+    publish(made("1", "c.html"), tmp_path, "plain")
+    publish({"single": {"page.html": b"1"}}, tmp_path, "page")
+    publish(made("2", "c.html"), tmp_path, "plain")
+    assert (tmp_path / "plain.pdf").read_bytes() == b"2"
+    (tmp_path / "plain.pdf").write_text("mine")
+    for version in ("3", "4"):
+        with pytest.raises(AtlasError, match=r"plain\.pdf was edited: the new text is plain\.new\.pdf"):
+            publish(made(version, "c.html"), tmp_path, "plain")
+        assert (tmp_path / "plain.pdf").read_text() == "mine"
+        assert (tmp_path / "plain.new.pdf").read_text() == (tmp_path / "plain" / "a.html").read_text() == version
+    with pytest.raises(AtlasError, match=r"other\.new\.pdf"):
+        publish({"pdf": {"other.pdf": b"1"}}, tmp_path, "other")
+    (tmp_path / "plain.new.pdf").replace(tmp_path / "plain.pdf")
+    publish(made("5", "c.html"), tmp_path, "plain")
+    publish({"single": {"page.html": b"2"}}, tmp_path, "page")
+    assert (tmp_path / "plain.pdf").read_bytes() == b"5"
+    assert (tmp_path / "page.html").read_bytes() == b"2"
+    assert (tmp_path / "other.pdf").read_text() == "of somebody"
+
+
 def test_a_report_that_lost_its_record_is_built_again(tmp_path: Path) -> None:
     """Any file of a built report may be lost, also the one by which it is known as a report."""
     out = tmp_path / "out"
@@ -190,7 +213,7 @@ def test_pages_take_their_places_at_once(tmp_path: Path, monkeypatch: pytest.Mon
         assert left.keys() & set(named.values()) == {named[version]}
         publish(made("old", "c.html"), tmp_path, "plain")
         assert state(tmp_path) == old
-        assert {path.name for path in tmp_path.iterdir()} == {"plain", "plain.pdf"}
+        assert {path.name for path in tmp_path.iterdir()} == {WRITTEN, "plain", "plain.pdf"}
     assert limit >= 2
 
 
