@@ -126,7 +126,9 @@ def build_tex(
     document, figures = composed(
         name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS, style
     )
-    document.set("latex")
+    document.set(
+        "latex", "typst"
+    )  # what print cannot read is refused here, too: no \input, no \write reaches the paper
     pictures = {}
     views: list[FigureView] = document.listed("figure")
     for view in views:

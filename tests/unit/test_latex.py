@@ -11,6 +11,8 @@ import pytest
 from pypdf import PdfReader
 
 from atlas.build.composed import build_tex
+from atlas.build.report import build_report
+from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.motions.elementary import ElementaryMotion as Balls
 from atlas.report.blocks.table import Cell, ColumnView, TableView
@@ -273,6 +275,20 @@ title = "Own"
     status, log, printed = compiled(made, "all.tex")
     assert status == 0, log[-2000:]
     assert found["general/period"][0].replace(" ", "") in re.sub(r"[\s\u2009\u202f]", "", printed)
+
+
+@pytest.mark.parametrize("formula", [r"\input{/etc/passwd}", r"\write18{ls}", "x^", r"\frac{\frac{a}{b}}{c}"])
+def test_a_formula_that_pages_refuse_is_refused_here(formula: str, tmp_path: Path) -> None:
+    """One rule for a report's formulas: none comes into the paper that the pages and the PDF would not take."""
+    file = tmp_path / "own.toml"
+    page = f"[[pages]]\nslug = 'index'\ntitle = 'Own'\nblocks = [{{ kind = 'prose', text = '${formula}$' }}]\n"
+    file.write_text(f"name = 'own'\ntitle = 'Own'\n{page}", encoding="utf-8")
+    said = set()
+    for make in (build_report, build_tex):
+        with pytest.raises(AtlasError, match=r"block 1 \(prose\): ") as refused:
+            make(file, tmp_path / "out")
+        said.add(str(refused.value))
+    assert len(said) == 1
 
 
 @pytest.mark.parametrize(
