@@ -2,24 +2,30 @@
 
 import re
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from html import escape
 from io import BytesIO
+from typing import Any
 
+from atlas.core.bodies.body import SymmetricBody
 from atlas.core.shown import Shown
+from atlas.draw import figure
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.notebook.pictures import plot
+from atlas.paper.plain import plain
 from atlas.report.digits import Number
 from atlas.report.tables.layout import NONE
 from atlas.report.tables.properties import SPACE, Thing, rows_of
 
 DIGITS = 10
-WIDTH = 300
-"""How wide the picture is shown, in pixels of CSS, each of which has two of its own."""
+WIDTH, COLOURS = 300, 40
+"""How wide the picture is shown, in pixels of CSS, each of which has two of its own; a notebook that keeps many of
+them stays light."""
 SIDES = dict.fromkeys(("Quantity", "Name", "Value", "Unit", "Equation", "Proven"), "left") | {"Value": "right"}
 """Where the text of a column stands; JupyterLab puts all to the right where nothing is said."""
+FLOW = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">'
 Row = tuple[str, str, str | Number, str, str, str]
 
 
@@ -29,9 +35,8 @@ def html(shown: Shown) -> str:
     heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in found)])
     table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if found else ""
     beside = f"{table}{picture(shown)}"
-    flow = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">'
     head = f'<pre style="word-break:normal">{escape(repr(shown))}</pre>'
-    return f"{head}{f'{flow}{beside}</div>' if beside else ''}"
+    return f"{head}{f'{FLOW}{beside}</div>' if beside else ''}"
 
 
 def latex(shown: Shown) -> str | None:
@@ -55,12 +60,33 @@ def rows(shown: Shown) -> Sequence[Row]:
     return [row for q in family.quantities for row in rows_of(thing, q, DIGITS) if row[2] != NONE]
 
 
+def body(shown: SymmetricBody) -> str:
+    """Return the moments of a body and a small picture of a cylinder that has them."""
+    lines = [("I<sub>2</sub>, across the axis", shown.I2), ("I<sub>3</sub>, along it", shown.I3)]
+    lines.append(("I = I<sub>3</sub>/I<sub>2</sub>", shown.ratio))
+    table = "".join(f"<tr><td>{says}</td><td>{value:.10g}</td></tr>" for says, value in lines)
+    drawn = _image(lambda: figure("lssc", ratio=shown, field=(0.0, 0.0))) if shown.I3 else ""
+    return f"<pre>{escape(repr(shown))}</pre>{FLOW}<table>{table}</table>{drawn}</div>"
+
+
 def picture(shown: Shown) -> str:
     """Return the first panel of the figure of an object, small; nothing where there is none."""
+    return _image(lambda: plot(shown, None, 1, None, None, None, {}))
+
+
+def _image(draw: Callable[[], Any]) -> str:
+    """Return a figure as an image of few colours; nothing where it can't be drawn."""
+    from PIL import Image
+
     with suppress(AtlasError):
-        file, figure = BytesIO(), plot(shown, None, 1, None, None, None, {})
+        file, small, figure = BytesIO(), BytesIO(), draw()
         figure.savefig(file, dpi=2 * WIDTH / figure.get_figwidth())
-        return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(file.getvalue()).decode()}">'
+        with Image.open(file) as drawn:
+            white = Image.new("RGBA", drawn.size, "white")
+            white.alpha_composite(drawn.convert("RGBA"))
+        few = white.convert("RGB").quantize(COLOURS, kmeans=3, dither=Image.Dither.NONE)
+        few.save(small, "png", optimize=True)
+        return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(small.getvalue()).decode()}">'
     return ""
 
 
@@ -76,11 +102,19 @@ def _cells(row: Row) -> list[str]:
 
 
 def _html(markdown: str) -> str:
-    """Set what the register's tables have of Markdown; formulas stay between dollars, which MathJax sets."""
+    """Set what the register's tables have of Markdown; formulas are letters, as no notebook is sure to set TeX."""
     text = escape(markdown.replace(SPACE, "\N{NO-BREAK SPACE}"), quote=False)
+    text = re.sub(r"\$([^$]+)\$", lambda formula: _letters(formula[1]), text)
     for pattern, replacement in ((r"`([^`]+)`", r"<code>\1</code>"), (r"\^([^^$]+)\^", r"<sup>\1</sup>"), (r"@", "")):
         text = re.sub(pattern, replacement, text)
     return text
+
+
+def _letters(tex: str) -> str:
+    """Return a short formula as letters, with indices below the line."""
+    kind = "b" if r"\mathbf" in tex else "i"
+    letters = re.sub(r"_\{?(\w+)\}?", r"<sub>\1</sub>", plain(f"${tex}$")).replace("'", "\N{PRIME}")
+    return f"<{kind}>{letters}</{kind}>"
 
 
 def _words(markdown: str) -> str:

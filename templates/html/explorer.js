@@ -124,7 +124,7 @@ const paint = (svg, drawn) => {
 const over = ({I, B2, B3}, f) => [["curve", m => m.stability > 0], ["unstable", m => !(m.stability > 0)]].map(([kind, holds]) => [kind, sampled(...WIDE.slice(0, 2), 900, w => { const m = motion(I, B2, B3, w); return [w, holds(m) && Math.abs(w + B2) > 1e-9 ? f(m) : NaN]; })]);
 const PLANES = {
   plane: state => { const {B2, B3, omega} = state; return {
-    x: WIDE, y: HIGH, lines: [["guide", [[-3, 0], [3, 0]]], ["guide", [[0, -5], [0, 5]]], ...over(state, m => m.omega3)], dots: [["pole", -B2, -B3], ["point", omega[1], omega[2]]], words: [[-B2, -B3, "−B′", "pole"], [0, 0, "rest"]],
+    x: WIDE, y: HIGH, lines: [["guide", [[-3, 0], [3, 0]]], ["guide", [[0, -5], [0, 5]]], ...over(state, m => m.omega3)], dots: [["pole", -B2, -B3], ["rest", 0, 0], ["point", omega[1], omega[2]]], words: [[-B2, -B3, "−B′", "pole"], [0, -0.95, "rest"]],
   }; },
   frequencies: state => { const {I, B2, B3, omega} = state, m = motion(I, B2, B3, omega[1]), nutation = m => Math.sqrt(Math.max(m.stability, 0)), kinds = [["k", "curve", m => m.k], ["φ", "second", m => m.phi], ["νₙ", "third", nutation]]; return {
     x: WIDE, y: [-6, 6, "1/time"], lines: [["guide", [[-3, 0], [3, 0]]], ["guide", [[omega[1], -6], [omega[1], 6]]], ...kinds.map(([, kind, f]) => [kind, sampled(-3, 3, 900, w => [w, Math.abs(w + B2) > 4e-3 ? f(motion(I, B2, B3, w)) : NaN])])],

@@ -388,3 +388,14 @@ def test_without_pandas_one_line_names_the_extra(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(AtlasError, match=r"pip install 'atlas-charged-body\[sweep\]'"):
         ONE[5].to_dataframe()
+
+
+@pytest.mark.parametrize("one", [*TABLED, SymmetricBody.ring(1.0, 2.0)], ids=name)
+def test_html_is_light_and_needs_no_tex(one: Any) -> None:
+    """A notebook shows each object within 40 kB, its picture among them, and no formula waits for MathJax."""
+    shown = one._repr_html_()
+    assert len(shown) < 40_000
+    words = re.sub('base64,[^"]*', "", shown)
+    assert "$" not in words
+    assert "\\" not in words
+    assert "<img" in words

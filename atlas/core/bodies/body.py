@@ -15,6 +15,7 @@ from atlas.core.bodies.inertia import (
 )
 from atlas.core.inputs import FloatArray, matrix, number, positive, real
 from atlas.core.quantities import INERTIA, LENGTH, MASS
+from atlas.core.shown import notebook
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.domain import NO_SUCH_BODY, ROD, check_ratio, check_shape
 
@@ -67,6 +68,11 @@ class SymmetricBody:
         object.__setattr__(self, "I2", I2)
         object.__setattr__(self, "I3", I3)
         object.__setattr__(self, "axes", matrix(self.axes, "The axes"))
+
+    def _repr_html_(self) -> str:
+        """Return its moments and a small picture, for a notebook."""
+        found: str = notebook("show").body(self)
+        return found
 
     @property
     def ratio(self) -> float:
