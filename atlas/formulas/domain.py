@@ -5,13 +5,25 @@
 'precession'
 """
 
-from typing import Any
+from __future__ import annotations
 
-from flint import fmpq
+from typing import TYPE_CHECKING, Any
 
 from atlas.errors import AtlasError, DomainError
-from atlas.formulas.elementary import CASES, FREE
-from atlas.formulas.numbers import Number
+
+if TYPE_CHECKING:
+    from atlas.formulas.numbers import Number
+
+CASES = (
+    "free body",
+    "spin along the field",
+    "transverse field, free spin",
+    "ball, free spin",
+    "at rest",
+    "precession",
+)
+FREE = 4
+"""In the first so many cases omega3 is free and has to be given."""
 
 ROD = (
     "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
@@ -37,7 +49,7 @@ def refuse(where: Any, sentence: str, *values: Any) -> None:
 def written(value: Number) -> str:
     """Return a number as the shortest text of the double nearest to it, or "beyond all floats"."""
     try:
-        return repr(int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value))
+        return repr(int(value.p) / int(value.q) if hasattr(value, "p") else float(value))
     except OverflowError:
         return "beyond all floats"
 

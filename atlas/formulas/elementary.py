@@ -3,19 +3,9 @@
 Each formula takes I2, I3, B2, B3, omega2, and `omega3` where it is free, or the angular velocity of the free body.
 """
 
+from atlas.formulas.domain import CASES, FREE
 from atlas.formulas.hyperbola import ordinate, precession, proper
 from atlas.formulas.numbers import Number, Vector, length
-
-CASES = (
-    "free body",
-    "spin along the field",
-    "transverse field, free spin",
-    "ball, free spin",
-    "at rest",
-    "precession",
-)
-FREE = 4
-"""In the first so many cases omega3 is free and has to be given."""
 
 
 def constants(

@@ -64,6 +64,11 @@ UNTIED = {
         for what in ("precession_rate", "spin_rate")
     },
     **{
+        f"{name}Motion.{what}": "compared with proven digits and with long grids: test_sensitivity, test_spectrum"
+        for name in ("Elementary", "Free", "Ball", "General", "Top", "Elliptic", "Asymmetric")
+        for what in ("sensitivity", "spectrum")
+    },
+    **{
         f"GeneralMotion.{name}": SERIES
         for name in (
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body "
@@ -131,6 +136,8 @@ UNTIED = {
     "inertia.inertia_tensor": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
     "units.system": NAME,
+    "integrals.invariants": "of a motion's exact inputs, tied by the invariants of motions",
+    "integrals.exact_invariants": "of a motion's exact inputs, tied by the invariants of motions",
 }
 """Public names without a tie, and why."""
 

@@ -33,6 +33,7 @@ HEAVY: Mapping[str, str] = {
     "rich": "rich",
     "msgspec": "msgspec",
     "pylatexenc": "pylatexenc",
+    "lmfit": "lmfit",
     "heyoka": "heyoka",
 }
 """The libraries of pyproject.toml but the smallest, and the modules that show their use."""
@@ -98,7 +99,7 @@ CASES = [
     Case("explore nosuchthing", "numpy flint", status=2),
     Case("report nosuchreport", "msgspec", status=2),
     Case("page --ratio 1.3 --field 1", "", status=2),
-    Case("page --ratio 3 --field 1 2", "numpy flint", status=2),
+    Case("page --ratio 3 --field 1 2", "numpy flint msgspec", status=2),
     Case("tex prose.toml", "msgspec numpy flint multiprocessing jinja2"),
     Case("data prose.toml", "msgspec numpy flint pylatexenc multiprocessing"),
 ]

@@ -17,8 +17,8 @@ from atlas.core.motions.integrals import integrals, invariants, shape_factors
 from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
-from atlas.formulas.domain import case_of, check_omega3
-from atlas.formulas.elementary import CASES, FREE, constants, free, quotient, scalars, turning
+from atlas.formulas.domain import CASES, FREE, case_of, check_omega3
+from atlas.formulas.elementary import constants, free, quotient, scalars, turning
 from atlas.formulas.integrals import NAMES
 from atlas.formulas.numbers import direction, nearest, workprec
 
