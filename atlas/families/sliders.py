@@ -1,5 +1,6 @@
 """Sliders for the numbers of a family: names, ends and starts are those of the register, for pages and the explorer."""
 
+import re
 from dataclasses import dataclass
 from math import log10
 
@@ -28,7 +29,7 @@ TIME = Slider("t", "time", 0.0, 60.0, 0.05, 0.0)
 def sliders_of(family: Family) -> list[Slider]:
     """Return the sliders of all parameters that have a start in the register, and of the time, if it has any."""
     found = [
-        Slider(name, p.says, *p.range, step_of(*p.range), start)
+        Slider(name, p.says, *p.range, step_of(*p.range), start, letters(name))
         for p in family.parameters
         for name, start in zip(p.names, p.default, strict=bool(p.default))
     ]
@@ -38,3 +39,13 @@ def sliders_of(family: Family) -> list[Slider]:
 def step_of(low: float, high: float) -> float:
     """Return the step of a slider."""
     return float(10.0 ** round(log10((high - low) / STEPS)))
+
+
+def letters(name: str) -> str:
+    """Return a name as the atlas writes it: omega2 is ω₂, ratio I, field.1 B₂; other words stay."""
+    name = {"ratio": "I", "field.1": "B2", "field.2": "B3"}.get(name, name)
+    stem, _, index = re.sub(r"(?<=\D)\.?(\d*)$", r" \1", name).partition(" ")
+    greek = {"omega": "ω", "Omega": "Ω", "phi": "φ", "mu": "μ", "nu": "ν", "beta": "β", "gamma": "γ"}
+    if stem not in greek and len(stem) != 1:
+        return name
+    return greek.get(stem, stem) + index.translate({ord("0") + i: 0x2080 + i for i in range(10)})

@@ -14,6 +14,7 @@ import numpy as np
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import MARK, NOT_CERTIFIED, certified
 from atlas.families.family import Quantity
+from atlas.families.sliders import letters
 from atlas.live.subjects import OfFamily, Subject
 from atlas.scene import Scene, Space
 
@@ -87,7 +88,7 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
                 text, sure = _double(q, kernels, family.promises.get(q.checked, 0.0))
         except DomainError as reason:
             text, sure = "none", str(reason)
-        yield {"name": q.symbol or q.name, "says": q.says, "value": text, "sure": sure, "unit": q.unit}
+        yield {"name": letters(q.symbol or q.name), "says": q.says, "value": text, "sure": sure, "unit": q.unit}
 
 
 def _has(balls: Any, q: Quantity) -> bool:

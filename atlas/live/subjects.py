@@ -7,7 +7,7 @@ from typing import Any
 
 from atlas.errors import AtlasError, nearest
 from atlas.families import FAMILIES, Family
-from atlas.families.sliders import Slider, sliders_of, step_of
+from atlas.families.sliders import Slider, letters, sliders_of, step_of
 from atlas.scene import recipes
 from atlas.scene.layers import Scene
 from atlas.scene.parameters import MEANINGS
@@ -106,14 +106,14 @@ class OfRecipe:
 
     def _of(self, key: str, default: Any) -> Iterator[Slider]:
         parts = default if isinstance(default, tuple) else (default,)
-        if not parts or not all(type(x) in {int, float} for x in parts):
+        if not parts or not all(type(x) in {int, float} for x in parts) or (parts is default and key in CONTOURS):
             return
         names = [key] if not isinstance(default, tuple) else [f"{key}.{i}" for i in range(1, len(parts) + 1)]
         low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or _around(parts)
         low, high = min(low, *parts), max(high, *parts)
         for name, start in zip(names, parts, strict=True):
             step = 1 if type(start) is int else step_of(low, high)
-            yield Slider(name, MEANINGS.get(key, key), low, high, step, start)
+            yield Slider(name, MEANINGS.get(key, key), low, high, step, start, letters(name))
 
     def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
         """Return the parameters of the recipe."""
@@ -141,6 +141,8 @@ class OfRecipe:
 KNOWN = {
     p.name: p.range for name in ("top", "particle", "general", "elementary") for p in FAMILIES[name].parameters
 }  # the last ones are those that recipes mean
+CONTOURS = frozenset({"C1", "C2", "levels", "rates", "cosines"})
+"""Parameters whose numbers are those of lines on a map, which tell of no motion."""
 Subject = OfFamily | OfRecipe
 
 

@@ -22,6 +22,7 @@ from atlas import AtlasError, GeneralMotion
 from atlas.cli.app import atlas as command_line
 from atlas.core.motions import asymmetric
 from atlas.families import FAMILIES
+from atlas.families.sliders import letters
 from atlas.live import answers, subjects
 from atlas.live.server import HEADERS, PAGES, Explorer, Handler
 from atlas.live.subjects import OfFamily, OfRecipe, everything, subject
@@ -254,6 +255,26 @@ def test_everything_has_sliders_that_start_within_their_ends() -> None:
         type(OfRecipe(recipes.load("film_strip")).parameters(answers.values_of(subject("film_strip"), {}))["count"])
         is int
     )
+
+
+def test_names_are_written_as_in_the_atlas() -> None:
+    """Greek letters and indices below the line; contour levels, which tell of no motion, have no sliders."""
+    names = ("omega2", "ratio", "field.2", "Omega3", "k", "t", "omega2.3", "azimuth", "unstable_band", "C1")
+    assert [letters(name) for name in names] == [
+        "ω₂",
+        "I",
+        "B₃",
+        "Ω₃",
+        "k",
+        "t",
+        "omega2.3",
+        "azimuth",
+        "unstable_band",
+        "C₁",
+    ]
+    assert {one.name for one in subject("stability").sliders} >= {"field.1", "field.2"}
+    assert not any(one.name.startswith("levels") for one in subject("stability").sliders)
+    assert [one.symbol for one in subject("hyperbola").sliders][:3] == ["I", "B₂", "B₃"]
 
 
 def test_what_is_not_there_is_said_before_a_server_starts() -> None:
