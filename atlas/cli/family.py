@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
+from dataclasses import replace
 from functools import cache
 from math import hypot, isfinite, pi
 from typing import Any, NamedTuple
@@ -43,6 +44,7 @@ from atlas.cli.options import (
 )
 from atlas.cli.present import Line, Printout, dump, show
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
+from atlas.cli.uncertain import spread, uncertain
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
@@ -147,8 +149,6 @@ def family_of(args: Sequence[str]) -> str:
 
 def _made(family: Family, described: Described) -> click.Command:
     """Make the command of a family: its options, and what it does with them."""
-    [p.name for p in family.parameters]
-    [p for p in family.parameters if p.option]
     has_lines = any(s.matrix for s in family.sampled)
     decorators = [
         *object_options(family),
@@ -188,8 +188,7 @@ def _made(family: Family, described: Described) -> click.Command:
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = _parameters(family, options)
-        if made := motion_in_given_axes(options) if family.name == "asymmetric" else None:
-            _in_doubles(made, options, parameters, times)
+        if _shown_in_doubles(family, described, options, parameters, times):
             return
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
@@ -197,7 +196,59 @@ def _made(family: Family, described: Described) -> click.Command:
             _show_lines(family, options)
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
-    return click.command(described.name, cls=Command, **texts)(stack(*decorators)(run))
+    return click.command(described.name, cls=Carrying, **texts)(stack(*decorators)(run))
+
+
+class Carrying(Command):
+    """A command that carries uncertainties of numbers to what it prints."""
+
+    carries = True
+
+
+def _shown_in_doubles(
+    family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
+) -> bool:
+    """Print what no certified twin has, of uncertain numbers or in given axes; return whether it is such."""
+    if uncertain(options):
+        _with_sigma(family, described, options, parameters, times)
+        return True
+    made = motion_in_given_axes(options) if family.name == "asymmetric" else None
+    if made is not None:
+        _in_doubles(made, options, parameters, times)
+    return made is not None
+
+
+def _with_sigma(
+    family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
+) -> None:
+    """Print what numbers with uncertainties give."""
+    if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
+        raise click.UsageError("--digits, --decimal and --spectrum go with numbers without an uncertainty.")
+    sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
+
+    def answered(given: dict[str, Any]) -> dict[str, Any]:
+        made = motion_in_given_axes(given) if family.name == "asymmetric" else None
+        of = family if made is None else FAMILIES[made.family]
+        made = of.kernels()(*values_of(of, given, exact=False)) if made is None else made
+        columns = {s.name: along(s.at(made), times) for s in sampled if hasattr(made, s.method)}
+        found = {"family": of.name} if described.name == "motion" else {}
+        if given is not options:  # a proof that is a sentence is said once
+            of = replace(of, quantities=tuple(q for q in of.quantities if q.tabled or not q.slow))
+        found |= _found(of, made, times, columns, exact=False)
+        return found | ({"larmor": hypot(*chosen_field(given))} if given.get("magnetic") is not None else {})
+
+    found = spread(answered, options)
+    if options["as_json"]:
+        dump({"parameters": parameters, **found.record()})
+    else:
+        texts = found.texts()
+        printout = _printout(family, described, texts, options, "")
+        rates = found.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
+        hertz = [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
+        known = [line for line in printout.lines if not line.symbol.endswith("/2 pi") and line.symbol != "larmor"]
+        larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
+        lines = [*known, *larmor, *(hertz if units_of(options) else [])]
+        show(replace(printout, lines=lines, notes=[*filter(None, printout.notes), *found.notes]))
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:

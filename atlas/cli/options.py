@@ -33,14 +33,19 @@ NUMBER = re.compile(
 )
 """Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
 
-LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/-]*")
+LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/()-]*")
 """What was meant as a number, be it one or not."""
 
 
+UNCERTAIN = re.compile(r"([+-]?(?:\d+(?:\.(\d*))?|\.(\d+)))\((\d+(?:\.\d*)?|\.\d+)\)(.*)")
+"""A number with its standard deviation in its last digits, 1.20(5)um, or in full, 1.2(0.05)um."""
+
+
 class Typed(float):
-    """A double that remembers the decimal it was typed as."""
+    """A double that remembers the decimal it was typed as; `sigma` is its standard deviation, if it has one."""
 
     text: str
+    sigma: float = 0.0
 
     def __new__(cls, text: str) -> Self:
         """Read a decimal, a fraction such as 2/3 or a hexadecimal float such as 0x1.8p0; ValueError for all else."""
@@ -94,6 +99,8 @@ class Real(click.ParamType[Typed]):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
         """Turn what was typed into a number, or say what is wrong with it."""
         text = str(value).replace("\N{MINUS SIGN}", "-")  # as it is copied from a page
+        if (parts := UNCERTAIN.fullmatch(text)) is not None:
+            return self._with_sigma(text, parts, param, ctx)
         try:
             number: Typed = Measured.of(text, str(param.name) if param else "") or Typed(text)
         except AtlasError as error:
@@ -108,6 +115,21 @@ class Real(click.ParamType[Typed]):
             self.fail(f"{text!r} is not a finite number; write 1.5, 3/2 or 1e-3.", param, ctx)
         if not math.isfinite(number):
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
+        return number
+
+    def _with_sigma(
+        self, text: str, parts: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
+    ) -> Typed:
+        """Read a number with its standard deviation."""
+        carried = getattr(ctx.command if ctx else None, "carries", False)
+        if not carried or (param and param.name in {"times", "grid", "least"}):
+            self.fail(f"{text!r} has an uncertainty, which nothing follows from here: motions carry it.", param, ctx)
+        size, decimals, sigma, rest = parts[1], parts[2] or parts[3] or "", parts[4], parts[5]
+        if "." not in sigma and decimals:
+            sigma += f"e-{len(decimals)}"
+        number, scale = (self.convert(x + rest, param, ctx) for x in (size, "1"))
+        number.sigma = float(sigma) * float(scale)
+        number.text = text
         return number
 
 
@@ -174,6 +196,8 @@ def _inclined(args: list[str]) -> list[str]:
     following = list(takewhile(LIKE_A_NUMBER.fullmatch, args[strength:]))
     if len(following) != 1:
         raise click.UsageError(f"with --angle {option} is one number, the strength of the field, not {len(following)}.")
+    if "(" in following[0]:
+        raise click.UsageError("a field by its --angle has no uncertainty here: give its two components instead.")
     size, unit = split(following[0]) or (following[0], "")
     parts = [f"{float(Typed(size)) * x!r}{unit}" for x in (math.sin(angle), math.cos(angle))]
     return [*args[:strength], *parts, *args[strength + 1 :]]

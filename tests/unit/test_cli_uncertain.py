@@ -1,0 +1,104 @@
+"""Numbers typed with an uncertainty: what is printed of them, against a Monte Carlo and against closed forms."""
+
+import json
+import math
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import atlas
+from atlas.cli import uncertain
+from atlas.cli.app import atlas as command
+from atlas.cli.uncertain import concise
+
+
+@pytest.fixture(autouse=True)
+def few(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let as few draws be made as make sense."""
+    monkeypatch.setattr(uncertain, "DRAWS", uncertain.LEAST)
+
+
+def run(words: str) -> tuple[int, str]:
+    """Return status and output of a command."""
+    found = CliRunner().invoke(command, words.split())
+    return found.exit_code, found.output
+
+
+def numbers(words: str) -> dict[str, Any]:
+    """Return what a command prints as JSON."""
+    status, out = run(f"{words} --json")
+    assert status == 0, out
+    return dict(json.loads(out))
+
+
+def test_every_number_has_the_deviation_of_a_monte_carlo() -> None:
+    """Of a body and a field that are known within a percent; the numbers stay those of the middle."""
+    found = numbers("motion --ratio 1.3(0.01) --field 1.00(2) 2 --omega 0.3 0.7 0.2 --times 3")
+    draw = np.random.default_rng(3).normal
+    many = atlas.GeneralMotion(draw(1.3, 0.01, 4000), (draw(1.0, 0.02, 4000), 2.0), (0.3, 0.7, 0.2))
+    one = atlas.GeneralMotion(1.3, (1.0, 2.0), (0.3, 0.7, 0.2))
+    for name in ("period", "precession_per_period", "precession_rate", "spin_rate", "modulus"):
+        assert found[name] == pytest.approx(getattr(one, name), rel=1e-13), name
+        assert found["sigma"][name] == pytest.approx(float(getattr(many, name).std()), rel=0.06), name
+    R = np.array(found["sigma"]["samples"][0]["R"])
+    assert pytest.approx(many.rotation(3.0).std(axis=0), rel=0.08) == R
+
+
+def test_a_charge_and_a_radius_carry_theirs_to_the_larmor_frequency() -> None:
+    """Larmor's frequency q B/(2 m) has the relative deviation of the charge, and of a sphere's mass three of r."""
+    words = "--height 3um --density 1850kg/m3 --magnetic 0.4T 0.69T --spin 2MHz"
+    found = numbers(f"motion --shape solid-cylinder --radius 1.20(3)um --charge 5000(200)e {words}")
+    part = math.hypot(200 / 5000, 2 * 0.03 / 1.2)
+    assert found["sigma"]["larmor"] / found["larmor"] == pytest.approx(part, rel=1e-3)
+    status, out = run(f"motion --shape solid-cylinder --radius 1.20(3)um --charge 5000(200)e {words}")
+    assert status == 0
+    hertz = re.search(r"larmor/2 pi +([\d.]+)\((\d+)\) +Hz", out)
+    assert hertz is not None
+    assert float(hertz[1]) == pytest.approx(found["larmor"] / (2 * math.pi), abs=1e-4)
+    assert "by derivatives" in out
+
+
+def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
+    """At its largest value the angle of the quadric does not depend on the ratio to first order: that is said."""
+    status, out = run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")
+    assert status == 0
+    sampled = re.search(r"^Of (.+) by sampling, \d+ draws", out, re.MULTILINE)
+    assert sampled is not None
+    assert "modulus" in sampled[1]
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("page --ratio 1.3(1) --field 1 2 --omega2 0.3", "nothing follows"),
+        ("sweep elementary --ratio 1.3(1) --field 1 2 --set omega2=1 --quantity k --out k.csv", "nothing follows"),
+        ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --times 1(1)", "nothing follows"),
+        ("motion --ratio 1.3(1) --field 1 2 --omega2 0.3 --digits 20", "without an uncertainty"),
+        ("motion --ratio 1.3(1) --field 2(1) --angle 30deg --omega2 0.3", "two components"),
+    ],
+)
+def test_where_an_uncertainty_has_no_effect_it_is_refused(words: str, says: str) -> None:
+    """Nothing that was typed is left out silently."""
+    status, out = run(words)
+    assert status == 2
+    assert says in out
+
+
+@pytest.mark.parametrize(
+    ("value", "sigma", "text"),
+    [
+        (12.5663, 0.31, "12.57(31)"),
+        (-0.01276, 5.1e-4, "-0.01276(51)"),
+        (12566370.6, 2e4, "1.2566(20)e+07"),
+        (1.0, 0.0, "1"),
+        (5000.0, 2.3, "5000.0(23)"),
+        (1e-9, 9.96e-11, "1.00(10)e-09"),
+        (0.0, 0.02, "0.000(20)"),
+    ],
+)
+def test_the_last_two_digits_have_the_deviation(value: float, sigma: float, text: str) -> None:
+    """In brackets stands the standard deviation, in units of the last digit."""
+    assert concise(value, sigma) == text
