@@ -9,7 +9,7 @@ Bodies and fields: SymmetricBody, ChargeMoments, Field, LaboratoryFrame. Surface
 Motions: motion (any body from any start, by the class that fits); ElementaryMotion (the paper's), GeneralMotion (from
 any start), BallMotion, FreeMotion, TopMotion (any symmetric top), EllipticMotion and AsymmetricMotion (three different
 moments), ParticleMotion, Flight. Pictures: figure, plotter, animate. Tables: sweep. Periods round a loop: monodromy. To
-compare with: simulate, check, clebsch. Errors:
+compare with: simulate, check, clebsch. Slow changes: drift. Errors:
 AtlasError, DomainError, NotCertifiedError.
 
 Names are loaded when they are first used, so that a number costs no drawing library.
@@ -45,6 +45,7 @@ _HOMES = {
     "check": "atlas.study.check",
     "sweep": "atlas.study.sweep.run",
     "simulate": "atlas.study.simulate",
+    "drift": "atlas.study.drift",
     "figure": "atlas.draw",
     "plotter": "atlas.draw",
     "animate": "atlas.draw.animation",

@@ -33,6 +33,7 @@ from atlas.errors import (
     NotCertifiedError,
 )
 from atlas.study.check import check
+from atlas.study.drift import drift
 from atlas.study.simulate import simulate
 from atlas.study.sweep.run import sweep
 
@@ -61,6 +62,7 @@ __all__ = [
     "animate",
     "check",
     "clebsch",
+    "drift",
     "figure",
     "monodromy",
     "motion",

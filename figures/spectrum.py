@@ -40,9 +40,9 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"Lines of the motion of {tex_setting(ratio, field)} from "
-            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field at $m M$, across it "
-            r"at $m M\pm p$. (b) Of $\boldsymbol{\Omega}$, along the axis at $m M$, across it at $m M\pm s$. Heights are "
-            "amplitudes beside the root of the mean square."
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field at $m M$, "
+            r"across it at $m M\pm p$. (b) Of $\boldsymbol{\Omega}$, along the axis at $m M$, across it at "
+            r"$m M\pm s$. Heights are amplitudes beside the root of the mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "

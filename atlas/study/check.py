@@ -12,7 +12,7 @@ from atlas.core.inputs import real
 from atlas.errors import AtlasError
 from atlas.paper.plain import html_table, printable, table
 from atlas.scene import Curve, Plane, Scene
-from atlas.study.drift import Drift, Drifts
+from atlas.study.conserved import Drift, Drifts
 from atlas.study.grades import LINES, MOST, Column, Envelope, Errors, Grade, inverse_fits
 from atlas.study.order import Convergence, convergence
 from atlas.study.reference import OF_TOPS, reference

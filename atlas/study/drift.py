@@ -1,198 +1,230 @@
-"""What a trajectory should conserve: the norm of its quaternion, orthogonality, the integrals of motion."""
+"""Slow change of a symmetric body's motion, by averaging over its fast phases: an approximation, not certified.
 
-from collections.abc import Callable, Iterable, Mapping
+A field whose strength changes by a part f of itself in a unit of time, and drag, a torque -I (d2, d2, d3) Omega, change
+energy h, M3 and p = (M, n) slowly. Averaged over a nutation their rates are functions of these three alone,
+
+    dh/dt = <N, Omega> - f <Omega, k b> + <dU/dt>,      dM3/dt = <N3>,      dp/dt = <N, b>,
+
+N being the drag; the canonical momenta do not feel the field's change. Averages are means over the angle s between the
+turning points, nu = (mid) - (half) cos s, in which the integrand is periodic: the midpoint rule has them to rounding.
+So the averaged equations are stepped over thousands of turns at once. With e the rates of change beside those of the
+motion, h, M3, p and the actions are right to the order of e for times of the order of 1/e, and so are the mean rates;
+the phases, which add up over such a time, are right but for an angle of the order of one. (Averaging over one fast
+phase: Arnold, Mathematical Methods of Classical Mechanics, section 52.) Near a separatrix it does not hold.
+"""
+
 from dataclasses import dataclass
-from itertools import islice
-from typing import Any, TypeAlias
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
-from flint import fmpq
 
-from atlas.core.inputs import FloatArray
-from atlas.exact.motions.elementary import ElementaryMotion
-from atlas.exact.motions.general import GeneralMotion
-from atlas.exact.motions.top import TopMotion
-from atlas.formulas import integrals as formulas
-from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
-from atlas.study.truth import long
+from atlas.core.bodies.body import moments
+from atlas.core.inputs import FloatArray, number, real
+from atlas.core.motions.top import TopMotion
+from atlas.core.quantities import TIME, bare
+from atlas.errors import AtlasError, DomainError
+
+NODES, MOST = 16, 4096
+"""Points of the midpoint rule that are tried first, and most of them."""
+
+TOLERANCE, SETTLED = 1e-9, 1e-12
+"""Relative error of the steps, and of the averages."""
+
+NARROW, WITHIN_A_STEP = 1e-6, 1e-2
+"""Width of a nutation that is none, and what a steady motion may lack of its energy; within a step that is tried."""
+
+
+class Body(NamedTuple):
+    """Moments, coupling and potential of a top."""
+
+    I2: float
+    I3: float
+    k2: float
+    k3: float
+    linear: float
+    quadratic: float
 
 
 @dataclass(frozen=True)
 class Drift:
-    """How far something that must not change leaves its true value: the largest relative deviation, and the last."""
+    """A motion that changes slowly, at times `t` (m,): each value (m,), in the units of the motion.
 
-    name: str
-    says: str
-    label: str
-    worst: float
-    worst_time: float
-    last: float
-
-
-Value: TypeAlias = tuple[str, str, str, Any, Any]
-"""Name, meaning, equation, values and size, the sum of the sizes of its terms, of what is conserved."""
-
-Deviation: TypeAlias = tuple[str, str, str, Any]
-"""Name of what should not change, what it is, its equation, and how far it is off in each row."""
-
-
-class Drifts:
-    """What the columns of a trajectory allow to test, followed block by block."""
-
-    def __init__(self, deviations: Callable[[Mapping[str, FloatArray]], Iterable[Deviation]]) -> None:
-        self._deviations, self._found = deviations, dict[str, Drift]()
-
-    def add(self, block: Mapping[str, FloatArray]) -> None:
-        """Take one more block of columns (m,)."""
-        for name, says, label, deviations in self._deviations(block):
-            size = np.abs(deviations)
-            i = int(np.argmax(size))
-            worst, at = float(size[i]), float(block["t"][i])
-            known = self._found.get(name)
-            if known is not None and known.worst >= worst:
-                worst, at = known.worst, known.worst_time
-            self._found[name] = Drift(name, says, label, worst, at, float(size[-1]))
-
-    def found(self) -> tuple[Drift, ...]:
-        """Return the drifts: orthogonality, the norm, and the integrals of motion."""
-        return tuple(self._found.values())
-
-
-def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield what the columns allow to test against a certified motion: orthogonality, the norm, and the integrals."""
-    columns, R, Omega = _read(block)
-    yield from _rigid(columns, R)
-    I, B2, B3 = (long(x) for x in (motion.I, motion.B2, motion.B3))
-    K = None if R is None else B2 * R[:, 1] + B3 * R[:, 2]
-    scales = _scales(motion)
-    for name, says, label, value in _integrals(I, Omega, K):
-        if name not in motion.invariants:
-            continue
-        yield name, says, label, (value - long(motion.invariants[name])) / (long(scales[name]) or 1)
-    if Omega is not None and K is not None:
-        tensor = np.diag([np.longdouble(1), np.longdouble(1), I])
-        spin = np.array([long(w) for w in motion.omega])
-        start = conserved(tensor, spin, np.array([np.longdouble(0), B2, B3]))
-        yield from islice(_against(conserved(tensor, Omega, K), start), 3)
-
-
-def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
-    """Yield the integrals of any inertia tensor J (3, 3), theorem-clebsch, and more; Omega, K (..., 3)."""
-    M = (Omega + K) @ J
-    H2, F, along, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
-    yield "H", "Hamiltonian in Larmor's frame", "theorem-lie-poisson", H2 / 2, H2 / 2
-    yield "F", "Clebsch's integral", "theorem-clebsch", F, 2 * (M * M).sum(-1) - F
-    yield "(M,K)", "canonical momentum along the field", "theorem-lie-poisson", along, np.abs(M * K).sum(-1)
-    yield "K^2", "length of the field in the body, squared", "(37)", square, square
-    yield "T", "kinetic energy", "theorem-kinetic-energy", energy2, energy2
-
-
-class AnyBody:
-    """The same for a body of any inertia tensor (3, 3) in the field B' (3,).
-
-    Deviations are from the values of `start`, Omega and K, else from those of the first row of all.
+    `energy`, `M3` and `p`; `action` of the nutation; the mean `nutation`, `precession` and `spin` rates, and the angles
+    `phases` (m, 3) by which these have gone on since t = 0; the extremes of `nu` (m, 2), cos theta. `motion(i)` is the
+    one with these constants at time t_i, from where nu is least.
     """
 
-    def __init__(self, inertia: Any, field: Any, start: tuple[Any, Any] | None = None) -> None:
-        self._J, self._field = np.asarray(inertia, dtype=np.longdouble), np.asarray(field, dtype=np.longdouble)
-        self._start = start
+    t: FloatArray
+    energy: FloatArray
+    M3: FloatArray
+    p: FloatArray
+    action: FloatArray
+    nutation: FloatArray
+    precession: FloatArray
+    spin: FloatArray
+    phases: FloatArray
+    nu: FloatArray
+    bodies: tuple[Body, ...]
 
-    def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-        """Yield the deviations in one more block."""
-        columns, R, Omega = _read(block)
-        yield from _rigid(columns, R)
-        if R is None or Omega is None:
-            return
-        K, J = self._field @ R, self._J
-        if self._start is None:
-            self._start = Omega[0], K[0]
-        first, field = self._start
-        yield from _against(conserved(J, Omega, K), conserved(J, first, field))
-
-
-def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield the same of a top: orthogonality, the norm, and the constants h, M3 and p in units of its moment I2."""
-    columns, R, Omega = _read(block)
-    yield from _rigid(columns, R)
-    if R is None or Omega is None:
-        return
-    I, k2, k3, a0, A0 = map(long, (motion.I, *motion.coupling, *motion.potential))
-    n = np.array([long(x) for x in motion.field]) / long(motion.b)
-    start = np.array([long(w) for w in motion.omega])
-    yield from _against(*(_of_top(I, k2, k3, a0, A0, *state) for state in ((Omega, n @ R), (start, n))))
+    def motion(self, i: int) -> TopMotion:
+        """Return the motion at time t_i, its axis at the least nu."""
+        b, nu = self.bodies[i], float(self.nu[i, 0])
+        across = float(np.sqrt(max(1 - nu * nu, 0.0)))
+        w2 = ((self.p[i] - self.M3[i] * nu) / across - b.k2 * across) / b.I2 if across else 0.0
+        w3 = (self.M3[i] - b.k3 * nu) / b.I3
+        return TopMotion((b.I2, b.I3), (b.k2, b.k3), (across, nu), (0.0, w2, w3), b.linear, b.quadratic)
 
 
-def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> Iterable[Value]:
-    """Yield the constants of a top, Omega and b (..., 3)."""
-    w, nu = np.moveaxis(Omega, -1, 0), b[..., 2]
-    M = np.stack([w[0] + k2 * b[..., 0], w[1] + k2 * b[..., 1], I * w[2] + k3 * nu], axis=-1)
-    kinetic = (w[0] ** 2 + w[1] ** 2 + I * w[2] ** 2) / 2
-    h = kinetic + a0 * nu + A0 * nu * nu / 2
-    yield "h", "energy over I2", "theorem-top", h, kinetic + abs(a0 * nu) + abs(A0) * nu * nu / 2
-    yield "M3", "momentum along the axis, over I2", "theorem-top", M[..., 2], abs(I * w[2]) + abs(k3 * nu)
-    yield "p", "momentum along n, over I2", "theorem-top", (M * b).sum(-1), np.abs(M * b).sum(-1)
+def drift(
+    motion: Any, t: Any, *, field: float = 0.0, drag: Any = 0.0, linear: float = 0.0, quadratic: float = 0.0
+) -> Drift:
+    """Motion of a symmetric body under a slow change, averaged over its fast phases: an approximation.
+
+    `motion` is one `GeneralMotion` or `TopMotion`, or `atlas.motion` of that class; `t` (m,) from zero on, ascending.
+    The field's strength is multiplied by 1 + `field` t, and with it the coupling; `drag` is d, or (d2, d3), of a torque
+    -I (d2, d2, d3) Omega, in 1/time; `linear` and `quadratic` are what a unit of time adds to the potential of a top.
+
+    With e these rates beside those of the motion, constants, actions and mean rates are right to the order of e for
+    times of the order of 1/e, phases but for an angle of the order of one; nothing is certified. The cost depends on
+    how much changes, not on how many turns there are. Raises DomainError where the motion comes to a separatrix, where
+    averaging fails, AtlasError for another motion and for what is no number.
+
+        >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+        >>> slowed = atlas.drift(motion, [0.0, 5e4], field=1e-5)
+        >>> slowed.action.round(6), slowed.nutation.round(4)
+        (array([0.038207, 0.038207]), array([2.8804, 2.6824]))
+    """
+    from scipy.integrate import solve_ivp
+
+    body, state, nu = _start(motion)
+    times = np.atleast_1d(real(bare(t, "The time", TIME), "The time"))
+    if times.ndim != 1 or not times.size or times[0] < 0 or (np.diff(times) < 0).any():
+        raise AtlasError("The times of a drift are a row of them, ascending from zero on.")
+    d2, d3 = np.broadcast_to(real(drag, "The drag"), (2,)).tolist()
+    rates = [number(x, name) for x, name in ((field, "field"), (linear, "linear"), (quadratic, "quadratic"))]
+
+    def body_at(time: float) -> Body:
+        grown = 1 + rates[0] * time
+        return body._replace(
+            k2=body.k2 * grown, k3=body.k3 * grown,
+            linear=body.linear + rates[1] * time, quadratic=body.quadratic + rates[2] * time,
+        )  # fmt: skip
+
+    def slopes(time: float, y: FloatArray) -> FloatArray:
+        nonlocal nu
+        b, f = body_at(time), rates[0] / (1 + rates[0] * time)
+        x = Averages(b, y[:3], nu, WITHIN_A_STEP)
+        nu, third, along = x.middle, x.Omega3, x.along
+        h = -d2 * b.I2 * x.mean(x.square) - d3 * b.I3 * x.mean(third**2)
+        h -= f * x.mean(b.k2 * along + b.k3 * third * x.nu)
+        h += rates[1] * x.mean(x.nu) + rates[2] * x.mean(x.nu**2) / 2
+        p = x.mean(-d2 * b.I2 * along - d3 * b.I3 * third * x.nu)
+        return np.array([h, -d3 * b.I3 * x.mean(third), p, *x.rates])
+
+    start = np.array([*state, 0.0, 0.0, 0.0])
+    if times[-1] > 0:
+        found = solve_ivp(
+            slopes, (0.0, times[-1]), start, "DOP853", dense_output=True, rtol=TOLERANCE,
+            atol=np.array([*(TOLERANCE * np.abs(state) + 1e-300), *[TOLERANCE] * 3]),
+        )  # fmt: skip
+        if not found.success:
+            raise DomainError(f"The averaged motion can't be followed further than t = {found.t[-1]:.6g}.")
+        rows = found.sol(times).T
+    else:
+        rows = np.tile(start, (times.size, 1))
+    nu, each, bodies = nu if times[-1] == 0 else _start(motion)[2], [], tuple(map(body_at, times.tolist()))
+    for b, y in zip(bodies, rows, strict=True):
+        x = Averages(b, y[:3], nu)
+        nu = x.middle
+        each.append([x.action, *x.rates, *x.ends])
+    action, nutation, precession, spin, *ends = np.array(each).T
+    h, M3, p = rows[:, :3].T
+    return Drift(times, h, M3, p, action, nutation, precession, spin, rows[:, 3:], np.array(ends).T, bodies)
 
 
-def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
-    """Return the columns in extended precision, and R (m, 3, 3) and Omega (m, 3) where they are there."""
-    columns = {name: values.astype(np.longdouble) for name, values in block.items()}
-    R = _matrices(columns, len(block["t"]))
-    return columns, R, np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None
+def _start(motion: Any) -> tuple[Body, FloatArray, float]:
+    """Return a body, its energy, M3 and p, and nu at t = 0."""
+    own = getattr(motion, "own", motion)
+    if getattr(own, "shape", None) != () or own.family not in ("general", "elementary", "top"):
+        raise AtlasError(
+            f"A drift is that of one GeneralMotion, ElementaryMotion or TopMotion, not of {type(own).__name__}."
+        )
+    Omega, b = own.angular_velocity(0.0), own.field_in_body(0.0)
+    if own.family == "top":
+        (I2, I3), (k2, k3) = own.inertia, own.coupling
+        body = Body(I2, I3, k2, k3, own.linear, own.quadratic)
+    else:
+        size, (I2, I3) = float(np.linalg.norm(b)), moments(own.ratio)
+        if not size:
+            raise DomainError("A body without a field has no direction: take a TopMotion with no coupling.")
+        body, b = Body(1.0, I3 / I2, size, size * I3 / I2, 0.0, 0.0), b / size
+    if np.hypot(b[0], b[1]) < NARROW:
+        raise DomainError("The axis stands along the field, where a nutation has no phase to average over.")
+    J, k, nu = np.array([body.I2, body.I2, body.I3]), np.array([body.k2, body.k2, body.k3]), float(b[2])
+    h = (J * Omega * Omega).sum() / 2 + body.linear * nu + body.quadratic * nu * nu / 2
+    M = J * Omega + k * b
+    return body, np.array([h, M[2], M @ b]), nu
 
 
-def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
-    """Yield the norm of the quaternion and the orthogonality of R."""
-    if QUATERNION[0] in columns:
-        norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
-        yield "|q|", "norm of the quaternion", "(12)", norm - 1
-    if R is not None:
-        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2))
-        yield "R^T R", "orthogonality of R", "(12)", defect
+class Averages:
+    """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and what varies with it."""
+
+    def __init__(self, body: Body, state: FloatArray, near: float, lacking: float = NARROW) -> None:
+        self.body, self.state = body, state
+        (I2, I3, k2, k3, a, A), (h, M3, p) = body, state
+        # I2 nu'^2/(1 - nu^2) + ..., by powers of nu
+        g = [
+            k2 * k2 - I2 * (A + k3 * k3 / I3),
+            2 * I2 * (M3 * k3 / I3 - a) - 2 * k2 * M3,
+            2 * I2 * (h - M3 * M3 / (2 * I3)) + 2 * k2 * p - k2 * k2,
+        ]
+        Q = np.polysub(np.polymul([-1.0, 0.0, 1.0], g), [M3 * M3, -2 * p * M3, p * p]) / I2**2
+        self.ends = _turning_points(Q, near, lacking)
+        low, high = self.ends
+        self.middle, half = (low + high) / 2, (high - low) / 2
+        rest = np.polydiv(Q, np.polymul([1.0, -low], [-1.0, high]))[0]
+        count, before = NODES, np.full(3, np.nan)
+        more = np.array([0.0, abs(k2 / I2) + abs(M3 / I2), abs(M3) + abs(p)])
+        while True:
+            s = (np.arange(count) + 0.5) * (np.pi / count)
+            self.nu = self.middle - half * np.cos(s)
+            root = np.sqrt(np.maximum(np.polyval(rest, self.nu), 0.0))
+            with np.errstate(divide="ignore"):
+                self.weights = 1 / root
+            self.period = float(2 * np.pi * self.weights.mean())
+            sine2 = 1 - self.nu * self.nu
+            self.action = float(I2 * np.mean((half * np.sin(s)) ** 2 * root / sine2))
+            turning = (p - M3 * self.nu) / (I2 * sine2) - k2 / I2
+            found = np.array([self.period, self.mean(turning), self.action])
+            if np.all(abs(found - before) <= SETTLED * (abs(found) + more)):
+                break
+            count, before = 2 * count, found
+            if count > MOST or not np.isfinite(self.period):
+                raise DomainError(
+                    "The motion comes to a separatrix or a pole, where averaging over its nutation fails."
+                )
+        self.Omega3 = (M3 - k3 * self.nu) / I3
+        self.along = (p - M3 * self.nu - k2 * sine2) / I2
+        potential = a * self.nu + A * self.nu**2 / 2
+        self.square = 2 / I2 * (h - potential - I3 * self.Omega3**2 / 2)
+        self.rates = 2 * np.pi / self.period, float(found[1]), self.mean(self.Omega3 - self.nu * turning)
+
+    def mean(self, values: FloatArray) -> float:
+        """Return the mean over time of values at the nodes."""
+        return float((values * self.weights).mean() / self.weights.mean())
 
 
-def _against(found: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
-    """Yield how far what is conserved is from its values at the start."""
-    for (name, says, label, value, _), (_, _, _, true, size) in zip(found, start, strict=True):
-        yield name, says, label, (value - true) / (size or 1)
-
-
-def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]]:
-    """Yield the integrals of motion that Omega and K determine."""
-    w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
-    E, K2, c3, c5 = formulas.integrals(I, w, k)
-    if Omega is not None:
-        yield "E'", "energy 2 E/I2", "(36)", E
-    if K is not None:
-        yield "K^2", "length of the field in the body, squared", "(37)", K2
-    if Omega is not None and K is not None:
-        yield "c3", "K3 + Omega3", "(40)", c3
-        yield "c5", "the fourth integral", "(41)", c5
-        yield "(m,B')", "momentum along the field, over I2", "(88)", formulas.along_field(I, w, k)
-
-
-def _scales(motion: ElementaryMotion | GeneralMotion) -> dict[str, fmpq]:
-    """Return the size of each integral: the sum of the absolute values of its terms."""
-    I, B2, B3 = motion.I, abs(motion.B2), abs(motion.B3)
-    w1, w2, w3 = (abs(w) for w in motion.omega)
-    return {
-        "E'": w1**2 + w2**2 + I * w3**2,
-        "K^2": B2**2 + B3**2,
-        "c3": w3 + B3,
-        "c5": w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3,
-        "(m,B')": w2 * B2 + I * w3 * B3,
-    }
-
-
-def _matrices(columns: Mapping[str, Any], count: int) -> Any:
-    """Return the matrices (N, 3, 3) of the columns R11 to R33, else of the quaternion, else None."""
-    if set(MATRIX) <= set(columns):
-        return np.stack([columns[name] for name in MATRIX], axis=-1).reshape(count, 3, 3)
-    if QUATERNION[0] not in columns:
-        return None
-    w, x, y, z = (columns[name] for name in QUATERNION)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), -1, 0)
+def _turning_points(Q: FloatArray, near: float, lacking: float) -> tuple[float, float]:
+    """Return the two roots of Q between -1 and 1 that enclose a nu or are next to it; of a steady motion one twice."""
+    roots = np.roots(Q)
+    kept = np.sort(roots.real[(abs(roots.imag) < NARROW) & (abs(roots.real) < 1 + NARROW)].clip(-1.0, 1.0))
+    pairs = [(float(x), float(y)) for x, y in pairwise(kept) if np.polyval(Q, (x + y) / 2) > 0 or y - x < NARROW]
+    if not pairs:  # a step may leave a steady motion less energy than the least
+        extremes = np.roots(np.polyder(Q))
+        tops = [x.real for x in extremes if abs(x.imag) < NARROW and abs(x) < 1 and np.polyval(np.polyder(Q, 2), x) < 0]
+        if not tops or np.polyval(Q, tops).max() < -lacking * abs(Q).max():
+            raise DomainError("There is no motion with these constants: the drift is too fast for averages.")
+        top = float(min(tops, key=lambda x: abs(x - near)))
+        return top, top
+    return min(pairs, key=lambda x: max(x[0] - near, near - x[1]))

@@ -21,7 +21,7 @@ from atlas.exact.motions.elementary import ElementaryMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import workprec
-from atlas.study.drift import AnyBody, Deviation, of_motion, of_top
+from atlas.study.conserved import AnyBody, Deviation, of_motion, of_top
 from atlas.study.truth import Motion
 
 Given: TypeAlias = Mapping[str, Any]

@@ -120,7 +120,7 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
     if of == "field" and not hasattr(motion, "field_in_body"):
         raise AtlasError(f"A {type(motion).__name__} has no field in the body.")
     wheels = wheels_of(motion)
-    indices, S = _coefficients(lambda x: wheels.at(of, x), len(wheels.phases))
+    indices, S = coefficients(lambda x: wheels.at(of, x), len(wheels.phases))
     left, right, moves = _turn(wheels.n, wheels.p), _turn(wheels.a, wheels.s), of in ("rotation", "axis")
     combinations, amplitudes = [], []
     for l in left if moves else (0,):
@@ -167,7 +167,7 @@ def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
     return dict(zip((-1, 0, 1), parts, strict=True))
 
 
-def _coefficients(at: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
+def coefficients(at: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
     """Return the whole numbers (n, d) and the Fourier coefficients (n, ...) of a function of phases (d, m)."""
     if not d:
         return np.zeros((1, 0), dtype=int), at(np.zeros((0, 1))).astype(complex)

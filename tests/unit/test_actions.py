@@ -1,0 +1,105 @@
+"""Actions of motions, whose energy has the rates for derivatives, and slow changes, which keep them."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import atlas
+
+OBLIQUE = [[2, 0.1, 0], [0.1, 1.5, 0.2], [0, 0.2, 1]]
+FAMILIES = {
+    "general": ((0.3, 0.7, 0.2), lambda w: atlas.GeneralMotion(1.5, (1.0, 2.0), w)),
+    "ball that nutates": ((0.3, 0.7, 0.2), lambda w: atlas.GeneralMotion(1.0, (1.0, 2.0), w)),
+    "oblique field": ((0.3, 0.7, 0.2), lambda w: atlas.motion(0.6, (0.3, 0.5, 2.0), w, np.roll(np.eye(3), 1, 0))),
+    "top": ((0.1, 0.2, 1.0), lambda w: atlas.TopMotion((2.0, 1.5), (0.3, 0.9), (0.6, -0.8), w, 0.2, -1.0)),
+    "Lagrange's top": ((0.1, 0.2, 5.0), lambda w: atlas.TopMotion((1.0, 0.5), (0, 0), (0.6, 0.8), w, 3.0)),
+    "pendulum through a pole": ((0.3,), lambda w: atlas.TopMotion((1, 0.5), (0, 0), (0.6, 0.8), (w[0], 0, 0), -1.0)),
+    "free": ((0.3, 0.7, 0.2), lambda w: atlas.FreeMotion(1.5, w)),
+    "ball": ((0.3, -0.7), lambda m: atlas.BallMotion(2.0, 0.5, m)),
+    "elementary": ((0.7,), lambda w: atlas.ElementaryMotion(1.5, (1.0, 2.0), w[0])),
+    "elliptic": ((1.7,), lambda z: atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), z[0])),
+    "torus": ((0.1, 0.2, 3.0), lambda w: atlas.motion(OBLIQUE, (0.3, 0, 1), w)),
+}
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_energy_has_the_rates_for_derivatives_in_the_actions(name: str) -> None:
+    """Along a way through the starts of a family, by differences of motions: d energy = sum of rate d action."""
+    start, make = FAMILIES[name]
+    direction, h = np.array([0.5, -1.0, 0.7])[: len(start)], 3e-4
+    before, here, after = (make(start + k * h * direction).actions for k in (-1, 0, 1))
+    change = here.rates @ (after.values - before.values)
+    assert after.energy - before.energy == pytest.approx(change, rel=1e-6, abs=1e-6 * h)
+
+
+def followed(motion: Any, t: float, field: float, drag: tuple[float, float], quadratic: float) -> Any:
+    """Return energy, M3 and p at a time by an integrator of the whole equations of a top that changes."""
+    (I2, I3), (k2, k3) = motion.inertia, motion.coupling
+    J, k0, d = np.array([I2, I2, I3]), np.array([k2, k2, k3]), np.array([drag[0], drag[0], drag[1]])
+
+    def slope(t: float, y: Any) -> Any:
+        b, w, k = y[:3], y[3:], k0 * (1 + field * t)
+        push = np.array([0, 0, motion.linear + (motion.quadratic + quadratic * t) * b[2]])
+        turned = np.cross(b, w)
+        torque = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * turned - k0 * field * b - J * d * w
+        return np.concatenate([turned, torque / J])
+
+    start = np.concatenate([motion.field_in_body(0.0), motion.angular_velocity(0.0)])
+    y = solve_ivp(slope, (0, t), start, "DOP853", rtol=1e-10, atol=1e-11).y[:, -1]
+    b, w, M = y[:3], y[3:], J * y[3:] + k0 * (1 + field * t) * y[:3]
+    A = motion.quadratic + quadratic * t
+    return np.array([(J * w * w).sum() / 2 + motion.linear * b[2] + A * b[2] ** 2 / 2, M[2], M @ b])
+
+
+CHANGES = ({"field": 0.5}, {"drag": (0.1, 0.15)}, {"field": 0.3, "drag": (0.2, 0.2), "quadratic": 0.3})
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_drift_is_that_of_an_integrator_to_the_order_of_the_change(change: Any) -> None:
+    """Energy, M3 and p after a time 1/e, for a change slow by e: errors of e at most, less for a smaller e."""
+    motion, errors = atlas.TopMotion((2.0, 1.5), (0.3, 0.9), (0.6, -0.8), (0.1, 0.2, 1.0), 0.2, -1.0), []
+    for e in (0.03, 0.005):
+        slow = {name: np.multiply(x, e).tolist() for name, x in change.items()}
+        found = atlas.drift(motion, [0.0, 1 / e], **slow)
+        drag = slow.get("drag", (0.0, 0.0))
+        true = followed(motion, 1 / e, slow.get("field", 0.0), drag, slow.get("quadratic", 0.0))
+        errors.append(np.abs(true - [found.energy[-1], found.M3[-1], found.p[-1]]).max())
+        assert errors[-1] <= e
+    assert errors[1] <= errors[0] / 3
+
+
+def test_a_slow_change_of_the_field_keeps_the_actions() -> None:
+    """M3, p and the action of nutation, which is that of the motion, also of a steady precession; energy does not."""
+    motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+    found = atlas.drift(motion, [0.0, 1e3, 1e8], field=1e-8)
+    assert found.action == pytest.approx([motion.actions.values[0]] * 3, rel=1e-6)
+    assert found.p == pytest.approx([motion.actions.values[1]] * 3, rel=1e-9)
+    assert found.nutation[0] == pytest.approx(2 * np.pi / motion.period, rel=1e-9)
+    assert found.spin[0] == pytest.approx(motion.spin_rate, rel=1e-9)
+    assert abs(found.energy[2] - found.energy[0]) > 0.1 * found.energy[0]
+    later = found.motion(2)
+    assert later.actions.values == pytest.approx([found.action[2], found.p[2], found.M3[2]], rel=1e-6)
+    steady = atlas.drift(atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7), [0.0, 1e4], field=1e-4)
+    assert np.ptp(steady.nu, axis=1) == pytest.approx(0, abs=1e-3)
+
+
+def test_drag_in_proportion_to_the_moments_leaves_the_motion_and_slows_it() -> None:
+    """Without a field M3 and p fall as exp(-d t), energy and rates with them."""
+    found = atlas.drift(atlas.TopMotion((1.0, 0.5), (0, 0), (0.6, 0.8), (0.3, 0, 2.0)), [0.0, 3e5], drag=1e-5)
+    for values, power in ((found.M3, 1), (found.p, 1), (found.energy, 2), (found.nutation, 1), (found.action, 1)):
+        assert values[1] == pytest.approx(values[0] * np.exp(-3.0 * power), rel=1e-6)
+
+
+def test_what_has_no_drift_is_refused() -> None:
+    """Three moments, arrays, and times that go back."""
+    motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
+    with pytest.raises(atlas.AtlasError, match="not of AsymmetricMotion"):
+        atlas.drift(atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)), 1.0)
+    with pytest.raises(atlas.DomainError, match="along"):
+        atlas.drift(atlas.GeneralMotion(1.5, (0.0, 2.0), (0.0, 0.0, 0.2)), 1.0)
+    with pytest.raises(atlas.AtlasError, match="ascending"):
+        atlas.drift(motion, [1.0, 0.0])
+    with pytest.raises(atlas.AtlasError, match="not of an array"):
+        atlas.GeneralMotion([1.5, 1.2], (1.0, 2.0), (0.3, 0.7, 0.2)).actions  # noqa: B018
