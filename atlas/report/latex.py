@@ -6,6 +6,7 @@ are booktabs' with columns of siunitx made for their numbers. A report in REVTeX
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from itertools import groupby
 from math import ceil
@@ -65,7 +66,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
         title=_escaped(document.report.title),
         authors=[_escaped(author) for author in document.report.authors],
         abstract=texts[document.abstract],
-        body="\n\n".join(_body(document, texts)),
+        body="\n\n".join(_body(document, texts, {name for name, text in made.items() if "*}" in text[:20]})),
         **common,
     )
     return {name: text.encode() for name, text in made.items()} | dict(pictures)
@@ -120,7 +121,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
     kind = "figure*" if any(one.size[0] > TARGETS["aps"].width for one in figure.pictures) else "figure"
     graphics = "\n".join(rf"\includegraphics{{{file}}}" for file in files)
     return (
-        f"\\begin{{{kind}}}[tb]\n\\centering\n{graphics}\n"
+        f"\\begin{{{kind}}}[{'tb' if kind == 'figure*' else 'htb'}]\n\\centering\n{graphics}\n"
         f"\\caption{{{texts[figure.caption]}}}\\label{{{figure.id}}}\n\\end{{{kind}}}\n"
     )
 
@@ -137,17 +138,24 @@ def _references(document: Document) -> str:
     return "\n".join(filter(None, [kept.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), own]))
 
 
-def _body(document: Document, texts: Sequence[str]) -> Iterator[str]:
+def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
     """Yield the sections; what has no place in a paper is named in a comment.
 
     Displays that follow one another are set together. They belong to the paragraph before them, and so does what goes
-    on after them with a small letter.
+    on after them with a small letter. Of figures and tables that follow one another those that are `wide`, over both
+    columns, come last, so that the others fill the columns before them.
     """
     for page in document.pages:
         made = rf"\section{{{_escaped(page.title)}}}" + "\n"
         displayed = False
         for equations, run in groupby(zip(page.templates, page.blocks, strict=True), _is_equation):
             parts = [_block(name, block, texts) for name, block in run]
+            floats = groupby(parts, lambda part: part.startswith(r"\input{"))
+            parts = [
+                part
+                for floating, some in floats
+                for part in (sorted(some, key=lambda one: f"{one[7:-1]}.tex" in wide) if floating else some)
+            ]
             if equations:
                 made += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
             else:
@@ -168,7 +176,7 @@ def _block(name: str, block: Any, texts: Sequence[str]) -> str:
         case EquationView():
             tex = texts[block.text].strip().removeprefix(r"\[").removesuffix(r"\]")
             label = f"eq-{block.slug}" if block.anchor else ""
-            return rf"\atlasequation{{{_escaped(block.number)}}}{{{label}}}{{{tex}}}"
+            return rf"\atlasequation{{{_escaped(block.number)}}}{{{label}}}{{{tex}}}{{{_in_lines(tex)}}}"
         case TableView():
             return rf"\input{{tables/{block.id.removeprefix('tab-')}}}"
         case FigureView():
@@ -176,14 +184,21 @@ def _block(name: str, block: Any, texts: Sequence[str]) -> str:
     return f"% left out: {name}"
 
 
+def _in_lines(tex: str) -> str:
+    """Return a formula in lines, broken where it has a wide space, for a column; one without is as it was."""
+    if r"\begin" in tex or r"\qquad" not in tex:
+        return tex
+    return r"\begin{gathered}" + r" \\ ".join(tex.split(r"\qquad")) + r"\end{gathered}"
+
+
 def _escaped(text: str) -> str:
     """Escape plain text for LaTeX."""
     return re.sub(r"([#$%&_{}])", r"\\\1", text).replace("’", "'")
 
 
-LETTERS, BOTH, LONG, LEAST = 46, 115, 30, 24
-"""Letters of a table that fit in a column and across the page; more of a cell than LONG are broken into lines, which
-have together LEAST or more."""
+LETTERS, TIGHT, BOTH, LONG, LEAST = 46, 84, 115, 30, 24
+"""Letters of a table that fit in a column, in a column where it is made smaller, and across the page; more of a cell
+than LONG are broken into lines, which have together LEAST or more."""
 LINES = 60
 """Lines of a table that fit on a page below its caption."""
 
@@ -193,7 +208,8 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
     places = range(len(table.columns))
     formats = [_format([row[place] for row in table.rows], markdown) for place in places]
     printed = [[value(cell, markdown) for cell in row] for row in table.rows]
-    heads = [words(markdown[column.head]) for column in table.columns]
+    units = ["" if column.unit is None else words(markdown[column.unit]) for column in table.columns]
+    heads = [words(markdown[c.head]) + f" {unit}" * (unit != "1") for c, unit in zip(table.columns, units, strict=True)]
     letters = [max(map(len, column)) + 2 for column in zip(heads, *printed, strict=True)]
     shares = list(_shares(formats, letters))
     lines = sum(
@@ -216,9 +232,17 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
         begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{columns}}}", caption + r"\\"]
         again = [*head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule", r"\endfoot"]
         return "\n".join([*begin, *again, *rows, r"\end{longtable*}", *note, r"\endgroup", ""])
-    kind = "table*" if sum(letters) > LETTERS else "table"
-    begin = [rf"\begin{{{kind}}}[tb]", caption, r"\centering\footnotesize", rf"\begin{{tabular}}{{{columns}}}"]
-    return "\n".join([*begin, *head, *rows, r"\bottomrule", r"\end{tabular}", *note, rf"\end{{{kind}}}", ""])
+    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT or any(shares) else ("table", "[htb]")
+    begin = [rf"\begin{{{kind}}}{place}", caption, r"\centering\footnotesize"]
+    tabular, end = [rf"\begin{{tabular}}{{{columns}}}"], [r"\bottomrule", r"\end{tabular}"]
+    if sum(letters) > LETTERS and kind == "table":
+        tabular = [r"\setlength{\tabcolsep}{3pt}", NARROW + tabular[0]]
+        end = [end[0], end[1] + "}"]
+    return "\n".join([*begin, *tabular, *head, *rows, *end, *note, rf"\end{{{kind}}}", ""])
+
+
+NARROW = r"\resizebox{\ifdim\width>\columnwidth\columnwidth\else\width\fi}{!}{"
+"""What makes a table smaller where it is wider than its column."""
 
 
 def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:

@@ -295,8 +295,11 @@ def test_a_formula_that_pages_refuse_is_refused_here(formula: str, tmp_path: Pat
     ("letters", "count", "says"),
     [
         ((20, 22), 1, r"{table}"),  # 46 letters with two between columns: in a column of the page, and no more
-        ((20, 23), 1, r"{table*}"),
-        ((13, 13, 15), 1, r"{table*}"),
+        ((20, 23), 1, r"\begin{table}[htb]"),  # 84 letters do where it is made smaller
+        ((20, 23), 1, r"\resizebox"),
+        ((39, 41), 1, r"{table}"),
+        ((39, 42), 1, r"{table*}"),
+        ((26, 26, 27), 1, r"{table*}"),
         ((20, 91), 1, r"{tabular}{ll}"),  # 115 letters fit across the page
         ((20, 92), 1, r"{tabular}{l>{\raggedright\arraybackslash}p{0.81\textwidth}}"),
         ((28,) * 5, 1, r"{tabular}{lllll}"),  # short words stay whole, of longer ones some are left, 24 letters
