@@ -7,6 +7,7 @@ from atlas.report.tables.body_and_field import body_and_field
 from atlas.report.tables.charges import charges, diamagnetism
 from atlas.report.tables.closed import closed, companions
 from atlas.report.tables.families import blocks, layers, quantities, report_keys, roles, targets
+from atlas.report.tables.laboratory import beyond_larmor, inferred, levitated, lines
 from atlas.report.tables.motion import motion, samples, sheet
 from atlas.report.tables.observed import coats, swings
 from atlas.report.tables.particle import ball, flight, particle
@@ -22,7 +23,7 @@ TABLES: Mapping[str, Maker] = {
     for made in (
         *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
         *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
-        *(periods, asymmetric, roles, layers, blocks, report_keys),
+        *(periods, asymmetric, roles, layers, blocks, report_keys, levitated, lines, inferred, beyond_larmor),
     )
 }
 
