@@ -11,7 +11,7 @@ import math
 import pkgutil
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
@@ -140,6 +140,49 @@ class Tie:
 
     def __str__(self) -> str:
         return f"{self.quantity} {self.names}"
+
+
+GRID = (0.7, 0.31, 3)
+"""Start, step and count of the times at which a grid is compared."""
+
+
+def matrices(
+    motion: str, names: str, read: Callable[[Any, Any], Any], truth: Callable[[Ledger, Any, Any], Any],
+    points: Sequence[Any], floors: tuple[str, ...] = ("core",),
+) -> tuple[Tie, ...]:  # fmt: skip
+    """Return the ties of R(t): at a time and on a grid, and of its columns, these on some floors.
+
+    read      (floor, point) -> the motion
+    truth     (ledger, point, t) -> the matrix that the entries make
+    """
+    start, step, count = GRID
+    times = [sympy.Rational(start) + i * sympy.Rational(step) for i in range(count)]
+    tie = partial(Tie, names=names, points=points, size=unit)
+    return (
+        tie(
+            f"{motion}.rotation",
+            read=lambda f, p: read(f, p).rotation(p.t),
+            truth=lambda say, p: truth(say, p, p.t),
+        ),
+        tie(
+            f"{motion}.rotation_grid",
+            read=lambda f, p: read(f, p).rotation_grid(*GRID),
+            truth=lambda say, p: [truth(say, p, t) for t in times],
+            floors=("core",),
+        ),
+        tie(
+            f"{motion}.column",
+            read=lambda f, p: [read(f, p).column(j, p.t) for j in (1, 2, 3)],
+            truth=lambda say, p: truth(say, p, p.t).T,
+            floors=floors,
+        ),
+        tie(
+            f"{motion}.third_axis",
+            read=lambda f, p: read(f, p).third_axis(p.t),
+            truth=lambda say, p: truth(say, p, p.t).col(2),
+            floors=floors,
+        ),
+    )
 
 
 def each(ties: Iterable[Tie]) -> Any:

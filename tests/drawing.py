@@ -1,4 +1,4 @@
-"""Make a scene once for all tests, draw one into one file, and measure how far off a line is."""
+"""Make a scene once for all tests, find its layers, draw one into one file, and measure how far off a line is."""
 
 from functools import lru_cache
 from itertools import pairwise
@@ -18,6 +18,11 @@ FloatArray = NDArray[np.float64]
 def made(name: str, **parameters: Any) -> Scene:
     """Return the scene of a recipe; tests look at it and leave it as it is."""
     return recipes.load(name).scene(**parameters)
+
+
+def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
+    """Return the layers of one kind, and role, of a panel."""
+    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", getattr(layer, "role", "")}]
 
 
 def draw(scene: Scene, path: Path | str, renderer: str = "vector", dpi: float = 300.0) -> Path:

@@ -1,4 +1,4 @@
-"""Errors of floats against balls, in units in the last place."""
+"""Errors of floats against balls, in units in the last place; and matrices to compare with."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -35,6 +35,18 @@ def approximate(value: Real) -> float:
         return p / q
     except OverflowError:
         return math.inf if p > 0 else -math.inf
+
+
+def middle(rows: Iterable[Iterable[Real]]) -> FloatArray:
+    """Return the middles of balls and rationals as floats."""
+    return np.array([[float(arb(x).mid()) for x in row] for row in rows])
+
+
+def turn(axis: Sequence[float] | FloatArray, angle: float) -> FloatArray:
+    """Return the rotation about a vector."""
+    n = np.array(axis) / np.linalg.norm(axis)
+    cross = np.cross(n, np.eye(3)).T
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
 def error(found: float, true: Real, unit: float) -> float:

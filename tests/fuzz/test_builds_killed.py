@@ -27,15 +27,10 @@ abstract = "A formula, $R(t)$."
 [[pages]]
 slug = "index"
 title = "The page"
-
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "trochoids"
-parameters = {{ turns = {version}.5 }}
+blocks = [
+  {{ kind = "equation", name = "(71)" }},
+  {{ kind = "figure", recipe = "trochoids", parameters.turns = {version}.5 }},
+]
 """
 
 Process = subprocess.Popen[str]

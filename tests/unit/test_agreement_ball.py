@@ -7,13 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, signed, unit
+from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, matrices, signed, unit
 
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.motions import ball
-
-GRID = (0.7, 0.31, 3)
-TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]
 
 
 def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
@@ -27,7 +24,6 @@ def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
 
 POINTS = launches(38, 8)
 at_points = partial(Tie, points=POINTS)
-in_core = partial(Tie, points=POINTS, floors=("core",))
 ALONG = launches(40, 5, along=True)
 REST = [SimpleNamespace(I0=1.5, alpha=alpha, m2=0.0, m3=-1.5 * alpha, t=3.1) for alpha in (0.75, -2.0)]
 SAME_SENSE = [p for p in launches(41, 40, along=True) if p.alpha > 0 and p.m3 > 0][:5]
@@ -90,13 +86,7 @@ TIES = (
         lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "k3")],
         SAME_SENSE,
     ),
-    at_points(
-        "BallMotion.rotation",
-        MATRIX,
-        lambda f, p: motion(f, p).rotation(p.t),
-        lambda say, p: rotation(say, p, p.t),
-        size=unit,
-    ),
+    *matrices("BallMotion", MATRIX, motion, rotation, POINTS),
     Tie(
         "BallMotion.rotation",
         "(30)",
@@ -111,27 +101,6 @@ TIES = (
         lambda f, p: motion(f, p).rotation(p.t),
         lambda say, p: say("theorem-ball-rest", "R", **letters(p, "alpha t")),
         REST,
-        size=unit,
-    ),
-    in_core(
-        "BallMotion.rotation_grid",
-        MATRIX,
-        lambda f, p: motion(f, p).rotation_grid(*GRID),
-        lambda say, p: [rotation(say, p, t) for t in TIMES],
-        size=unit,
-    ),
-    in_core(
-        "BallMotion.column",
-        MATRIX,
-        lambda f, p: [motion(f, p).column(j, p.t) for j in (1, 2, 3)],
-        lambda say, p: rotation(say, p, p.t).T,
-        size=unit,
-    ),
-    in_core(
-        "BallMotion.third_axis",
-        MATRIX,
-        lambda f, p: motion(f, p).third_axis(p.t),
-        lambda say, p: rotation(say, p, p.t).col(2),
         size=unit,
     ),
     Tie(

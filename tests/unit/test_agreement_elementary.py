@@ -16,6 +16,7 @@ from agreement import (
     elementary,
     length,
     letters,
+    matrices,
     rotation,
     unit,
     unit_field,
@@ -36,8 +37,6 @@ ALONG = bodies(3, 2, B2=0.0, omega=lambda p: (0.0, 0.0, p.omega[2]))
 SPINS = bodies(4, 6)
 
 CONSTANTS = "(71) (72) (79)"
-GRID = (0.7, 0.31, 3)
-TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]
 
 
 def motion(f: Floor, p: Any) -> Any:
@@ -48,6 +47,11 @@ def motion(f: Floor, p: Any) -> Any:
 def with_spin(f: Floor, p: Any) -> Any:
     """Return the same where omega3 is free, and given."""
     return f.ElementaryMotion(p.body, p.field, p.omega2, p.omega3)
+
+
+def free(f: Floor, p: Any) -> Any:
+    """Return the free body of a point on a floor, from the whole of omega."""
+    return f.FreeMotion(p.body, p.omega)
 
 
 def spin(say: Ledger, p: Any, t: Any) -> Any:
@@ -174,37 +178,9 @@ PRECESSION = (
         lambda f, p: motion(f, p).period,
         lambda say, p: 2 * sympy.pi / abs(elementary(say, p)["k"]),
     ),
-    Tie(
-        "ElementaryMotion.rotation",
-        MATRIX,
-        lambda f, p: motion(f, p).rotation(p.t),
-        lambda say, p: rotation(say, p, p.t),
-        [*POINTS, *REST],
-        size=unit,
-    ),
+    *matrices("ElementaryMotion", MATRIX, motion, rotation, [*POINTS, *REST], ("core", "exact")),
     at_points(
         "ElementaryMotion.quaternion", MATRIX, quaternion_rotation, lambda say, p: rotation(say, p, p.t), size=unit
-    ),
-    in_core(
-        "ElementaryMotion.rotation_grid",
-        MATRIX,
-        lambda f, p: motion(f, p).rotation_grid(*GRID),
-        lambda say, p: [rotation(say, p, t) for t in TIMES],
-        size=unit,
-    ),
-    at_points(
-        "ElementaryMotion.column",
-        MATRIX,
-        lambda f, p: [motion(f, p).column(j, p.t) for j in (1, 2, 3)],
-        lambda say, p: rotation(say, p, p.t).T,
-        size=unit,
-    ),
-    at_points(
-        "ElementaryMotion.third_axis",
-        MATRIX,
-        lambda f, p: motion(f, p).third_axis(p.t),
-        lambda say, p: rotation(say, p, p.t).col(2),
-        size=unit,
     ),
     at_points("ElementaryMotion.axis", "(77)", lambda f, p: motion(f, p).axis, axis, floors=("exact",)),
     at_points(
@@ -289,7 +265,7 @@ SPECIAL = (
     Tie(
         "FreeMotion.period",
         FREE_LABELS,
-        lambda f, p: f.FreeMotion(p.body, p.omega).period,
+        lambda f, p: free(f, p).period,
         lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["k"]),
         SPINS,
     ),
@@ -316,51 +292,17 @@ ALONE = (
         Tie(
             f"FreeMotion.{name}",
             FREE_LABELS,
-            lambda f, p, name=name: getattr(f.FreeMotion(p.body, p.omega), name),
+            lambda f, p, name=name: getattr(free(f, p), name),
             lambda say, p, name=name: free_constants(say, p, whole=True)[name],
             SPINS,
         )
         for name in ("k", "phi")
     ),
-    Tie(
-        "FreeMotion.rotation",
-        f"{FREE_LABELS} {TWO_TURNS}",
-        lambda f, p: f.FreeMotion(p.body, p.omega).rotation(p.t),
-        lambda say, p: free_rotation(say, p, p.t, whole=True),
-        SPINS,
-        size=unit,
-    ),
-    Tie(
-        "FreeMotion.rotation_grid",
-        f"{FREE_LABELS} {TWO_TURNS}",
-        lambda f, p: f.FreeMotion(p.body, p.omega).rotation_grid(*GRID),
-        lambda say, p: [free_rotation(say, p, t, whole=True) for t in TIMES],
-        SPINS,
-        size=unit,
-        floors=("core",),
-    ),
-    Tie(
-        "FreeMotion.column",
-        f"{FREE_LABELS} {TWO_TURNS}",
-        lambda f, p: [f.FreeMotion(p.body, p.omega).column(j, p.t) for j in (1, 2, 3)],
-        lambda say, p: free_rotation(say, p, p.t, whole=True).T,
-        SPINS,
-        size=unit,
-        floors=("core",),
-    ),
-    Tie(
-        "FreeMotion.third_axis",
-        f"{FREE_LABELS} {TWO_TURNS}",
-        lambda f, p: f.FreeMotion(p.body, p.omega).third_axis(p.t),
-        lambda say, p: free_rotation(say, p, p.t, whole=True).col(2),
-        SPINS,
-        size=unit,
-        floors=("core",),
-    ),
+    *matrices("FreeMotion", f"{FREE_LABELS} {TWO_TURNS}", free, partial(free_rotation, whole=True), SPINS),
     Tie(
         "FreeMotion.angular_velocity",
         f"{FREE_LABELS} {TWO_TURNS} text-momentum",
-        lambda f, p: f.FreeMotion(p.body, p.omega).angular_velocity(p.t),
+        lambda f, p: free(f, p).angular_velocity(p.t),
         free_spin,
         SPINS,
         size=length,

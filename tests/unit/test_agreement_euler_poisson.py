@@ -32,7 +32,7 @@ def states(seed: int, count: int) -> list[Any]:
 POINTS = states(27, 6)
 at_points = partial(Tie, points=POINTS)
 in_core = partial(Tie, points=POINTS, floors=("core",))
-SYMMETRIC = bodies(46, 8)
+of_symmetric = partial(Tie, points=bodies(46, 8), floors=("core",))
 
 
 def exact(values: Any) -> Any:
@@ -153,14 +153,12 @@ EQUATIONS = (
         lambda say, p: say("(35)", "dK", K=p.K, Omega=p.Omega),
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
     ),
-    Tie(
+    of_symmetric(
         "euler_poisson.field_rate",
         "(39)",
         lambda f, p: f.euler_poisson.field_rate(p.K, p.omega),
         lambda say, p: [say("(39)", f"d(K{n})", **symmetric(p, STATE)) for n in (1, 2, 3)],
-        SYMMETRIC,
         size=power(2),
-        floors=("core",),
     ),
     in_core(
         "euler_poisson.angular_acceleration",
@@ -178,15 +176,13 @@ EQUATIONS = (
         size=lambda _true, p: np.linalg.cond(p.inertia) * (norm(p.Omega) + norm(p.R) * norm(p.B)) * norm(p.Omega),
         ulps=8,
     ),
-    Tie(
+    of_symmetric(
         "euler_poisson.angular_acceleration",
         "(38)",
         lambda f, p: f.euler_poisson.angular_acceleration(tensor(p), p.K, p.omega),
         lambda say, p: [say("(38)", f"d(Omega{n})", I=p.I, **symmetric(p, STATE)) for n in (1, 2, 3)],
-        SYMMETRIC,
         size=lambda true, p: power(2)(true, p) * max(1, 1 / float(p.I)),
         ulps=8,
-        floors=("core",),
     ),
     in_core(
         "euler_poisson.body_momentum_rate",
@@ -209,22 +205,18 @@ EQUATIONS = (
         size=lambda _true, p: norm(p.R) ** 4 * norm(p.B) * norm(p.m) * np.linalg.cond(p.inertia),
         ulps=16,
     ),
-    Tie(
+    of_symmetric(
         "euler_poisson.energy",
         "(33) (36)",
         lambda f, p: f.euler_poisson.energy(tensor(p), p.omega),
         energy,
-        SYMMETRIC,
-        floors=("core",),
     ),
-    Tie(
+    of_symmetric(
         "euler_poisson.momentum_along_field",
         "(37) (40) (41)",
         lambda f, p: f.euler_poisson.momentum_along_field(tensor(p), p.K, p.omega),
         conserved_along,
-        SYMMETRIC,
         size=lambda true, p: power(2)(true, p) * float(p.I2) * 4,
-        floors=("core",),
     ),
 )
 
@@ -258,22 +250,18 @@ MATTER = (
         size=lambda _true, p: norm(p.masses) * norm(p.places) ** 2,
         ulps=8,
     ),
-    Tie(
+    of_symmetric(
         "SymmetricBody.ratio",
         "(33)",
         lambda f, p: f.SymmetricBody(float(p.I2), float(p.I3)).ratio,
         lambda say, p: say("(33)", "I", **letters(p, "I2 I3")),
-        SYMMETRIC,
-        floors=("core",),
     ),
-    Tie(
+    of_symmetric(
         "SymmetricBody.mass_matrix",
         "text-mass-matrix",
         lambda f, p: f.SymmetricBody(float(p.I2), float(p.I3)).mass_matrix,
         lambda say, p: say("text-mass-matrix", "g", diag=sympy.diag, **letters(p, "I2 I3")).diagonal(),
-        SYMMETRIC,
         size=lambda _true, p: float(p.I2),
-        floors=("core",),
     ),
     in_core(
         "SymmetricBody.cylindrical_shell",

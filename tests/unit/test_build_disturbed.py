@@ -23,42 +23,20 @@ title = "A Small Report"
 authors = ["A. Author"]
 abstract = "A formula, $R(t)$."
 
-[parameters.bodies.shell]
-title = "shell"
-ratio = 1.5
-
-[parameters.fields.oblique]
-title = "oblique field"
-prime = [1.0, 2.0]
+[parameters]
+bodies.shell = { title = "shell", ratio = 1.5 }
+fields.oblique = { title = "oblique field", prime = [1.0, 2.0] }
 
 [[pages]]
 slug = "index"
 title = "The page"
-
-[[pages.blocks]]
-kind = "prose"
-text = "The vector $\\mathbf{B}'$ and @(71)."
-
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "hyperbola"
-body = "shell"
-field = "oblique"
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "trochoids"
-
-[[pages.blocks]]
-kind = "table"
-table = "points"
-body = "shell"
-field = "oblique"
-parameters = { omega2 = [0.7] }
+blocks = [
+  { kind = "prose", text = "The vector $\\mathbf{B}'$ and @(71)." },
+  { kind = "equation", name = "(71)" },
+  { kind = "figure", recipe = "hyperbola", body = "shell", field = "oblique" },
+  { kind = "figure", recipe = "trochoids" },
+  { kind = "table", table = "points", body = "shell", field = "oblique", parameters = { omega2 = [0.7] } },
+]
 """
 
 

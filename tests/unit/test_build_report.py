@@ -23,77 +23,34 @@ title = "A Small Report"
 authors = ["A. Author"]
 abstract = "With a formula, $R(t)$."
 
-[parameters.bodies.shell]
-title = "shell"
-shape = "cylindrical_shell"
-mass = 1.0
-radius = 0.5
-height = 1.0
-
-[parameters.fields.oblique]
-title = "oblique field"
-prime = [1.0, 2.0]
+[parameters]
+bodies.shell = { title = "shell", shape = "cylindrical_shell", mass = 1.0, radius = 0.5, height = 1.0 }
+fields.oblique = { title = "oblique field", prime = [1.0, 2.0] }
 
 [[pages]]
 slug = "index"
 title = "The first page"
-
-[[pages.blocks]]
-kind = "prose"
-text = '''
+blocks = [
+  { kind = "prose", text = '''
 ## A section of it
 
 The root $\sqrt{a_2}$, the vector $\mathbf{B}'$, *emphasis*, @(71), @fig:curve, @tab:points and @page:second.
-'''
-
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
-
-[[pages.blocks]]
-kind = "equation"
-name = "flight"
-tex = '\mathbf{y}=\mathbf{y}_0+R\,\mathbf{x}'
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "hyperbola"
-id = "curve"
-body = "shell"
-field = "oblique"
+''' },
+  { kind = "equation", name = "(71)" },
+  { kind = "equation", name = "flight", tex = '\mathbf{y}=\mathbf{y}_0+R\,\mathbf{x}' },
+  { kind = "figure", recipe = "hyperbola", id = "curve", body = "shell", field = "oblique" },
+]
 
 [[pages]]
 slug = "second"
 title = "The second page"
-
-[[pages.blocks]]
-kind = "table"
-table = "points"
-id = "points"
-body = "shell"
-field = "oblique"
-parameters = { omega2 = [0.7] }
-
-[[pages.blocks]]
-kind = "listing"
-columns = ["Letter", "Meaning"]
-rows = [["$k$", "frequency of precession"]]
-caption = "Letters."
-
-[[pages.blocks]]
-kind = "note"
-text = "See @(71) and @flight again."
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "trochoids"
-parameters = { mu = 0.0 }
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "hyperbola"
-body = "shell"
-field = "oblique"
+blocks = [
+  { kind = "table", table = "points", id = "points", body = "shell", field = "oblique", parameters.omega2 = [0.7] },
+  { kind = "listing", columns = ["Letter", "Meaning"], rows = [["$k$", "frequency of precession"]], caption = "All." },
+  { kind = "note", text = "See @(71) and @flight again." },
+  { kind = "figure", recipe = "trochoids", parameters = { mu = 0.0 } },
+  { kind = "figure", recipe = "hyperbola", body = "shell", field = "oblique" },
+]
 """
 
 
@@ -266,7 +223,7 @@ def test_text_is_escaped_for_html(tmp_path: Path) -> None:
     """Signs that HTML and Typst give a meaning are only signs in a title."""
     file = tmp_path / "mine.toml"
     title = "I < 2 & [#this] $5 *now* <b>"
-    short = MINE.split("[[pages.blocks]]", maxsplit=1)[0].replace("The first page", title) + "blocks = []\n"
+    short = MINE.split("blocks = [", maxsplit=1)[0].replace("The first page", title) + "blocks = []\n"
     file.write_text(short, encoding="utf-8")
     made = build_report(file, tmp_path / "out")
     heading = re.search(r"<h1>(.*?)</h1>", made.index.read_text(encoding="utf-8"))

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from flint import acb, arb, ctx, fmpq
+from ulps import turn
 
 import atlas
 from atlas.cli.app import atlas as command
@@ -54,13 +55,6 @@ def kernel(inertia: Three, field: Three, omega: Three) -> ThetaKernel:
     if (inertia, field, omega) == QUICK:
         return motion()._single().theta
     return closed_form(Balls(inertia, field, omega), max(map(abs, (*field, *omega))))
-
-
-def turn(axis: Any, angle: float) -> Any:
-    """Return the matrix of the rotation about a vector."""
-    n = np.array(axis) / np.linalg.norm(axis)
-    cross = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
 @pytest.mark.parametrize("case", [QUICK, WEAK])

@@ -10,6 +10,7 @@ from flint import arb, ctx
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from oracles.taylor import taylor
+from ulps import middle, turn
 
 import atlas
 from atlas.exact.digits import certified
@@ -44,21 +45,10 @@ CASES = {
 NEAR_AN_END = (BODY, FIELD, -0.799999, -1)
 
 
-def middle(rows: list[list[object]]) -> np.ndarray:
-    """Return the middles of balls and rationals as floats."""
-    return np.array([[float(arb(x).mid()) for x in row] for row in rows])
-
-
 def fraction(x: object) -> Fraction:
     """Return the middle of a ball."""
     mantissa, exponent = arb(x).mid().man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-
-
-def turn(axis: np.ndarray, angle: float) -> np.ndarray:
-    """Return the rotation about a vector."""
-    cross = np.cross(axis / np.linalg.norm(axis), np.eye(3)).T
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawing import layers
 from numpy.typing import NDArray
 from oracles.top import taylor
 from stress.nutating import narrow
@@ -26,11 +27,6 @@ LONG: tuple[Any, ...] = (0.5, (1.0, 0.1), -0.5)
 def panels(name: str, **parameters: Any) -> Any:
     """Return the panels of a figure."""
     return recipes.load(name).scene(**parameters).panels
-
-
-def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
-    """Return the layers of one kind, and role, of a panel."""
-    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
 
 
 def test_a_rosette_closes_and_the_last_one_does_not() -> None:
@@ -300,27 +296,22 @@ def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_
 def test_the_motion_map_shows_the_amplitude_of_the_nutation() -> None:
     """Cells hold the difference of the angles at both turning points of the certified motion, within 1e-4 degrees."""
     for panel, I in zip(panels("motion_map", cells=12), (2.0, 1.5, 1.0, 0.5), strict=True):
-        (image,) = layers_of_kind(panel, Image)
+        (image,) = layers(panel, Image)
         for i, j in ((3, 8), (9, 2), (6, 10)):
             w2, w3 = (image.x[j] + image.x[j + 1]) / 2, (image.y[i] + image.y[i + 1]) / 2
             motion = GeneralMotion(I, (1.0, 0.3), (0.0, w2, w3))
             nu = (w3 + 0.3 - np.array(motion.turning_points)) / np.hypot(1.0, 0.3)
             swing = np.degrees(np.abs(np.diff(np.arccos(np.clip(nu, -1, 1)))))[0]
             assert abs(image.values[i, j] - swing) <= 1e-4
-        assert layers_of_kind(panel, Points)
+        assert layers(panel, Points)
 
 
 @pytest.mark.parametrize(("field", "end"), [((1.0, 0.3), 110.0), ((0.05, 1.0), 180.0)])
 def test_no_amplitude_is_beyond_the_scale_of_colours(field: tuple[float, float], end: float) -> None:
     """In a field close to the axis the axis of the body goes over by nearly 180 degrees; all panels have one scale."""
-    images = [layers_of_kind(panel, Image)[0] for panel in panels("motion_map", field=field, cells=12)]
+    images = [layers(panel, Image)[0] for panel in panels("motion_map", field=field, cells=12)]
     assert {image.limits for image in images} == {(0.0, end)}
     assert max(image.values.max() for image in images) <= end
-
-
-def layers_of_kind(panel: Any, kind: Any) -> list[Any]:
-    """Return the layers of one kind, whatever their role."""
-    return [layer for layer in panel.layers if isinstance(layer, kind)]
 
 
 @pytest.mark.parametrize(

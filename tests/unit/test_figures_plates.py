@@ -6,6 +6,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
+from drawing import layers
 from numpy.typing import NDArray
 
 from atlas import DomainError, Hyperbola, SymmetricBody, simulate
@@ -19,11 +20,6 @@ EPS = float(np.finfo(float).eps)
 def panels(name: str, **parameters: Any) -> Any:
     """Return the panels of a figure."""
     return recipes.load(name).scene(**parameters).panels
-
-
-def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
-    """Return the layers of one kind, and role, of a panel."""
-    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
 
 
 def test_the_drawn_cylinders_have_the_moments_of_their_place_on_the_scale() -> None:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawing import layers
 
 from atlas import DomainError, TopMotion
 from atlas.core.maps.wells import Wells
@@ -15,11 +16,6 @@ from atlas.scene.arrange import narrowed
 def made(name: str, **parameters: Any) -> Scene:
     """Return a figure as data."""
     return recipes.load(name).scene(**parameters)
-
-
-def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
-    """Return the layers of one kind, and role, of a panel."""
-    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
 
 
 @pytest.mark.parametrize("M3", [(0.0, 0.5, 1.0), (-1.0, 2.0)])

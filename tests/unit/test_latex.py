@@ -27,71 +27,29 @@ bibliography = "references.bib"
 [parameters]
 bodies.short = { title = "A short solenoid", ratio = 1.5 }
 fields.up = { title = "up", prime = [1.0, 2.0] }
+sets.one = { omega2 = 0.7 }
+sets.two = { omega2 = 0.7, times = [0, 2.5] }
 [[pages]]
 slug = "index"
 title = "Motions"
-
-[[pages.blocks]]
-kind = "prose"
-text = '''
+blocks = [
+  { kind = "prose", text = '''
 As in @clebsch1871, by @(72) in @tab:numbers: $k$ is @cell:numbers-3-3, 5 % off. A body of 1 µm:
 
 - one
 - two
-'''
-
-[[pages.blocks]]
-kind = "equation"
-name = "(72)"
-
-[[pages.blocks]]
-kind = "equation"
-name = "longer"
-tex = "SUM"
-
-[[pages.blocks]]
-kind = "prose"
-text = "with eighteen terms, and"
-
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
-
-[[pages.blocks]]
-kind = "prose"
-text = "A new paragraph."
-
-[[pages.blocks]]
-kind = "table"
-table = "motion"
-id = "numbers"
-body = "short"
-field = "up"
-digits = 20
-parameters.omega2 = 0.7
-
-[[pages.blocks]]
-kind = "table"
-table = "samples"
-id = "samples"
-body = "short"
-field = "up"
-digits = 12
-parameters = { omega2 = 0.7, times = [0, 2.5] }
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "frequencies"
-id = "curves"
-parameters.ratio = 1.5
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "flight"
-id = "wide"
-
-[[pages.blocks]]
-kind = "bibliography"
+''' },
+  { kind = "equation", name = "(72)" },
+  { kind = "equation", name = "longer", tex = "SUM" },
+  { kind = "prose", text = "with eighteen terms, and" },
+  { kind = "equation", name = "(71)" },
+  { kind = "prose", text = "A new paragraph." },
+  { kind = "table", table = "motion", id = "numbers", body = "short", field = "up", digits = 20, sets = ["one"] },
+  { kind = "table", table = "samples", id = "samples", body = "short", field = "up", digits = 12, sets = ["two"] },
+  { kind = "figure", recipe = "frequencies", id = "curves", parameters.ratio = 1.5 },
+  { kind = "figure", recipe = "flight", id = "wide" },
+  { kind = "bibliography" },
+]
 """.replace("SUM", " + ".join(f"c_{{{n}}}x^{{{n}}}" for n in range(18)))  # wider than the page, and less so at 9 points
 WORK = """@article{clebsch1871, author = {Clebsch, Alfred}, title = {Ueber die Bewegung}, journal = {Math. Ann.},
   volume = {3}, year = {1871}}

@@ -27,17 +27,16 @@ bibliography = "works.bib"
 [[pages]]
 slug = "index"
 title = "One"
-
-[[pages.blocks]]
-kind = "prose"
-text = "As @klein1897 says, tops spin [@euler1765; @klein1897, p. 3]."
+blocks = [
+  { kind = "prose", text = "As @klein1897 says, tops spin [@euler1765; @klein1897, p. 3]." },
+]
 
 [[pages]]
 slug = "sources"
 title = "Two"
-
-[[pages.blocks]]
-kind = "bibliography"
+blocks = [
+  { kind = "bibliography" },
+]
 """
 
 
@@ -67,7 +66,7 @@ def test_page_and_print_cite_alike(tmp_path: Path) -> None:
     ("old", "new", "says"),
     [
         ("@klein1897 says", "@kelin1897 says", "klein1897"),
-        ('kind = "bibliography"', 'kind = "prose"\ntext = "None."', "'bibliography'"),
+        ('kind = "bibliography"', 'kind = "prose", text = "None."', "'bibliography'"),
         ('bibliography = "works.bib"', 'bibliography = "work.bib"', "no file"),
         ('bibliography = "works.bib"\n', "", "BibTeX"),
         ("[@euler1765;", "[@(16);", "brackets of their own"),

@@ -20,13 +20,9 @@ name = "book"
 title = "A Small Book"
 front_matter = true
 
-[parameters.bodies.ball]
-title = "charged ball"
-ratio = 1.0
-
-[parameters.fields.oblique]
-title = "oblique field"
-prime = [1.0, 2.0]
+[parameters]
+bodies.ball = { title = "charged ball", ratio = 1.0 }
+fields.oblique = { title = "oblique field", prime = [1.0, 2.0] }
 
 [index]
 words = ["nutation", "proper rotation"]
@@ -36,54 +32,31 @@ symbols = [{ tex = "\\omega_3", at = ["(71)"] }]
 slug = "index"
 title = "The first chapter"
 part = "The motion"
-
-[[pages.blocks]]
-kind = "prose"
-text = '''
+blocks = [
+  { kind = "prose", text = '''
 Proper rotation, @(72), has no nutation; the hyperbola is @(71).
 
 ## A section
-'''
-
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
-
-[[pages.blocks]]
-kind = "table"
-table = "quadric"
-body = "ball"
-field = "oblique"
+''' },
+  { kind = "equation", name = "(71)" },
+  { kind = "table", table = "quadric", body = "ball", field = "oblique" },
+]
 
 [[pages]]
 slug = "second"
 title = "The second chapter"
 part = "Appendices"
 appendix = true
-
-[[pages.blocks]]
-kind = "prose"
-text = "In the appendix @theorem-points stands, and beta is @cell:1-3-3."
+blocks = [
+  { kind = "prose", text = "In the appendix @theorem-points stands, and beta is @cell:1-3-3." },
+]
 """
 
 
-SECOND = '[[pages]]\nslug = "second"'
-FIGURES = """
-[[pages.blocks]]
-kind = "figure"
-recipe = "magn"
-width = 150.0
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "ball"
-width = 160.0
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "magn"
-width = 155.0
-
+SECOND = ']\n\n[[pages]]\nslug = "second"'
+FIGURES = """  { kind = "figure", recipe = "magn", width = 150.0 },
+  { kind = "figure", recipe = "ball", width = 160.0 },
+  { kind = "figure", recipe = "magn", width = 155.0 },
 """
 """Too tall for what is left of a page."""
 
@@ -152,8 +125,8 @@ def test_a_symbol_of_the_index_leads_somewhere(tmp_path: Path) -> None:
 
 def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     """A note and the command that made a table are said once a page."""
-    tables = "".join(f'[[pages.blocks]]\nkind = "recorded"\nsource = "bench"\ntable = "{name}"\n\n' for name in "AB")
-    (tmp_path / "book.toml").write_text(BOOK + "\n" + tables, encoding="utf-8")
+    tables = "".join(f'  {{ kind = "recorded", source = "bench", table = "{name}" }},\n' for name in "AB")
+    (tmp_path / "book.toml").write_text(BOOK.removesuffix("]\n") + tables + "]\n", encoding="utf-8")
     records = {f"bench: {name}": Data((), (), name, (f"Only {name}.", "Measured here.")) for name in "AB"}
     document = compose(load(tmp_path / "book.toml"), {}, Appendices({}, records))
     first, second = document.pages[1].blocks[1:]
@@ -179,14 +152,10 @@ title = "A short report"
 [[pages]]
 slug = "index"
 title = "Only page"
-
-[[pages.blocks]]
-kind = "figure"
-recipe = "hyperbola"
-
-[[pages.blocks]]
-kind = "prose"
-text = "What it says."
+blocks = [
+  { kind = "figure", recipe = "hyperbola" },
+  { kind = "prose", text = "What it says." },
+]
 """
 
 

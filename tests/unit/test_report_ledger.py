@@ -31,67 +31,44 @@ HEAD = r"""
 name = "mine"
 title = "A Small Report"
 
-[parameters.bodies.ball]
-title = "ball"
-ratio = 1.0
-
-[parameters.fields.oblique]
-title = "oblique field"
-prime = [1.0, 2.0]
+[parameters]
+bodies.ball = { title = "ball", ratio = 1.0 }
+fields.up = { title = "oblique field", prime = [1.0, 2.0] }
+sets.one = { omega2 = [0.7] }
 
 [[pages]]
 slug = "index"
 title = "The first page"
-
-[[pages.blocks]]
-kind = "prose"
-text = "The frequency @(72) and again @(72), the theorem @theorem-points, a claim in words, @text-ball-limit."
-
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
-
-[[pages.blocks]]
-kind = "equation"
-name = "theorem-ball-line"
-
-[[pages.blocks]]
-kind = "note"
-text = "See @theorem-ball-line and `@(89)`."
-
-[[pages.blocks]]
-kind = "table"
-table = "points"
-id = "points"
-body = "ball"
-field = "oblique"
-caption = "Points of @(67)."
-parameters = { omega2 = [0.7] }
+blocks = [
+  { kind = "prose", text = "By @(72) and again @(72), the theorem @theorem-points, in words @text-ball-limit." },
+  { kind = "equation", name = "(71)" },
+  { kind = "equation", name = "theorem-ball-line" },
+  { kind = "note", text = "See @theorem-ball-line and `@(89)`." },
+  { kind = "table", table = "points", id = "points", body = "ball", field = "up", caption = "@(67)", sets = ["one"] },
+]
 
 [[pages]]
 slug = "slips"
 title = "Slips"
-
-[[pages.blocks]]
-kind = "errata"
+blocks = [
+  { kind = "errata" },
+]
 """
 LEDGER = "\n".join(
-    f'[[pages]]\nslug = "ledger-{section.lower()}"\ntitle = "Section {section}"\npart = "Ledger"\n\n'
-    f'[[pages.blocks]]\nkind = "ledger"\nsection = "{section}"\n'
+    f'[[pages]]\nslug = "ledger-{section.lower()}"\ntitle = "Section {section}"\npart = "Ledger"\n'
+    f'blocks = [{{ kind = "ledger", section = "{section}" }}]\n'
     for section in ("II", "III", "IV", "V", "VII", "Atlas")
 )
 RECORDED = """
 [[pages]]
 slug = "records"
 title = "Records"
-""" + "".join(
-    f'[[pages.blocks]]\nkind = "recorded"\nsource = "{source}"\ntable = "{table}"\n'
-    for source, table in (
-        ("trial", "totals"),
-        ("bench", "Limits of speed"),
-        ("stress", "worst errors"),
-    )
-)
+blocks = [
+  { kind = "recorded", source = "trial", table = "totals" },
+  { kind = "recorded", source = "bench", table = "Limits of speed" },
+  { kind = "recorded", source = "stress", table = "worst errors" },
+]
+"""
 
 
 @pytest.fixture(scope="module")

@@ -24,35 +24,23 @@ title = "Mine"
 cover = "curve"
 [related]
 atlas = "The atlas"
-[parameters.bodies.b]
-title = "b"
-ratio = 1.5
-[parameters.fields.f]
-title = "f"
-prime = [1.0, 2.0]
+[parameters]
+bodies.b = { title = "b", ratio = 1.5 }
+fields.f = { title = "f", prime = [1.0, 2.0] }
 [[pages]]
 slug = "index"
 title = "First"
-[[pages.blocks]]
-kind = "prose"
-text = "See @(71).\\n\\n## A heading of $\\\\omega_2$\\n\\nwords\\n\\n## A heading of $k$\\n\\nmore <words>"
-[[pages.blocks]]
-kind = "equation"
-name = "(71)"
+blocks = [
+  { kind = "prose", text = "@(71)\\n\\n## A heading of $\\\\omega_2$\\n\\n## A heading of $k$\\n\\n<words>" },
+  { kind = "equation", name = "(71)" },
+]
 [[pages]]
 slug = "second"
 title = "Second"
-[[pages.blocks]]
-kind = "figure"
-recipe = "hyperbola"
-id = "curve"
-body = "b"
-field = "f"
-[[pages.blocks]]
-kind = "table"
-table = "points"
-body = "b"
-field = "f"
+blocks = [
+  { kind = "figure", recipe = "hyperbola", id = "curve", body = "b", field = "f" },
+  { kind = "table", table = "points", body = "b", field = "f" },
+]
 """
 
 
@@ -83,7 +71,7 @@ def test_what_is_found_is_there(made: dict[str, str]) -> None:
         ("second.html", "tab-1"),
     }
     words = {anchor: text for _, anchor, _, text in content["sections"]}
-    assert "more <words>" in words["a-heading-of-2"]
+    assert "<words>" in words["a-heading-of-2"]
     assert content["equations"]["71"].startswith('<p><math display="block"')
 
 

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from oracles.top import integrated, taylor
 from scipy.integrate import solve_ivp
 from stress.tops import TOPS, rate_of
+from ulps import middle, turn
 
 import atlas
 from atlas.exact.digits import certified
@@ -45,11 +46,6 @@ CASES = {
     "of a cubic": ((1.0, 0.5), (0.0, 9.0), (1.0, 0.001), (0.0, 2e-9, -0.017999991), -3e-17, -162.0),
     "sleeping": ((1.0, 0.5), (0.5, 0.25), (0.0, 1.0), (0.0, 0.0, 3.0), 1.0, 0.0),
 }
-
-
-def middle(rows: list[list[object]]) -> np.ndarray:
-    """Return the middles of balls and rationals as floats."""
-    return np.array([[float(arb(x).mid()) for x in row] for row in rows])
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -179,12 +175,6 @@ def test_an_angle_that_is_zero_is_exactly_zero(inputs: Any, zero: str) -> None:
     assert np.abs(motion.rotation(T) - turn(n, psi) @ turn(e3, chi)).max() <= 64 * EPS
     along = Balls(*inputs).angular_velocity(1)[2]
     assert inputs[1][1] or along == arb(inputs[3][2])
-
-
-def turn(axis: np.ndarray, angle: float) -> np.ndarray:
-    """Return the rotation about a unit vector."""
-    cross = np.cross(axis, np.eye(3)).T
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
 def test_the_cubic_is_the_limit_of_quartics_from_both_sides() -> None:

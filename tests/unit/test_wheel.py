@@ -21,10 +21,9 @@ title = "Mine"
 [[pages]]
 slug = "index"
 title = "T"
-[[pages.blocks]]
-kind = "figure"
-recipe = "my_precession.py"
-parameters = { ratio = 0.5 }
+blocks = [
+  { kind = "figure", recipe = "my_precession.py", parameters = { ratio = 0.5 } },
+]
 """
 
 

@@ -16,21 +16,15 @@ from atlas.build.publish import replace
 REPORT = """
 name = "small"
 title = "A Small Report"
-[parameters.bodies.shell]
-title = "shell"
-ratio = 1.5
-[parameters.fields.oblique]
-title = "oblique field"
-prime = [1.0, 2.0]
+[parameters]
+bodies.shell = { title = "shell", ratio = 1.5 }
+fields.oblique = { title = "oblique field", prime = [1.0, 2.0] }
 [[pages]]
 slug = "index"
 title = "The page"
-[[pages.blocks]]
-kind = "table"
-table = "points"
-body = "shell"
-field = "oblique"
-parameters = { omega2 = [0.7] }
+blocks = [
+  { kind = "table", table = "points", body = "shell", field = "oblique", parameters = { omega2 = [0.7] } },
+]
 """
 WRITERS = {
     "page --ratio 1.3 --field 1 2 --omega2 0.7": "motion-ratio-1.3-field-1-2-omega2-0.7.toml",
