@@ -9,7 +9,7 @@ Bodies and fields: SymmetricBody, ChargeMoments, Field, LaboratoryFrame. Surface
 Motions: motion (any body from any start, by the class that fits); ElementaryMotion (the paper's), GeneralMotion (from
 any start), BallMotion, FreeMotion, TopMotion (any symmetric top), EllipticMotion and AsymmetricMotion (three different
 moments), ParticleMotion, Flight. Pictures: figure, plotter, animate. Tables: sweep. Periods round a loop: monodromy. To
-compare with: simulate, check, clebsch. Slow changes: drift. Errors:
+compare with: simulate, check, clebsch. Slow changes: drift. From measurements: fit. Errors:
 AtlasError, DomainError, NotCertifiedError.
 
 Names are loaded when they are first used, so that a number costs no drawing library.
@@ -43,6 +43,7 @@ _HOMES = {
     "clebsch": "atlas.core.motions.clebsch",
     "monodromy": "atlas.core.maps.monodromy",
     "check": "atlas.study.check",
+    "fit": "atlas.study.fit",
     "sweep": "atlas.study.sweep.run",
     "simulate": "atlas.study.simulate",
     "drift": "atlas.study.drift",

@@ -34,6 +34,7 @@ from atlas.errors import (
 )
 from atlas.study.check import check
 from atlas.study.drift import drift
+from atlas.study.fit import fit
 from atlas.study.simulate import simulate
 from atlas.study.sweep.run import sweep
 
@@ -64,6 +65,7 @@ __all__ = [
     "clebsch",
     "drift",
     "figure",
+    "fit",
     "monodromy",
     "motion",
     "plotter",

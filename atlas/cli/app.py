@@ -94,6 +94,7 @@ for name, says in {
     "hyperbola": "Sample the hyperbola (67).",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
+    "fit": "Find body and field from measurements.",
     "tex": "Write a report as LaTeX.",
     "verify": "Put the paper's equations on trial.",
 }.items():

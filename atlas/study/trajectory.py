@@ -39,12 +39,15 @@ PARAMETERS: Mapping[str, tuple[int, ...]] = {
     "linear": (1,),
     "quadratic": (1,),
     "step": (1,),
+    "sigma": (1,),
 }
 """Parameters with the counts of numbers they may have: moments I2, I3, or I1, I2, I3, or J11 J22 J33 J12 J13 J23."""
 
 MATRIX = tuple(f"R{i}{j}" for i in "123" for j in "123")
 OMEGA = ("Omega1", "Omega2", "Omega3")
 QUATERNION = ("q0", "q1", "q2", "q3")
+FIELD = ("K1", "K2", "K3")
+"""The field along the axes of the body, which `atlas fit` reads beside."""
 _OTHER_NAMES = dict(zip(("w", "x", "y", "z", "qw", "qx", "qy", "qz"), QUATERNION * 2, strict=True)) | {"time": "t"}
 _NAMES = {name.lower(): name for name in ("t", *MATRIX, *OMEGA, *QUATERNION)} | _OTHER_NAMES
 
@@ -63,8 +66,8 @@ class Trajectory:
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Trajectory]:
-    """Open a file and read what stands above its rows.
+def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
+    """Open a file and read what stands above its rows; with `fields` the columns K1 to K3 are known, too.
 
     Raises AtlasError, which names the line and the column, for what is not such a trajectory; the blocks do as well.
     """
@@ -79,7 +82,7 @@ def opened(path: Path) -> Iterator[Trajectory]:
                         raise AtlasError(f"{where}: {name} is there twice, with other numbers.")
             elif line:
                 separator = next((s for s in (",", ";", "\t") if s in line), None)
-                names = _header(line.split(separator), where)
+                names = _header(line.split(separator), where, FIELD if fields else ())
                 written = dict(zip(names, (cell.strip(" \"'") for cell in line.split(separator)), strict=True))
                 blocks = _blocks(lines, number, names, separator, path.name)
                 yield Trajectory(path.name, written, parameters, blocks)
@@ -181,16 +184,17 @@ def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
     return found
 
 
-def _header(cells: Sequence[str], where: str) -> list[str]:
+def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
     """Return the canonical names of the columns."""
     names = []
     for cell in cells:
         plain = cell.strip().strip("\"'")
-        name = _NAMES.get(plain.lower().replace("_", ""))
+        bare = plain.lower().replace("_", "")
+        name = _NAMES.get(bare, bare.upper() if bare.upper() in more else None)
         if name is None:
             raise AtlasError(
                 f"{where}: no column is called {plain!r}; "
-                "there are t, R11 to R33, Omega1 to Omega3, q0 to q3 (or w, x, y, z)."
+                f"there are t, R11 to R33, Omega1 to Omega3, {'K1 to K3, ' if more else ''}q0 to q3 (or w, x, y, z)."
             )
         if name in names:
             raise AtlasError(f"{where}: the column {name} is there twice.")

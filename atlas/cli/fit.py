@@ -1,0 +1,90 @@
+"""``atlas fit``: the body, the field and the motion out of a user's own measurements."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.options import REAL, Command, Place, examples
+from atlas.cli.present import dump
+
+FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
+KINDS = ("rotation", "quaternion", "axis", "angular_velocity", "field_in_body", "signal")
+LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+
+
+@click.command(
+    "fit",
+    cls=Command,
+    epilog=examples(
+        "atlas fit mine.csv",
+        "atlas fit mine.csv --sigma 0.01 --fix ratio=1.5",
+        "atlas fit mine.csv --of axis --loss soft_l1 --figure mine.pdf",
+        "atlas fit mine.csv --predict 1000 --horizon 0.1 --json",
+    ),
+)
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv")
+@click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions.")
+@click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, where there are several kinds.")
+@click.option("--sigma", type=REAL, help="Standard error of each number, of attitudes and axes in radians.")
+@click.option("--fix", multiple=True, metavar="NAME=VALUE", help="A parameter that is known; may be repeated.")
+@click.option("--start", multiple=True, metavar="NAME=VALUE", help="Where a parameter is sought first.")
+@click.option("--epoch", type=REAL, default="0", show_default=True, help="Time at which the parameters hold.")
+@click.option(
+    "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
+)
+@click.option("--predict", type=REAL, multiple=True, metavar="T", help="Predict what was measured; may be repeated.")
+@click.option("--horizon", type=REAL, metavar="ERROR", help="Until when a prediction is that good.")
+@click.option(
+    "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw data, curve, residuals: svg, pdf, png."
+)
+@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+def command(file: Path, **options: Any) -> int:
+    """Find inertia, field and start of a motion from measured attitudes, axes, angular velocities or fields.
+
+    FILE.csv has a column t and R11 to R33, or a quaternion w, x, y, z, or R13, R23, R33 of the axis alone, or Omega1 to
+    Omega3 or K1 to K3 along the axes of the body; single entries of R are a signal. A line '# sigma = 0.01' may stand
+    at its head; without it the scatter about the motion tells sigma. No start is needed.
+
+    What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
+    residuals that are correlated. The exit status is 1 if something does, 2 if the file or an option is wrong.
+    """
+    from atlas.study.fit import fit
+    from atlas.study.fit.data import of_file
+
+    t, data, known = of_file(file, options["kind"])
+    params = {name: {"value": value, "vary": False} for name, value in map(_pair, options["fix"])}
+    params |= {name: {"value": value} for name, value in map(_pair, options["start"])}
+    sigma = known if options["sigma"] is None else float(options["sigma"])
+    found = fit(
+        t, options["family"], sigma=sigma, params=params, loss=options["loss"], epoch=float(options["epoch"]), **data
+    )
+    if options["figure"] is not None:
+        from atlas.draw.files import save
+
+        save(found.scene(), {options["figure"]: options["figure"].suffix.lstrip(".")})
+    record = {"file": file.name, **found.record()} if options["as_json"] else {}
+    lines = [f"{file.name}: {found.report()}"]
+    for time in map(float, options["predict"]):
+        value, error = found.predict(time)
+        record.setdefault("predictions", []).append({"t": time, "value": value.tolist(), "sigma": error.tolist()})
+        lines.append(f"at t = {time:g}: {value.round(6).tolist()} +- {[float(f'{x:.2g}') for x in error.ravel()]}")
+    if options["horizon"] is not None:
+        record["horizon"] = until = found.horizon(float(options["horizon"]))
+        lines.append(f"a prediction is good within {float(options['horizon']):g} until t = {until:.6g}")
+    if options["as_json"]:
+        dump(record)
+    else:
+        click.echo("\n".join(lines))
+        if options["figure"] is not None:
+            click.echo(options["figure"])
+    return 1 if found.doubts else 0
+
+
+def _pair(text: str) -> tuple[str, float]:
+    """Return name and value of NAME=VALUE. Raises click.UsageError for another text."""
+    name, equals, value = text.partition("=")
+    try:
+        return name.strip(), float(value if equals else "")
+    except ValueError as error:
+        raise click.UsageError(f"{text!r} is not NAME=VALUE, as in ratio=1.5.") from error

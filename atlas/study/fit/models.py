@@ -1,0 +1,193 @@
+"""Families of motions with their parameters by name: what a fit varies."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.core.inputs import FloatArray
+from atlas.core.motions.chosen import motion as of_any
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.elliptic import EllipticMotion
+from atlas.core.motions.general import GeneralMotion
+from atlas.core.motions.top import TopMotion
+from atlas.errors import AtlasError
+from atlas.study.fit.data import STEP
+
+Values = Mapping[str, float]
+
+B, OMEGA, ATTITUDE, DIRECTION = (tuple(f"{x}{i}" for i in "123") for x in ("B", "omega", "a", "n"))
+
+
+def vector(p: Values, names: Sequence[str]) -> FloatArray:
+    """Return the components by these names, zero where there are none."""
+    return np.array([p.get(name, 0.0) for name in names])
+
+
+def attitude(p: Values) -> FloatArray:
+    """Return R at the time of the parameters, (3, 3), from the rotation vector a."""
+    return np.asarray(Rotation.from_rotvec(vector(p, ATTITUDE)).as_matrix())
+
+
+def _general(p: Values) -> Any:
+    A = attitude(p)
+    return GeneralMotion.in_laboratory(p.get("ratio", 1.0), vector(p, B), A, A @ vector(p, OMEGA))
+
+
+def _elementary(p: Values) -> Any:
+    """Return an elementary motion: e2 is where the field is at the start, so that omega1 = 0."""
+    A, K = attitude(p), vector(p, B)
+    _, turn = in_plane(A.T @ K)
+    K = turn @ (A.T @ K)
+    made = ElementaryMotion(p["ratio"], (K[1], K[2]), p["omega2"])
+    return of_any(p["ratio"], vector(p, B), turn.T @ np.array([0.0, p["omega2"], made.omega3]), A)
+
+
+def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
+    """Return the component of a field across e3, and the turn about e3 that brings it to e2."""
+    size = float(np.hypot(K[0], K[1]))
+    c, s = (K[1] / size, K[0] / size) if size else (1.0, 0.0)
+    return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+
+def _top(p: Values) -> Any:
+    A = attitude(p)
+    return TopMotion.in_laboratory(
+        (1.0, p["I3"]), direction_of(p), A, A @ vector(p, OMEGA),
+        coupling=(p["k2"], p["k3"]), linear=p["linear"], quadratic=p["quadratic"],
+    )  # fmt: skip
+
+
+def direction_of(p: Values) -> FloatArray:
+    """Return the direction of a top's field, of length 1."""
+    n = vector(p, DIRECTION)
+    return np.asarray(n / (np.linalg.norm(n) or 1.0))
+
+
+def _elliptic(p: Values) -> Any:
+    return EllipticMotion.in_laboratory(
+        (p["I1"], 1.0, p["I3"]), vector(p, B), attitude(p), z=p["z"], branch=int(p["branch"])
+    )
+
+
+def _asymmetric(p: Values) -> Any:
+    return of_any((p["I1"], 1.0, p["I3"]), vector(p, B), vector(p, OMEGA), attitude(p))
+
+
+@dataclass(frozen=True)
+class Model:
+    """A family: its parameters with those that stand unless they are freed, and what makes its motion."""
+
+    name: str
+    names: tuple[str, ...]
+    make: Callable[[Values], Any]
+    fixed: Mapping[str, float]
+    exact: bool = False
+    """Whether the motion has derivatives in all parameters by itself."""
+
+    def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
+        """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
+        if self.exact:
+            try:
+                v = np.asarray(motion.sensitivity(t, [*(x for x in names if x not in ATTITUDE), *ATTITUDE]))
+                turned = v[:, -3:].swapaxes(1, 2) @ _left(vector(p, ATTITUDE))  # by a, not about the axes
+                seen = [ATTITUDE.index(x) for x in names if x in ATTITUDE]
+                return np.concatenate([v[:, :-3], turned.swapaxes(1, 2)[:, seen]], 1)
+            except AtlasError:
+                pass  # on a separatrix, and where a sum is too large: by differences
+        out = np.empty((t.size, len(names), 3))
+        for j, name in enumerate(names):
+            h = STEP * units[name]
+            up, down = (self._beside(p, name, step) for step in (h, -h))
+            width = up[1] - down[1]
+            turn = up[0].rotation(t) @ down[0].rotation(t).swapaxes(1, 2)
+            out[:, j] = Rotation.from_matrix(turn).as_rotvec() / width
+        return out
+
+    def _beside(self, p: Values, name: str, step: float) -> tuple[Any, float]:
+        """Return a motion beside another, and the step; the other itself where there is none."""
+        try:
+            return self.make({**p, name: p[name] + step}), step
+        except AtlasError:
+            return self.make(p), 0.0
+
+
+def _left(a: FloatArray) -> FloatArray:
+    """Return J with R(a + da) = (1 + [J da]x) R(a)."""
+    angle = float(np.linalg.norm(a))
+    hat = np.cross(np.eye(3), a)
+    if angle < STEP:
+        return np.asarray(np.eye(3) + hat / 2)
+    sine, rest = np.sinc(angle / np.pi), 2 * np.sin(angle / 2) ** 2 / angle**2
+    return np.asarray(np.eye(3) + rest * hat + (1 - sine) / angle**2 * (hat @ hat))
+
+
+_FIELD = (*B, *OMEGA, *ATTITUDE)
+MODELS: Mapping[str, Model] = {
+    m.name: m
+    for m in (
+        Model("general", ("ratio", *_FIELD), _general, {}, exact=True),
+        Model("ball", _FIELD, _general, {}, exact=True),
+        Model("free", ("ratio", *OMEGA, *ATTITUDE), _general, {}, exact=True),
+        Model("elementary", ("ratio", *B, "omega2", *ATTITUDE), _elementary, {}),
+        Model(
+            "top", ("I3", "k2", "k3", "linear", "quadratic", *DIRECTION, *OMEGA, *ATTITUDE), _top,
+            {"n1": 0.0, "n2": 0.0, "n3": 1.0},
+        ),
+        Model("elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0}),
+        Model("asymmetric", ("I1", "I3", *_FIELD), _asymmetric, {}),
+    )
+}  # fmt: skip
+"""Families by name."""
+
+
+def model_of(family: Any) -> Model:
+    """Return a family. Raises AtlasError for another name."""
+    if family not in MODELS:
+        raise AtlasError(f"The family of a fit is one of {', '.join(MODELS)}, not {family!r}.")
+    return MODELS[family]
+
+
+def field_of(model: Model, p: Values) -> FloatArray:
+    """Return what `field_in_body` shows of a motion, in the laboratory."""
+    return direction_of(p) if model.name == "top" else vector(p, B)
+
+
+def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
+    """Return parameters with R and Omega as they are at another time, as data of a kind see them."""
+    field = vector(p, B)
+    if kind in ("angular_velocity", "field_in_body"):
+        field, R = R.T @ field, np.eye(3)
+    elif unseen(model, kind):
+        n = R[:, 2]
+        across = float(np.hypot(n[0], n[1]))
+        angle = np.arctan2(across, n[2]) / (across or 1.0)
+        upright = Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix()
+        omega, R = upright.T @ R @ omega, upright
+    found = {**p, **_named(B, field), **_named(OMEGA, omega), **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec())}
+    return found | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])} if model.name == "elementary" else found
+
+
+def carried(model: Model, kind: str, p: Values, time: float) -> dict[str, float]:
+    """Return the parameters that a motion has at another time."""
+    motion = model.make(p)
+    return state(model, kind, p, motion.rotation(time), motion.angular_velocity(time))
+
+
+def _named(names: Sequence[str], v: FloatArray) -> dict[str, float]:
+    return dict(zip(names, v.tolist(), strict=True))
+
+
+def units_of(model: Model, rate: float) -> dict[str, float]:
+    """Return the natural unit of each parameter, with a rate of the motion."""
+    sizes = {**dict.fromkeys((*B, *OMEGA, "k2", "k3"), rate), "linear": rate * rate, "quadratic": rate * rate}
+    return {name: sizes.get(name, 1.0) for name in model.names}
+
+
+def unseen(model: Model, kind: str) -> dict[str, float]:
+    """Return the parameters of the attitude that these data do not see, with the values that they are given."""
+    if kind in ("angular_velocity", "field_in_body"):
+        return dict.fromkeys(ATTITUDE, 0.0)
+    return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

@@ -1,0 +1,400 @@
+"""What a fit found: the parameters with their errors, what the data do not see, whether the family is the right one."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, positive, real
+from atlas.core.shown import notebook
+from atlas.errors import AtlasError
+from atlas.paper.plain import html_table, table
+from atlas.scene import Curve, Layer, Plane, Points, Scene
+from atlas.study.fit.data import KINDS, Data
+from atlas.study.fit.models import units_of, unseen
+from atlas.study.fit.problem import FULL, SCORE, Problem, lag
+
+UNSEEN = 0.5
+"""Standard error of a combination, in natural units, from which on the data do not determine it."""
+
+SHARE = 0.03
+"""Part of a parameter in such a combination from which on it is not determined either."""
+
+SURPRISE = 5.0
+"""Standard deviations of chi square and of a correlation that are no chance."""
+
+STEADY = (
+    "No nutation is seen beyond noise: the motion is an elementary one, with the axis at a constant angle to the field."
+)
+
+FARTHEST = 1e9
+"""Spans of the data after which no horizon is looked for."""
+
+
+class Prediction(NamedTuple):
+    """A predicted quantity and its standard errors: of rotations angles about the laboratory's axes, (..., 3)."""
+
+    value: FloatArray
+    sigma: FloatArray
+
+
+class Rival(NamedTuple):
+    """Another minimum of chi square, where a start ended."""
+
+    redchi: float
+    values: Mapping[str, float]
+
+
+@dataclass(eq=False)
+class Fit:
+    """A fitted motion: `str`, or `report()`, is what `atlas fit` prints.
+
+    `params` are `lmfit.Parameters` with values, ``stderr`` (None where the data do not determine one) and correlations;
+    `covariance` (n, n) is that of the varied ones, `names`. `residuals` (N, k) are in standard errors, in the order of
+    time `t`; `redchi` is chi square over the degrees of freedom, 1 where sigma was not given, for it is `sigma` then.
+    `motion` is the motion with the time 0 at `epoch`. `undetermined` and `doubts` are sentences; `rivals` the other
+    minima. `result` is lmfit's own.
+    """
+
+    family: str
+    kind: str
+    epoch: float
+    params: Any
+    names: tuple[str, ...]
+    covariance: FloatArray
+    residuals: FloatArray
+    t: FloatArray
+    sigma: Any
+    redchi: float
+    motion: Any
+    undetermined: tuple[str, ...]
+    doubts: tuple[str, ...]
+    rivals: tuple[Rival, ...]
+    result: Any
+    problem: Problem
+    _free: FloatArray
+    _units: FloatArray
+
+    @classmethod
+    def of(cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: bool) -> "Fit":
+        """Return the fit from the best of what was tried; a steady motion stays where it was found."""
+        import lmfit
+
+        data, names = problem.data, problem.names
+        problem.values(tried[0][1])
+
+        def residual(params: Any) -> FloatArray:
+            return problem.residuals([params[name].value for name in names])
+
+        def slopes(params: Any) -> FloatArray:
+            return problem.jacobian([params[name].value for name in names])
+
+        minimizer = lmfit.Minimizer(residual, problem.params.copy(), scale_covar=not data.known)
+        result = minimizer.minimize(
+            method="least_squares",
+            jac=slopes,
+            loss=problem.loss,
+            x_scale="jac",
+            kwargs={},
+            **dict(FULL) | ({"gtol": np.inf} if steady else {}),
+        )
+        x = np.array([result.params[name].value for name in names])
+        motion, _ = problem.motion(list(x))
+        r, J = problem.residuals(x), problem.jacobian(x)
+        free = r.size - len(x)
+        score = SCORE[problem.loss](r * r)
+        redchi = problem.reduced(r)
+        scale = 1.0 if data.known else float(np.sqrt(redchi))
+        seen = _Seen(problem, x, J, result.jac if problem.loss != "linear" else J, score * r, scale)
+        seen.mark(result)
+        sigma = data.sigma[:, 0] * scale
+        residuals = (r / scale).reshape(data.t.size, -1)
+        redchi = redchi / scale**2
+        return cls(
+            family=problem.model.name, kind=data.kind, epoch=epoch, params=result.params, names=tuple(names),
+            covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
+            sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
+            undetermined=(*[STEADY] * steady, *seen.words(), *_gauge(problem)),
+            doubts=tuple(_doubts(problem, residuals, redchi, free)),
+            rivals=tuple(_rivals(problem, tried, free * scale**2)), result=result, problem=problem,
+            _free=seen.free * seen.units[:, None], _units=seen.units,
+        )  # fmt: skip
+
+    @cached_property
+    def _x(self) -> FloatArray:
+        return np.array([self.params[name].value for name in self.names])
+
+    def predict(self, t: Any, of: str = "") -> Prediction:
+        """Return what is to be expected at times of any shape, with its standard errors.
+
+        `of` is "rotation", "axis", "angular_velocity", "field_in_body" or, where one was fitted, "signal": what was
+        measured, without it. The standard error of a rotation is the angle about each axis of the laboratory; where it
+        depends on what the data do not determine, it is infinite. Raises AtlasError for another name, and for times as
+        `rotation` does.
+        """
+        kind = {"quaternion": "rotation", "": self.kind}.get(of, of)
+        if kind not in (*KINDS, "signal") or (kind == "signal" and self.kind != "signal"):
+            raise AtlasError(f"Predicted are rotation, axis, angular_velocity, field_in_body and signal, not {of!r}.")
+        times = real(t, "t")
+        flat = times.ravel() - self.epoch
+        own = self.problem.data
+        data = Data(kind, flat, np.zeros((flat.size, 1)), np.ones((flat.size, 1)), own.function)
+        value = data.of(self.motion, flat)
+        if kind == "axis":
+            R, value = value, value[:, :, 2]
+        there = Problem(
+            self.problem.model,
+            replace(data, values=value if kind != "axis" else R),
+            self.problem.params,
+            "linear",
+            self.problem.rate,
+        )
+        there.names, there.params = list(self.names), self.params.copy()
+        J = -there.slopes(self._x)
+        if kind == "axis":
+            J = R[:, :, :1] * J[:, :1] + R[:, :, 1:2] * J[:, 1:]
+        sigma = np.sqrt(np.einsum("nki,ij,nkj->nk", J, self.covariance, J).clip(0))
+        lost = abs(J @ self._free).sum(-1) > 1e-6 * abs(J * self._units).max(initial=1.0)
+        sigma = np.where(lost, np.inf, sigma)
+        return Prediction(value.reshape(*times.shape, *value.shape[1:]), sigma.reshape(*times.shape, -1))
+
+    def horizon(self, error: float, of: str = "") -> float:
+        """Return the time up to which a prediction is good: its largest standard error stays below `error` till then.
+
+        In radians for rotations and axes. Infinite if it is good for 1e9 spans of the data, and the end of the data if
+        it is no better there. Raises AtlasError for what is no positive number, and as `predict` does.
+        """
+        error = positive(error, "The error")
+        first, last = float(self.t.min()), float(self.t.max())
+        span = last - first
+        cycle = np.linspace(0, 4 * np.pi / self.problem.rate, 24)
+
+        def bad(ahead: float) -> bool:
+            return bool((self.predict(last + ahead + cycle, of).sigma > error).any())
+
+        if bad(0.0):
+            return last
+        low, high = 0.0, span
+        while not bad(high):
+            low, high = high, 2 * high
+            if high > FARTHEST * span:
+                return float("inf")
+        while high - low > 1e-3 * span and high - low > 1e-3 * high:
+            middle = (low + high) / 2
+            low, high = (low, middle) if bad(middle) else (middle, high)
+        return last + low
+
+    def conf_interval(self, **options: Any) -> Any:
+        """Return lmfit's confidence intervals, by chi square along each parameter. `options` are lmfit's."""
+        import lmfit
+
+        names = list(self.names)
+        minimizer = lmfit.Minimizer(
+            lambda p: self.problem.residuals([p[n].value for n in names]), self.params.copy(),
+            Dfun=lambda p: self.problem.jacobian([p[n].value for n in names]), scale_covar=not self.problem.data.known,
+        )  # fmt: skip
+        return lmfit.conf_interval(minimizer, self.result, **options)
+
+    def rows(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows of the parameters."""
+        heading, rows = ["parameter", "value", "standard error", ""], []
+        for name, p in self.params.items():
+            note = "" if p.vary else f"= {p.expr}" if p.expr else "fixed"
+            if p.stderr:
+                digits = max(0, 1 - int(np.floor(np.log10(p.stderr))))
+                rows.append([name, f"{p.value:.{digits}f}", f"{p.stderr:.{digits}f}", note])
+            else:
+                note = note or "not determined"
+                rows.append([name, f"{p.value:.6g}", "-", note])
+        return heading, rows
+
+    @property
+    def _title(self) -> str:
+        count = self.t.size
+        noise = "given" if self.problem.data.known else "found"
+        size = f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{self.sigma.min():.3g} to {self.sigma.max():.3g}"
+        return (
+            f"{self.family} motion, {count} times of {self.kind.replace('_', ' ')}: reduced chi square "
+            f"{self.redchi:.3f}, sigma {size} {noise}"
+        )
+
+    def _sentences(self) -> list[str]:
+        others = [f"another start ended at a reduced chi square of {one.redchi:.3g}" for one in self.rivals]
+        return [*self.undetermined, *self.doubts, *others]
+
+    def report(self) -> str:
+        """Return the parameters with their errors, what is not determined, and doubts."""
+        return "\n".join([self._title, table(*self.rows()), *self._sentences()])
+
+    __str__ = report
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return html_table(self._title, *self.rows()) + "".join(f"<p>{escape(x)}</p>" for x in self._sentences())
+
+    def record(self) -> dict[str, Any]:
+        """Return the fit as plain data for JSON."""
+        values = {
+            name: {"value": p.value, "stderr": p.stderr, "vary": p.vary, "expr": p.expr}
+            for name, p in self.params.items()
+        }
+        return {
+            "family": self.family, "kind": self.kind, "epoch": self.epoch, "times": int(self.t.size), "params": values,
+            "redchi": self.redchi, "sigma": np.asarray(self.sigma).tolist(), "names": list(self.names),
+            "covariance": self.covariance.tolist(), "undetermined": list(self.undetermined),
+            "doubts": list(self.doubts),
+            "rivals": [{"redchi": one.redchi, "values": dict(one.values)} for one in self.rivals],
+        }  # fmt: skip
+
+    def scene(self) -> Scene:
+        """Draw data and curve, and the residuals in standard errors below."""
+        data = self.problem.data
+        axis = data.kind in ("rotation", "axis")
+        seen = data.values[:, :, 2] if data.kind == "rotation" else data.values
+        t = np.linspace(self.t.min(), self.t.max(), 2000)
+        curve = self.predict_values(t)
+        name = {"angular_velocity": r"\Omega", "field_in_body": "K"}.get(data.kind, "R" if axis else "s")
+        colours = ("main", "second", "third")
+        layers: list[Layer] = []
+        for i in range(min(seen.shape[1], 3)):
+            label = f"${name}_{{{i + 1}{'3' if axis else ''}}}$"
+            layers += [
+                Curve(np.column_stack([t, curve[:, i]]), colours[i], label),
+                Points(np.column_stack([self.t, seen[:, i]]), "sample"),
+            ]
+        rest = [Points(np.column_stack([self.t, r]), "sample") for r in self.residuals.T]
+        what = f"{self.family} motion fitted to {self.t.size} times of {self.kind.replace('_', ' ')}"
+        return Scene(
+            title=f"A {what}",
+            caption=(
+                "Above, the data as points and the fitted motion as curves; below, the residuals in standard errors. "
+                f"{self._title}."
+            ),
+            alt=f"A {what}: points on curves against time, and residuals scattered about zero.",
+            panels=(
+                Plane(tuple(layers), "$t$", "data", legend=True),
+                Plane(tuple(rest), "$t$", r"residual, in $\sigma$"),
+            ),
+            size=(140.0, 120.0),
+            parameters={name: float(p.value) for name, p in self.params.items()},
+        )
+
+    def predict_values(self, t: FloatArray) -> FloatArray:
+        """Return what is drawn as a curve, (N, k): of rotations and axes the third axis."""
+        found = self.problem.data.of(self.motion, t - self.epoch)
+        return found[:, :, 2] if found.ndim == 3 else found
+
+    def plot(self, style: Any = None) -> Any:
+        """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
+        return notebook("pictures").to_figure(self.scene(), style)
+
+
+class _Seen:
+    """Covariance of the parameters, and the combinations that are not determined, by singular values of J."""
+
+    def __init__(
+        self, problem: Problem, x: FloatArray, J: FloatArray, bent: FloatArray, scores: FloatArray, scale: float
+    ) -> None:
+        self.problem, self.x = problem, x
+        motion, _ = problem.motion(list(x))
+        field, rates = np.linalg.norm(motion.field_in_body(0.0)), np.linalg.norm(motion.angular_velocity(0.0))
+        units = units_of(problem.model, float(rates if problem.model.name == "top" else field + rates) or 1.0)
+        self.units = np.array([units[name] for name in problem.names])
+        scaled = bent * self.units
+        _, size, turn = np.linalg.svd(scaled, full_matrices=False)
+        size = np.maximum(size, np.finfo(float).eps * size.max(initial=1.0))
+        self.lost = scale / size > UNSEEN
+        kept = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
+        if problem.loss == "linear":
+            self.covariance = kept * scale**2
+        else:  # of an M-estimator, whatever the noise
+            spread = (J * self.units * scores[:, None]).T @ (J * self.units * scores[:, None])
+            self.covariance = kept @ spread @ kept
+        self.covariance = self.covariance * np.outer(self.units, self.units)
+        self.free = turn[self.lost].T
+        """Combinations that are not determined, in natural units, (n, count)."""
+
+    def mark(self, result: Any) -> None:
+        """Set standard errors and correlations in lmfit's result, None where there are none."""
+        problem, params = self.problem, result.params
+        lost = np.linalg.norm(self.free, axis=1) > SHARE
+        errors = np.sqrt(np.diag(self.covariance))
+        result.covar, result.errorbars = self.covariance, not lost.any()
+        names = problem.names
+        for i, name in enumerate(names):
+            params[name].stderr = None if lost[i] else float(errors[i])
+            params[name].correl = None if lost[i] else {
+                other: float(self.covariance[i, j] / (errors[i] * errors[j]))
+                for j, other in enumerate(names) if j != i and not lost[j] and errors[i] * errors[j] > 0
+            }  # fmt: skip
+        derived = [name for name, p in params.items() if p.expr]
+        by = problem.chain(list(self.x), derived)
+        for name, row in zip(derived, by, strict=True):
+            scaled = row * self.units
+            moved = np.linalg.norm(scaled @ self.free) > SHARE * float(np.linalg.norm(scaled))
+            params[name].stderr = None if moved else float(np.sqrt(row @ self.covariance @ row))
+
+    def words(self) -> list[str]:
+        """Return a sentence for each combination that the data do not determine."""
+        out = []
+        for u in self.free.T:
+            parts = [int(i) for i in np.argsort(-abs(u)) if abs(u[i]) > SHARE]
+            names = [self.problem.names[i] for i in parts]
+            if len(names) == 1:
+                out.append(f"{names[0]} is not determined by these data.")
+                continue
+            first = "ratio" if "ratio" in names else names[0]
+            steps = u * self.units
+            steps = steps / steps[self.problem.names.index(first)]
+            moves = ", ".join(
+                f"{self.problem.names[i]} by {steps[i]:+.3g} d" for i in sorted(parts) if self.problem.names[i] != first
+            )
+            out.append(
+                f"{', '.join(names[:-1])} and {names[-1]} are not determined apart: if {first} changes by a small d "
+                f"and {moves}, these data stay the same."
+            )
+        return out
+
+
+def _gauge(problem: Problem) -> list[str]:
+    """Return what the kind of data never shows."""
+    hidden = unseen(problem.model, problem.data.kind)
+    if not hidden:
+        return []
+    if "a1" in hidden:
+        return [
+            "The attitude in the laboratory is not seen: B1 to B3 are along the axes that the body has at the epoch."
+        ]
+    return ["The angle of the body about its axis is not seen: a3 = 0 at the epoch is a convention."]
+
+
+def _doubts(problem: Problem, r: FloatArray, redchi: float, free: int) -> list[str]:
+    """Return what speaks against the family."""
+    out = []
+    if problem.data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
+        wrong = (
+            "the family is not that of the motion (drag, a second field), or sigma is too small"
+            if redchi > 1
+            else "sigma is too large"
+        )
+        out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {wrong}.")
+    found = lag(problem.data.t, r)
+    if abs(found) > SURPRISE / np.sqrt(r.size):
+        out.append(
+            f"Neighbouring residuals are correlated ({found:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is expected): "
+            "the family is not that of the motion (drag, a second field), or the noise is not white."
+        )
+    return out
+
+
+def _rivals(problem: Problem, tried: list[tuple[float, Any]], free: float) -> list[Rival]:
+    """Return the other minima, each once."""
+    out: list[Rival] = []
+    for chi, x in tried[1:]:
+        known = [tried[0][0] / free, *(one.redchi for one in out)]
+        if all(abs(chi / free - other) > 1e-3 * other for other in known):
+            out.append(Rival(chi / free, problem.values(x)))
+    return out[:4]

@@ -1,0 +1,239 @@
+"""From made-up measurements, integrated by SciPy, back to the body and the field."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from matplotlib.figure import Figure
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.cli.app import atlas as command
+from atlas.study.fit.data import Data, of_arrays
+from atlas.study.fit.models import MODELS, model_of
+from atlas.study.fit.problem import Problem
+
+RATIO, FIELD, OMEGA = 1.3, (0.2, -0.4, 1.1), (0.5, 0.3, 1.7)
+ATTITUDE = Rotation.from_rotvec([0.3, -0.2, 0.4])
+NOISE = 0.01
+
+
+def measured(kind: str, count: int = 150, span: float = 30.0, seed: int = 1) -> tuple[Any, Any]:
+    """Return times and noisy values of one motion."""
+    rng = np.random.default_rng(seed)
+    t = np.sort(rng.uniform(0, span, count))
+    steps = atlas.simulate(RATIO, ATTITUDE.inv().apply(FIELD), OMEGA, t, rtol=1e-11)
+    R = ATTITUDE.as_matrix() @ steps.R
+    if kind in ("rotation", "quaternion"):
+        noisy = Rotation.from_rotvec(rng.normal(0, NOISE, (count, 3))) * Rotation.from_matrix(R)
+        return t, noisy.as_matrix() if kind == "rotation" else noisy.as_quat()
+    values = {"axis": R[:, :, 2], "angular_velocity": steps.Omega, "field_in_body": np.vecmat(FIELD, R)}[kind]
+    return t, values + rng.normal(0, NOISE, values.shape)
+
+
+@pytest.fixture(scope="module")
+def attitudes() -> Any:
+    """Return a fit of attitudes."""
+    t, R = measured("rotation")
+    return atlas.fit(t, rotation=R, sigma=NOISE)
+
+
+@pytest.mark.parametrize("kind", ["quaternion", "axis", "angular_velocity", "field_in_body"])
+def test_ratio_and_field_are_found_without_a_start(kind: str) -> None:
+    """From each kind of data, within five standard errors; an axis tells little of a fast spin's ratio."""
+    t, values = measured(kind, *((300, 60.0) if kind == "axis" else (100, 20.0)))
+    found = atlas.fit(t, **{kind: values}, sigma=NOISE)
+    for name, truth in {"ratio": RATIO, "b": float(np.linalg.norm(FIELD)), "omega3": OMEGA[2]}.items():
+        assert abs(found.params[name].value - truth) < 5 * found.params[name].stderr, name
+    assert found.params["b"].stderr < 0.02
+    assert abs(found.redchi - 1) < 0.3
+    assert not found.doubts
+
+
+def test_all_ten_parameters_of_attitudes(attitudes: Any) -> None:
+    """Together within their covariance: the squared distance is that of ten degrees of freedom."""
+    truth = {"ratio": RATIO}
+    for letter, vector in (("B", FIELD), ("omega", OMEGA), ("a", ATTITUDE.as_rotvec())):
+        truth |= {f"{letter}{i}": float(x) for i, x in enumerate(vector, 1)}
+    off = np.array([attitudes.params[name].value - truth[name] for name in attitudes.names])
+    assert off @ np.linalg.solve(attitudes.covariance, off) < 35
+    assert attitudes.undetermined == ()
+
+
+def test_a_prediction_keeps_to_its_band(attitudes: Any) -> None:
+    """Against an integration, long after the data, and so does its horizon."""
+    t = np.linspace(60.0, 120.0, 7)
+    steps = atlas.simulate(RATIO, ATTITUDE.inv().apply(FIELD), OMEGA, t, rtol=1e-12)
+    value, sigma = attitudes.predict(t)
+    off = Rotation.from_matrix(value @ (ATTITUDE.as_matrix() @ steps.R).swapaxes(1, 2)).as_rotvec()
+    assert (abs(off) < 5 * sigma).all()
+    assert (sigma < 0.1).all()
+    until = attitudes.horizon(0.05)
+    assert (
+        attitudes.predict(until - 5).sigma.max() <= 0.05 < attitudes.predict(until + np.linspace(0, 20, 50)).sigma.max()
+    )
+
+
+@pytest.mark.parametrize("kind", ["rotation", "axis", "angular_velocity", "field_in_body", "signal"])
+def test_slopes_are_those_of_the_residuals(kind: str) -> None:
+    """By central differences, of residuals that are small, as they are where least squares end."""
+    import lmfit
+
+    t = np.linspace(0.1, 5, 9)
+    values = {"ratio": RATIO} | dict(
+        zip([f"{x}{i}" for x in ("B", "omega", "a") for i in "123"], [*FIELD, *OMEGA, 0.3, -0.2, 0.4], strict=True)
+    )
+    params = lmfit.create_params(**values)
+    model = model_of("general")
+    motion = model.make(values)
+    function = lambda R: R[:, 0, 1] ** 2 + R[:, 2, 2]  # noqa: E731
+    data = Data(kind, t, np.zeros((9, 1)), np.ones((9, 1)), function)
+    seen = data.of(motion, t)
+    data = Data(kind, t, seen[:, :, 2] if kind == "axis" else seen, np.ones((9, 1)), function)
+    problem = Problem(model, data, params, "linear", 2.0)
+    x, h = np.array(list(values.values())), 1e-6
+    expected = [(problem.residuals(x + h * e) - problem.residuals(x - h * e)) / (2 * h) for e in np.eye(10)]
+    np.testing.assert_allclose(problem.jacobian(x), np.transpose(expected), atol=1e-7)
+
+
+def test_an_elementary_motion_does_not_tell_ratio_and_field_apart() -> None:
+    """It is said in words, with the combination, which leaves the motion as it is; and what is known else is found."""
+    rng = np.random.default_rng(2)
+    t = np.linspace(0, 30, 150)
+    exact = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(t)
+    R = Rotation.from_rotvec(rng.normal(0, NOISE, (150, 3))).as_matrix() @ exact
+    found = atlas.fit(t, rotation=R, sigma=NOISE)
+    assert any("ratio" in words and "not determined apart" in words for words in found.undetermined)
+    assert found.params["ratio"].stderr is None
+    assert found.params["b"].stderr is None
+    assert "not determined" in found.report()
+    assert (found.predict(t).sigma < NOISE).all()
+    known = atlas.fit(t, rotation=R, sigma=NOISE, params={"ratio": {"value": 1.5, "vary": False}})
+    assert abs(known.params["b"].value - np.sqrt(5)) < 5 * known.params["b"].stderr < 0.1
+
+
+def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
+    """Without sigma the scatter tells it; with a robust loss one attitude in fifteen may be anything."""
+    t, R = measured("rotation")
+    found = atlas.fit(t, rotation=R)
+    assert abs(found.sigma / NOISE - 1) < 0.2
+    assert found.redchi == pytest.approx(1)
+    R[::15] = Rotation.random(10, random_state=3).as_matrix()
+    robust = atlas.fit(t, rotation=R, loss="soft_l1")
+    assert abs(robust.sigma / NOISE - 1) < 0.3
+    assert abs(robust.params["ratio"].value - RATIO) < 5 * robust.params["ratio"].stderr < 0.05
+
+
+def test_drag_is_told() -> None:
+    """A spin that dies away by two percent is no motion of the family: chi square and correlations say so."""
+    t, _ = measured("rotation")
+    slowed = t - 0.02 * t * t / (2 * t[-1])
+    steps = atlas.simulate(RATIO, FIELD, OMEGA, slowed, rtol=1e-11)
+    found = atlas.fit(t, rotation=steps.R, sigma=1e-4, family="general")
+    assert any("chi square" in words for words in found.doubts)
+    assert "drag" in str(found)
+
+
+def test_bounds_and_expressions_are_kept() -> None:
+    """As lmfit has them: what is tied follows, and is none of the varied ones."""
+    t, R = measured("rotation", 80, 15.0)
+    found = atlas.fit(t, rotation=R, sigma=NOISE, params={"ratio": {"value": 1.2, "max": 1.4}, "B2": {"expr": "-2*B1"}})
+    assert abs(found.params["ratio"].value - RATIO) < 5 * found.params["ratio"].stderr
+    assert found.params["B2"].value == pytest.approx(-2 * found.params["B1"].value)
+    assert "B2" not in found.names
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({}, "Give one of rotation"),
+        ({"axis": np.ones((9, 2))}, "an array"),
+        ({"axis": np.zeros((9, 3))}, "no vector of length 1"),
+        ({"rotation": np.zeros((9, 3, 3))}, "no rotation matrix"),
+        ({"angular_velocity": np.full((9, 3), np.nan)}, "finite"),
+        ({"angular_velocity": np.ones((9, 3)), "sigma": -1.0}, "sigma"),
+        ({"angular_velocity": np.ones((9, 3)), "family": "round"}, "family"),
+        ({"angular_velocity": np.ones((9, 3)), "params": {"mass": 1.0}}, "no 'mass'"),
+        ({"angular_velocity": np.ones((9, 3)), "epoch": 1e6}, "epoch"),
+        ({"signal": np.ones(9)}, "function"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(arguments: dict[str, Any], says: str) -> None:
+    """In one line that says what was wrong."""
+    with pytest.raises(atlas.AtlasError, match=says):
+        atlas.fit(np.arange(9.0), **arguments)
+
+
+def test_times_may_come_in_any_order() -> None:
+    """The data are sorted, with their errors."""
+    t, sigma = np.array([3.0, 1.0, 2.0, 0.0, 4.0]), np.arange(1.0, 6.0)
+    data = of_arrays(t, {"angular_velocity": t[:, None] * np.ones(3)}, sigma, 0.0, scalar_first=False)
+    assert data.t.tolist() == data.values[:, 0].tolist() == [0, 1, 2, 3, 4]
+    assert data.sigma[:, 0].tolist() == [4, 2, 3, 1, 5]
+
+
+def test_a_fit_is_shown(attitudes: Any) -> None:
+    """As text, in a notebook, as a figure of two panels, and as plain data."""
+    assert "reduced chi square" in str(attitudes)
+    assert "<table>" in attitudes._repr_html_()
+    figure = attitudes.plot()
+    assert isinstance(figure, Figure)
+    assert len(figure.axes) == 2
+    assert json.loads(json.dumps(attitudes.record()))["params"]["ratio"]["stderr"] > 0
+
+
+def written(path: Path, count: int = 80) -> Path:
+    """Write attitudes into a file."""
+    t, R = measured("rotation", count, 15.0)
+    names = ",".join(f"R{i}{j}" for i in "123" for j in "123")
+    table = np.column_stack([t, R.reshape(-1, 9)])
+    np.savetxt(path, table, delimiter=",", header=f"# sigma = {NOISE}\nt,{names}", comments="")
+    return path
+
+
+def test_the_command_fits_a_file(tmp_path: Path) -> None:
+    """With sigma from its head, predictions, a figure, and JSON that holds the same numbers."""
+    file = written(tmp_path / "mine.csv")
+    words = ["fit", str(file), "--predict", "20", "--horizon", "0.1", "--figure", str(tmp_path / "mine.svg"), "--json"]
+    result = CliRunner().invoke(command, words, catch_exceptions=False)
+    found = json.loads(result.stdout)
+    assert abs(found["params"]["ratio"]["value"] - RATIO) < 5 * found["params"]["ratio"]["stderr"]
+    assert np.shape(found["predictions"][0]["value"]) == (3, 3)
+    assert found["horizon"] > 15
+    assert (tmp_path / "mine.svg").stat().st_size > 1000
+    assert found["sigma"] == NOISE
+
+
+@pytest.mark.parametrize(
+    ("rows", "words", "says"),
+    [
+        ("t,R11\n0,1\n", [], "5 times"),
+        ("t,q0\n0,1\n", [], "four columns"),
+        ("t,Omega1,Omega2,Omega3\n0,1,0,x\n", [], "not a number"),
+        ("t,Omega1\n" + "0,1\n" * 9, [], "no columns"),
+        ("t,Omega1,Omega2,Omega3\n" + "0,1,0,0\n" * 9, ["--of", "axis"], "no columns of axis"),
+        ("t,Omega1,Omega2,Omega3\n" + "0,1,0,0\n" * 9, ["--fix", "ratio"], "NAME=VALUE"),
+        ("t,Omega1,Omega2,Omega3\n" + "0,1,0,0\n" * 9, [], "All times are equal"),
+    ],
+)
+def test_a_bad_file_is_refused(tmp_path: Path, rows: str, words: list[str], says: str) -> None:
+    """By a line, as in `atlas check`."""
+    file = tmp_path / "bad.csv"
+    file.write_text(rows)
+    result = CliRunner().invoke(command, ["fit", str(file), *words])
+    assert result.exit_code != 0
+    assert says in f"{result.output} {result.exception}"
+
+
+def test_the_command_knows_the_families() -> None:
+    """Its names, which it lists without loading them, are those of the fit."""
+    from atlas.cli import fit
+    from atlas.study.fit import LOSSES
+    from atlas.study.fit.data import KINDS
+
+    assert set(fit.FAMILIES) == set(MODELS)
+    assert set(fit.KINDS) == {*KINDS, "signal"}
+    assert fit.LOSSES == LOSSES
