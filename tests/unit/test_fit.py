@@ -16,7 +16,7 @@ from atlas.study.fit.data import Data, of_arrays
 from atlas.study.fit.models import MODELS, model_of
 from atlas.study.fit.problem import Problem
 
-RATIO, FIELD, OMEGA = 1.3, (0.2, -0.4, 1.1), (0.5, 0.3, 1.7)
+RATIO, FIELD, OMEGA = 1.3, (0.2, -0.4, 1.1), (1.2, 0.3, 0.7)
 ATTITUDE = Rotation.from_rotvec([0.3, -0.2, 0.4])
 NOISE = 0.01
 

@@ -17,8 +17,8 @@ __all__ = ["Fit", "fit"]
 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
-GOOD, FOLLOWED = 1.5, 0.2
-"""Reduced chi square, and part of the spread of the data, below which a start has found the motion."""
+FOLLOWED = 0.2
+"""Part of the spread of the data within which a motion follows them."""
 
 GUESS = 0.02
 """Noise of which a robust loss takes the start, in parts of the spread of the data."""
@@ -142,8 +142,11 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
 def _good(problem: Problem, x: Any) -> bool:
     """Return whether the data are followed, up to noise."""
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
-    if problem.data.known and problem.reduced(r) < GOOD:
+    attitudes = problem.data.kind == "rotation"
+    if problem.data.known and problem.reduced(r) < 1 + (4 if attitudes else 1) * np.sqrt(2 / (r.size - len(x))):
         return True
+    if not attitudes:  # other data have false minima nearly as deep: all starts are followed
+        return False
     small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
     return bool(small and abs(lag(problem.data.t, r)) < 4 / np.sqrt(r.size))
 

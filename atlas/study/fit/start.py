@@ -22,6 +22,7 @@ LIMIT = 1.2
 """Turn between neighbours that are still compared."""
 
 STEPS, CORRECTIONS, DENSE, TRIALS, NEAR = 4, 3, 12, 15, 300
+APART, MOST = 0.4, 4
 
 Start = tuple[dict[str, float], float]
 """Parameters, and the time at which they hold."""
@@ -148,7 +149,7 @@ def _bodies(model: Model, fixed: Mapping[str, float]) -> list[tuple[float, float
 
 def _solved_body(
     near: Neighbours, bodies: list[tuple[float, float]], known: FloatArray, less: FloatArray
-) -> list[tuple[float, float, float, FloatArray]]:
+) -> list[tuple[float, FloatArray, float, float, FloatArray]]:
     """Return misfit, I1, I3 and field of bodies, the best first; `less` is the error of the equations, (m, 3, 3)."""
     tried, free = [], np.isnan(known)
     for I1, I3 in bodies:
@@ -156,7 +157,7 @@ def _solved_body(
         b = less - a - M[..., ~free] @ known[~free]
         field = known.copy()
         field[free], misfit = _solved(M[..., free], b)
-        tried.append((misfit / min(I1, 1.0, I3), I1, I3, field))
+        tried.append((misfit / min(I1, 1.0, I3), np.log([I1, I3]), I1, I3, field))
     return sorted(tried, key=lambda one: one[0])
 
 
@@ -166,13 +167,13 @@ def _from_attitudes(model: Model, data: Data, fixed: Mapping[str, float]) -> Ite
     near = Neighbours([data.t[x] for x in (l, i, r)], [data.values[x] for x in (l, i, r)])
     known = np.zeros(3) if model.name == "free" else np.array([fixed.get(name, np.nan) for name in B])
     for best in _distinct(_solved_body(near, _bodies(model, fixed), known, np.zeros(3))):
-        (_, I1, I3, field), omega = best, near.omega
+        (_, _, I1, I3, field), omega = best, near.omega
         for _ in range(CORRECTIONS):  # by the errors that the equations have for a motion of this body
             there = near.moved((I1, 1.0, I3), field, omega)
             omega = omega + near.omega - there.omega
             a, M = there.equation((I1, 1.0, I3))
             bodies = _beside(I1, I3, _bodies(model, fixed))
-            _, I1, I3, field = _solved_body(near, bodies, known, a + M @ field)[0]
+            _, _, I1, I3, field = _solved_body(near, bodies, known, a + M @ field)[0]
         which = _middle(data.t, near.t[1])
         values = {"ratio": I3, "I1": I1, "I3": I3, **dict(zip(B, field.tolist(), strict=True))}
         yield state(model, data.kind, values, near.R[1][which], omega[which]), float(near.t[1][which])
@@ -189,12 +190,12 @@ def _beside(I1: float, I3: float, bodies: list[tuple[float, float]]) -> list[tup
 
 
 def _distinct(tried: list[Any]) -> list[Any]:
-    """Return the best of what was tried, and others far from it."""
+    """Return the best of what was tried, each with its misfit and a place, and others far from it."""
     out: list[Any] = []
     for one in tried:
-        if all(abs(np.log(one[1] / x[1])) + abs(np.log(one[2] / x[2])) > 0.4 for x in out):
+        if all(abs(one[1] - x[1]).sum() > APART for x in out):
             out.append(one)
-    return out[:3]
+    return out[:MOST]
 
 
 def _middle(t: FloatArray, centres: FloatArray) -> int:
@@ -257,17 +258,17 @@ def _from_axes(model: Model, data: Data, _: Mapping[str, float]) -> Iterator[Sta
             slope = slope + _second(t, n)[0] - _second(t, moved)[0]
         return equation(x, moved)
 
-    found = []
+    found, scales = [], np.array([1.0, *[rate] * 4])
     rng = np.random.default_rng(0)
     for i in range(TRIALS):
         r, S = (1.0, 1.5, 0.6)[i % 3], rate * (0.0, 1.0, -1.0, 3.0, -3.0)[i % 5]
         first = np.array([r, S, *rng.normal(size=3) * rate / 2 * (i > 4)])
-        x, misfit = _corrected(lambda y: equation(y, n), less, first, np.array([1.0, *[rate] * 4]), 0)
+        x, misfit = _corrected(lambda y: equation(y, n), less, first, scales, 0)
         if 0.02 < x[0] < 2.5:
-            found.append((misfit, x[0], abs(x[1]) + rate, x))
+            found.append((misfit, x / scales, x))
     found.sort(key=lambda one: one[0])
-    for _, _, _, first in _distinct(found):
-        x, _ = _corrected(lambda y: equation(y, n), less, first, np.array([1.0, *[rate] * 4]))
+    for _, _, first in _distinct(found):
+        x, _ = _corrected(lambda y: equation(y, n), less, first, scales)
         x[0] = np.clip(x[0], 0.03, 1.97)
         R, omega = state_of(x, n, _second(t, n)[0])
         which = _middle(data.t, t[1])
@@ -343,9 +344,9 @@ def _from_fields(model: Model, data: Data, _: Mapping[str, float]) -> Iterator[S
     found = []
     for c3 in rate * np.linspace(-6, 6, 25):
         x, misfit = _corrected(lambda y: equation(y, K), less, np.array([1.0, c3]), np.array([1.0, rate]), 0)
-        found.append((misfit, np.clip(x[0], 0.03, 1.97), abs(x[1]) + rate, x))
+        found.append((misfit, x / np.array([1.0, rate]), x))
     found.sort(key=lambda one: one[0])
-    for _, _, _, first in _distinct(found):
+    for _, _, first in _distinct(found):
         x, _ = _corrected(lambda y: equation(y, K), less, first, np.array([1.0, rate]))
         which = _middle(data.t, t[1])
         values = {"ratio": float(np.clip(x[0], 0.03, 1.97)), **dict(zip(B, K[1][which].tolist(), strict=True))}
