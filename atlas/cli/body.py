@@ -115,6 +115,9 @@ any_body_options: Callable[[F], F] = stack(
 tensor_option: Callable[[F], F] = click.option(
     "--tensor", type=REAL, nargs=6, metavar="I11 I22 I33 I12 I13 I23", help="Inertia tensor in any axes of the body."
 )
+curve_option: Callable[[F], F] = click.option(
+    "--curve", is_flag=True, help="The spectral curve of a motion on a torus, its branch points, periods and so on."
+)
 attitude_option: Callable[[F], F] = click.option(
     "--attitude",
     type=REAL,

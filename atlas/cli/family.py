@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import click
 
-from atlas.cli.answers import IN_DOUBLES, along, answer, certificate, in_threes, samples, written
+from atlas.cli.answers import IN_DOUBLES, TABLE_DIGITS, along, answer, certificate, in_threes, samples, written
 from atlas.cli.body import (
     any_body_options,
     attitude_option,
@@ -19,6 +19,7 @@ from atlas.cli.body import (
     chosen_body,
     chosen_field,
     chosen_moments,
+    curve_option,
     exact_body,
     exact_field,
     exact_moments,
@@ -188,7 +189,7 @@ def _made(family: Family, described: Described) -> click.Command:
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = _parameters(family, options)
-        if _shown_in_doubles(family, described, options, parameters, times):
+        if _shown_otherwise(family, described, options, parameters, times):
             return
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
@@ -205,10 +206,16 @@ class Carrying(Command):
     carries = True
 
 
-def _shown_in_doubles(
+def _shown_otherwise(
     family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
 ) -> bool:
-    """Print what no certified twin has, of uncertain numbers or in given axes; return whether it is such."""
+    """Print what stands in no list of quantities, or no twin has: a curve, uncertain numbers, a motion in given axes.
+
+    Return whether it is such.
+    """
+    if options.get("curve"):
+        _show_curve(family, options, parameters)
+        return True
     if uncertain(options):
         _with_sigma(family, described, options, parameters, times)
         return True
@@ -216,6 +223,24 @@ def _shown_in_doubles(
     if made is not None:
         _in_doubles(made, options, parameters, times)
     return made is not None
+
+
+def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, Any]) -> None:
+    """Print the spectral curve of a motion on a torus."""
+    from atlas.exact.motions.spectral_curve import SpectralCurve
+
+    if uncertain(options) or motion_in_given_axes(options):
+        raise click.UsageError("--curve is proven: it goes with numbers without an uncertainty, along principal axes.")
+    curve = SpectralCurve(family.balls()(*values_of(family, options, exact=True)))
+    found = curve.record(options["digits"] or TABLE_DIGITS)
+    if options["as_json"]:
+        dump({"parameters": parameters, "curve": found})
+        return
+    guessed = found.pop("not_proved")
+    notes = ["The numbers are proven, but for " + ", ".join(name.replace("_", " ") for name in guessed) + "."]
+    click.echo(
+        "\n".join([*(f"{name} = {value}" for name, value in (found | guessed).items()), *notes]).replace("'", "")
+    )
 
 
 def _with_sigma(
@@ -391,7 +416,7 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
         *([spin_option] if family.name in STARTED else []),
-        *([tensor_option, attitude_option] if family.name == "asymmetric" else []),
+        *([tensor_option, attitude_option, curve_option] if family.name == "asymmetric" else []),
         *([top_options] if ways else []),
         *([charge_options, units_option] if "c" in names else []),
     ]

@@ -108,6 +108,7 @@ CASES = [
     ("motion --ratio 1.3 --field 2(1) --angle 1 --omega2 0.3", "give its two components"),
     ("page --ratio 1.3(1) --field 1 2 --omega2 0.3", "motions carry it"),
     ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --spectrum axis --digits 9", "--spectrum is computed in doubles"),
+    ("motion --inertia 1(1) 2 2.5 --field 1 2 3 --spin 1 --curve", "--curve is proven"),
     ("explore top --ratio 1", "those of atlas motion stand alone"),
     ("motion --tensor 1 1 1 0 0 0.1 --field 0 0 1 --spin 1 --digits 9", "go with principal axes, and the unit matrix"),
     ("motion --inertia 5 3 6 --field 0 1 2 --mu 1 --omega 1 2 3", "--mu goes with --magnetic only"),

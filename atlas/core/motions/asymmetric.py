@@ -268,6 +268,20 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         found = self._of_each(lambda one: [_float(x) for x in enclosed(lambda: one.exact.frequencies, BITS)])
         return np.asarray(finite(np.array(found), "A frequency"))
 
+    @property
+    def curve(self) -> Any:
+        """Spectral curve of one motion on a torus, with proven branch points, periods, frequencies, winding numbers.
+
+        `curve.record(digits)` has all of it as texts of so many digits, also the rational coefficients, and, not
+        proved, the Riemann matrix and the characteristics of the theta functions; see `SpectralCurve`. DomainError for
+        a motion without a torus, AtlasError for an array of them.
+        """
+        from atlas.exact.motions.spectral_curve import SpectralCurve
+
+        if self.shape:
+            raise AtlasError(f"A spectral curve is that of one motion, not of an array of them, of shape {self.shape}.")
+        return SpectralCurve(self._of_each(lambda one: one.exact))
+
     @kept
     def riemann_matrix(self) -> Any:
         """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0, shape (..., 2, 2).

@@ -1,0 +1,137 @@
+"""The spectral curve of a motion on a torus, and what belongs to it, theorem-clebsch: for whoever goes on with it.
+
+Over the body's curve v^2 = P(z) = prod(z + D/I_i) it is eta^2 = g(z) + 2 c v, with g = K^2 z^2 + (F + e2 K^2) z + 2 D H,
+c = (M, K), D = I1 I2 I3, e2 = I1 I2 + I1 I3 + I2 I3: of genus 3, with an involution eta -> -eta, whose Prym variety of
+type (1, 2) is the torus. Its branch points over that curve are the zeros of g + 2 c v: z a root of g^2 - 4 c^2 P, and
+v = -g/2c. All coefficients are rational, of the inputs as doubles or decimals.
+"""
+
+from functools import cached_property
+from typing import Any
+
+from flint import acb, arb, fmpq, fmpq_poly, fmpz_poly
+
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.exact.digits import certified
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.clebsch_periods import Integrals
+from atlas.exact.motions.clebsch_theta import ThetaMotion
+from atlas.exact.motions.theta_sums import CHARACTERISTICS
+from atlas.formulas.numbers import workprec
+
+APPROXIMATE = 30
+"""Digits of the Riemann matrix, which is computed to some 50 and not proved."""
+
+RIEMANN_BITS = 200
+
+
+class SpectralCurve:
+    """The curve of one motion. `record(digits)` has all of it as texts; DomainError for a motion without a torus."""
+
+    def __init__(self, motion: AsymmetricMotion) -> None:
+        if motion.on_torus is None:
+            raise DomainError(f"There is no torus with a spectral curve: the motion is {motion.kind}.")
+        self.motion, self.torus = motion, motion.on_torus.torus
+        self.integrals: Integrals = motion.invariants
+
+    @property
+    def quartic(self) -> fmpq_poly:
+        """g^2 - 4 c^2 P, of which the branch points are the roots; g itself, where c = 0."""
+        i = self.integrals
+        return i.g * i.g - 4 * i.c * i.c * i.P if i.c else i.g
+
+    @property
+    def branch_points(self) -> list[tuple[acb, acb]]:
+        """(z, v) of the four zeros of g + 2 c v, in balls."""
+        i, numerator = self.integrals, self.quartic
+        roots = [z for z, _ in fmpz_poly(numerator.numer()).complex_roots()]
+        if i.c:
+            return [(z, -_at(i.g, z) / arb(2 * i.c)) for z in roots]
+        return [(z, sign * _at(i.P, z).sqrt()) for z in roots for sign in (1, -1)]
+
+    @property
+    def periods(self) -> list[list[arb]]:
+        """(T_H, T_F, turn) of two periods: flowing H for T_H and F/2 for T_F brings M and K back; R is turned about B.
+
+        The turn is that in Larmor's frame. NotCertifiedError where none are proved.
+        """
+        made = self.motion.on_torus
+        assert made is not None  # as is asked at the start
+        unit = self.motion.inertia[0] / made.moments[0]
+        found = self.torus.periods(_bits())
+        return [[p.H / made.rate, p.F / (made.rate * unit), p.angle] for p in found]
+
+    @property
+    def winding_numbers(self) -> list[Any]:
+        """f2/f1 and f3/f1."""
+        f1, f2, f3 = self.motion.frequencies
+        return [f2 / f1, f3 / f1]
+
+    @cached_property
+    def theta(self) -> ThetaMotion:
+        """The theta functions of the motion, approximate."""
+        return ThetaMotion(self.torus.integrals, self.torus.W, self.torus.K, self.torus.lattice)
+
+    def record(self, digits: int = 20) -> dict[str, Any]:
+        """Return the curve by name: rational coefficients, lowest first, and numbers of so many proven digits.
+
+        A complex number is a pair. Under `not_proved` stand the Riemann matrix, whose symmetric parts are theirs to 30
+        digits, and the characteristics [e; d] of the theta functions of K and M; or why there are none.
+        """
+        i = self.integrals
+        found = certified(self._proven, digits)
+        return {
+            "curve": "eta^2 = g(z) + 2*c*v, v^2 = P(z)",
+            "g": _texts(i.g), "c": str(i.c), "P": _texts(i.P), "quartic": _texts(self.quartic),
+            "body_branch_points": [str(-i.D / I) for I in i.moments],
+            **found,
+            "not_proved": self._approximate(),
+        }  # fmt: skip
+
+    def _proven(self) -> dict[str, Any]:
+        return {
+            "branch_points": [[[z.real, z.imag], [v.real, v.imag]] for z, v in self.branch_points],
+            "periods": self.periods,
+            "frequencies": self.motion.frequencies,
+            "winding_numbers": self.winding_numbers,
+        }
+
+    def _approximate(self) -> dict[str, Any]:
+        try:
+            with workprec(RIEMANN_BITS):
+                tau = self.theta.tau
+                matrix = [[_complex(tau[j, k]) for k in range(2)] for j in range(2)]
+            forms = {"denominator": self.theta.denominator}
+            forms |= {f"{name}{j + 1}": one for name, several in (("K", self.theta.K), ("M", self.theta.M))
+                      for j, one in enumerate(several)}  # fmt: skip
+            return {
+                "riemann_matrix": matrix,
+                "characteristics": {name: list(CHARACTERISTICS[one.place]) for name, one in forms.items()},
+            }
+        except NotCertifiedError as reason:
+            return {"missing": str(reason)}
+
+
+def _at(polynomial: fmpq_poly, z: acb) -> acb:
+    """Return the value of a polynomial, by Horner's rule."""
+    value = acb(0)
+    for x in reversed(polynomial.coeffs()):
+        value = value * z + arb(x)
+    return value
+
+
+def _bits() -> int:
+    from flint import ctx
+
+    return int(ctx.prec) + 32
+
+
+def _texts(polynomial: fmpq_poly) -> list[str]:
+    """Return coefficients, lowest first."""
+    return [str(fmpq(x)) for x in polynomial.coeffs()]
+
+
+def _complex(x: acb) -> list[str]:
+    """Return real and imaginary part, to so many digits as are right; what symmetry makes zero is zero."""
+    parts = (x.real, x.imag)
+    return ["0" if abs(y) < arb(2) ** -100 else arb(y.mid()).str(APPROXIMATE, radius=False) for y in parts]
