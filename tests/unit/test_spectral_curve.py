@@ -61,7 +61,7 @@ def test_periods_and_frequencies_belong_together(found: dict[str, Any]) -> None:
 
 
 def test_the_riemann_matrix_is_that_of_the_motion(found: dict[str, Any]) -> None:
-    """It is symmetric with a positive imaginary part, the one that the kernel sums with; it is said not to be proved."""
+    """It is symmetric with a positive imaginary part, the one that the kernel sums with; it is not called proved."""
     tau = np.array([[complex(complex_of(x)) for x in row] for row in found["not_proved"]["riemann_matrix"]])
     assert tau == pytest.approx(tau.T, abs=1e-28)
     assert (np.linalg.eigvalsh(tau.imag) > 0).all()

@@ -1,23 +1,25 @@
 """The spectral curve of a motion on a torus, and what belongs to it, theorem-clebsch: for whoever goes on with it.
 
-Over the body's curve v^2 = P(z) = prod(z + D/I_i) it is eta^2 = g(z) + 2 c v, with g = K^2 z^2 + (F + e2 K^2) z + 2 D H,
+Over the body's curve v^2 = P(z) = prod(z + D/I_i) it is eta^2 = g(z) + 2 c v, g = K^2 z^2 + (F + e2 K^2) z + 2 D H,
 c = (M, K), D = I1 I2 I3, e2 = I1 I2 + I1 I3 + I2 I3: of genus 3, with an involution eta -> -eta, whose Prym variety of
 type (1, 2) is the torus. Its branch points over that curve are the zeros of g + 2 c v: z a root of g^2 - 4 c^2 P, and
 v = -g/2c. All coefficients are rational, of the inputs as doubles or decimals.
 """
 
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb, fmpq, fmpq_poly, fmpz_poly
 
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.digits import certified
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.clebsch_periods import Integrals
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import CHARACTERISTICS
 from atlas.formulas.numbers import workprec
+
+if TYPE_CHECKING:
+    from atlas.exact.motions.clebsch_periods import Integrals
 
 APPROXIMATE = 30
 """Digits of the Riemann matrix, which is computed to some 50 and not proved."""
@@ -29,9 +31,10 @@ class SpectralCurve:
     """The curve of one motion. `record(digits)` has all of it as texts; DomainError for a motion without a torus."""
 
     def __init__(self, motion: AsymmetricMotion) -> None:
-        if motion.on_torus is None:
+        on = motion.on_torus
+        if on is None:
             raise DomainError(f"There is no torus with a spectral curve: the motion is {motion.kind}.")
-        self.motion, self.torus = motion, motion.on_torus.torus
+        self.motion, self.torus, self.rate, self.unit = motion, on.torus, on.rate, motion.inertia[0] / on.moments[0]
         self.integrals: Integrals = motion.invariants
 
     @property
@@ -55,11 +58,8 @@ class SpectralCurve:
 
         The turn is that in Larmor's frame. NotCertifiedError where none are proved.
         """
-        made = self.motion.on_torus
-        assert made is not None  # as is asked at the start
-        unit = self.motion.inertia[0] / made.moments[0]
         found = self.torus.periods(_bits())
-        return [[p.H / made.rate, p.F / (made.rate * unit), p.angle] for p in found]
+        return [[p.H / self.rate, p.F / (self.rate * self.unit), p.angle] for p in found]
 
     @property
     def winding_numbers(self) -> list[Any]:
