@@ -142,6 +142,22 @@ class Tie:
         return f"{self.quantity} {self.names}"
 
 
+def of(make: Callable[[Any, Any], Any], points: Sequence[Any], at: str = "t") -> Callable[..., Tie]:
+    """Return what makes ties of an object's own quantities, read as they are, a method at the value of a letter.
+
+    make      (floor, point) -> the object
+    """
+
+    def tie(quantity: str, names: str, truth: Any, points: Sequence[Any] = points, **more: Any) -> Tie:
+        def read(floor: Any, point: Any) -> Any:
+            found = getattr(make(floor, point), quantity.partition(".")[2])
+            return found(getattr(point, at)) if callable(found) else found
+
+        return Tie(quantity, names, read, truth, points, **more)
+
+    return tie
+
+
 GRID = (0.7, 0.31, 3)
 """Start, step and count of the times at which a grid is compared."""
 

@@ -1,13 +1,12 @@
 """Charged ball: core and exact say what the ledger's (26) to (30) say."""
 
-from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, matrices, signed, unit
+from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, matrices, of, signed, unit
 
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.motions import ball
@@ -23,7 +22,6 @@ def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
 
 
 POINTS = launches(38, 8)
-at_points = partial(Tie, points=POINTS)
 ALONG = launches(40, 5, along=True)
 REST = [SimpleNamespace(I0=1.5, alpha=alpha, m2=0.0, m3=-1.5 * alpha, t=3.1) for alpha in (0.75, -2.0)]
 SAME_SENSE = [p for p in launches(41, 40, along=True) if p.alpha > 0 and p.m3 > 0][:5]
@@ -56,69 +54,39 @@ def spin(say: Ledger, p: Any) -> Any:
 
 MATRIX = "(28) (29)"
 
+of_motion = of(motion, POINTS)
+
 TIES = (
-    at_points("BallMotion.gamma", "(29)", lambda f, p: motion(f, p).gamma, lambda say, p: constants(say, p)["gamma"]),
-    Tie(
+    of_motion("BallMotion.gamma", "(29)", lambda say, p: constants(say, p)["gamma"]),
+    of_motion(
         "BallMotion.gamma",
         "text-ball-parallel",
-        lambda f, p: motion(f, p).gamma,
         lambda say, p: say("text-ball-parallel", "gamma", **letters(p, "alpha m3 I0")),
         [*SAME_SENSE, *REST],
     ),
-    at_points(
-        "BallMotion.k_hat",
-        "(29)",
-        lambda f, p: motion(f, p).k_hat,
-        lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
-        size=length,
+    of_motion(
+        "BallMotion.k_hat", "(29)", lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")], size=length
     ),
-    Tie(
-        "BallMotion.k_hat",
-        "(29)",
-        lambda f, p: motion(f, p).k_hat,
-        lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
-        ALONG,
-    ),
-    Tie(
+    of_motion("BallMotion.k_hat", "(29)", lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")], ALONG),
+    of_motion(
         "BallMotion.k_hat",
         "text-ball-parallel",
-        lambda f, p: motion(f, p).k_hat,
         lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "k3")],
         SAME_SENSE,
     ),
     *matrices("BallMotion", MATRIX, motion, rotation, POINTS),
-    Tie(
-        "BallMotion.rotation",
-        "(30)",
-        lambda f, p: motion(f, p).rotation(p.t),
-        lambda say, p: say("(30)", "R", **letters(p, "m3 I0 t")),
-        ALONG,
-        size=unit,
+    of_motion(
+        "BallMotion.rotation", "(30)", lambda say, p: say("(30)", "R", **letters(p, "m3 I0 t")), ALONG, size=unit
     ),
-    Tie(
+    of_motion(
         "BallMotion.rotation",
         "theorem-ball-rest",
-        lambda f, p: motion(f, p).rotation(p.t),
         lambda say, p: say("theorem-ball-rest", "R", **letters(p, "alpha t")),
         REST,
         size=unit,
     ),
-    Tie(
-        "BallMotion.angular_momentum",
-        "(26)",
-        lambda f, p: motion(f, p).angular_momentum(p.t),
-        momentum,
-        [*POINTS, *ALONG, *REST],
-        size=length,
-    ),
-    at_points(
-        "BallMotion.angular_velocity",
-        f"{MATRIX} (26)",
-        lambda f, p: motion(f, p).angular_velocity(p.t),
-        spin,
-        size=length,
-        ulps=8,
-    ),
+    of_motion("BallMotion.angular_momentum", "(26)", momentum, [*POINTS, *ALONG, *REST], size=length),
+    of_motion("BallMotion.angular_velocity", f"{MATRIX} (26)", spin, size=length, ulps=8),
 )
 
 

@@ -17,6 +17,7 @@ from agreement import (
     length,
     letters,
     matrices,
+    of,
     rotation,
     unit,
     unit_field,
@@ -27,8 +28,6 @@ from atlas.formulas import elementary as formulas
 from atlas.proof.ball import rodrigues
 
 POINTS = bodies(76, 8)
-at_points = partial(Tie, points=POINTS)
-in_core = partial(Tie, points=POINTS, floors=("core",))
 REST = bodies(90, 1, omega=(0.0, 0.0, 0.0))
 BALL = bodies(1, 4, body=1.0, omega=lambda p: (0.0, -p.B2, p.omega[2]))
 EQUATOR = bodies(2, 4, B3=0.0, omega=lambda p: (0.0, -p.B2, p.omega[2]))
@@ -161,126 +160,80 @@ TWO_TURNS = "(85) text-precession"
 MATRIX = f"{CONSTANTS} (84)"
 FREE_LABELS = "(87) text-free-frequency"
 
+of_motion, of_spun, of_free = of(motion, POINTS), of(with_spin, POINTS), of(free, SPINS)
+
 PRECESSION = (
     *(
-        Tie(
-            f"ElementaryMotion.{name}",
-            CONSTANTS,
-            lambda f, p, name=name: getattr(motion(f, p), name),
-            lambda say, p, name=name: elementary(say, p)[name],
-            [*POINTS, *REST],
+        of_motion(
+            f"ElementaryMotion.{name}", CONSTANTS, lambda say, p, name=name: elementary(say, p)[name], [*POINTS, *REST]
         )
         for name in ("omega3", "k", "phi")
     ),
-    at_points(
-        "ElementaryMotion.period",
-        CONSTANTS,
-        lambda f, p: motion(f, p).period,
-        lambda say, p: 2 * sympy.pi / abs(elementary(say, p)["k"]),
-    ),
+    of_motion("ElementaryMotion.period", CONSTANTS, lambda say, p: 2 * sympy.pi / abs(elementary(say, p)["k"])),
     *matrices("ElementaryMotion", MATRIX, motion, rotation, [*POINTS, *REST], ("core", "exact")),
-    at_points(
-        "ElementaryMotion.quaternion", MATRIX, quaternion_rotation, lambda say, p: rotation(say, p, p.t), size=unit
+    Tie(
+        "ElementaryMotion.quaternion",
+        MATRIX,
+        quaternion_rotation,
+        lambda say, p: rotation(say, p, p.t),
+        POINTS,
+        size=unit,
     ),
-    at_points("ElementaryMotion.axis", "(77)", lambda f, p: motion(f, p).axis, axis, floors=("exact",)),
-    at_points(
-        "ElementaryMotion.angular_velocity",
-        f"{CONSTANTS} (73)",
-        lambda f, p: motion(f, p).angular_velocity(p.t),
-        lambda say, p: spin(say, p, p.t),
-        size=length,
-    ),
-    at_points(
-        "ElementaryMotion.field_in_body",
-        f"{CONSTANTS} (73) (62) (60)",
-        lambda f, p: motion(f, p).field_in_body(p.t),
-        field,
-        size=length,
-    ),
-    at_points(
-        "ElementaryMotion.field_in_body",
-        f"{MATRIX} (32)",
-        lambda f, p: motion(f, p).field_in_body(p.t),
-        field_seen,
-        size=length,
-    ),
-    at_points(
+    of_motion("ElementaryMotion.axis", "(77)", axis, floors=("exact",)),
+    of_motion("ElementaryMotion.angular_velocity", f"{CONSTANTS} (73)", lambda say, p: spin(say, p, p.t), size=length),
+    of_motion("ElementaryMotion.field_in_body", f"{CONSTANTS} (73) (62) (60)", field, size=length),
+    of_motion("ElementaryMotion.field_in_body", f"{MATRIX} (32)", field_seen, size=length),
+    of_motion(
         "ElementaryMotion.angular_momentum",
         f"{MATRIX} (73) text-momentum",
-        lambda f, p: motion(f, p).angular_momentum(p.t),
         lambda say, p: momentum(say, p, p.t),
         size=length,
     ),
-    at_points(
+    of_motion(
         "ElementaryMotion.invariants",
         f"{MATRIX} (36) (37) (40) (41) (73) (88) text-momentum",
-        lambda f, p: motion(f, p).invariants(p.t),
         invariants,
         size=strongest,
         ulps=8,
-        exact=lambda f, p: motion(f, p).invariants,
     ),
-    in_core(
+    Tie(
         "ElementaryMotion.beside",
         "text-affirmation-free",
         lambda f, p: motion(f, p).beside.angular_velocity(0.0),
         lambda say, p: say("text-affirmation-free", "at0(Omega)", **letters(p, "omega2 I2 I3 B2 B3")),
+        POINTS,
         size=length,
+        floors=("core",),
     ),
 )
 
 SPECIAL = (
     *(
-        Tie(
-            f"ElementaryMotion.{name}",
-            entry,
-            lambda f, p, name=name: getattr(with_spin(f, p), name),
-            lambda say, p, name=name: lost_constants(say, p)[name],
-            points,
-        )
+        of_spun(f"ElementaryMotion.{name}", entry, lambda say, p, name=name: lost_constants(say, p)[name], points)
         for name in ("k", "phi")
         for points, entry in LOST
     ),
     *(
-        Tie(
-            "ElementaryMotion.rotation",
-            f"{entry} {TWO_TURNS}",
-            lambda f, p: with_spin(f, p).rotation(p.t),
-            lost_rotation,
-            points,
-            size=unit,
-        )
+        of_spun("ElementaryMotion.rotation", f"{entry} {TWO_TURNS}", lost_rotation, points, size=unit)
         for points, entry in LOST
     ),
     *(
-        Tie(
-            f"ElementaryMotion.{name}",
-            FREE_LABELS,
-            lambda f, p, name=name: getattr(with_spin(f, p), name),
-            lambda say, p, name=name: free_constants(say, p)[name],
-            FREE,
-        )
+        of_spun(f"ElementaryMotion.{name}", FREE_LABELS, lambda say, p, name=name: free_constants(say, p)[name], FREE)
         for name in ("k", "phi")
     ),
-    Tie(
-        "FreeMotion.period",
-        FREE_LABELS,
-        lambda f, p: free(f, p).period,
-        lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["k"]),
-        SPINS,
+    of_free(
+        "FreeMotion.period", FREE_LABELS, lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["k"])
     ),
-    Tie(
+    of_spun(
         "ElementaryMotion.rotation",
         f"{FREE_LABELS} {TWO_TURNS}",
-        lambda f, p: with_spin(f, p).rotation(p.t),
         lambda say, p: free_rotation(say, p, p.t),
         FREE,
         size=unit,
     ),
-    Tie(
+    of_spun(
         "ElementaryMotion.rotation",
         TWO_TURNS,
-        lambda f, p: with_spin(f, p).rotation(p.t),
         lambda say, p: two_turns(say, sympy.Matrix([0, 0, 1]), 0, p.omega3, p.t),
         ALONG,
         size=unit,
@@ -289,24 +242,11 @@ SPECIAL = (
 
 ALONE = (
     *(
-        Tie(
-            f"FreeMotion.{name}",
-            FREE_LABELS,
-            lambda f, p, name=name: getattr(free(f, p), name),
-            lambda say, p, name=name: free_constants(say, p, whole=True)[name],
-            SPINS,
-        )
+        of_free(f"FreeMotion.{name}", FREE_LABELS, lambda say, p, name=name: free_constants(say, p, whole=True)[name])
         for name in ("k", "phi")
     ),
     *matrices("FreeMotion", f"{FREE_LABELS} {TWO_TURNS}", free, partial(free_rotation, whole=True), SPINS),
-    Tie(
-        "FreeMotion.angular_velocity",
-        f"{FREE_LABELS} {TWO_TURNS} text-momentum",
-        lambda f, p: free(f, p).angular_velocity(p.t),
-        free_spin,
-        SPINS,
-        size=length,
-    ),
+    of_free("FreeMotion.angular_velocity", f"{FREE_LABELS} {TWO_TURNS} text-momentum", free_spin, size=length),
 )
 
 TIES = (*PRECESSION, *SPECIAL, *ALONE)

@@ -1,12 +1,11 @@
 """Hyperbola: core and exact say what the ledger's (67) to (79) and the theorems on stability say."""
 
 import dataclasses
-from functools import partial
 from typing import Any
 
 import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters
+from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters, of
 
 from atlas.core.surfaces import hyperbola
 from atlas.formulas import hyperbola as formulas
@@ -15,7 +14,6 @@ from atlas.proof import formula
 from atlas.proof.run import trial
 
 POINTS = bodies(72, 8)
-at_points = partial(Tie, points=POINTS)
 BAND = [*bodies(8, 3, body=0.3, B3=lambda p: p.B2 / 4), *bodies(9, 3, body=0.85, B3=lambda p: -p.B2 / 9)]
 FOLDED = [p for p in [*POINTS, *BAND] if p.I != 1 and p.B3]
 """Points whose curve has a least stability, and not at the pole."""
@@ -88,35 +86,19 @@ def curve(f: Floor, p: Any) -> Any:
     return f.Hyperbola(p.body, p.field)
 
 
+of_curve = of(curve, POINTS, at="omega2")
+
 TIES = (
-    at_points(
-        "Hyperbola.omega3", "(71)", lambda f, p: curve(f, p).omega3(p.omega2), lambda say, p: ordinate(say, p, p.omega2)
+    of_curve("Hyperbola.omega3", "(71)", lambda say, p: ordinate(say, p, p.omega2)),
+    of_curve(
+        "Hyperbola.frequencies", "(71) (72) (79)", lambda say, p: [elementary(say, p)[name] for name in ("k", "phi")]
     ),
-    at_points(
-        "Hyperbola.frequencies",
-        "(71) (72) (79)",
-        lambda f, p: curve(f, p).frequencies(p.omega2),
-        lambda say, p: [elementary(say, p)[name] for name in ("k", "phi")],
-    ),
-    at_points("Hyperbola.pole", "(71)", lambda f, p: curve(f, p).pole, pole),
-    at_points("Hyperbola.special", "(71) (72)", lambda f, p: curve(f, p).special, special),
-    at_points("Hyperbola.asymptotes", "(67)", lambda f, p: curve(f, p).asymptotes, asymptotes),
-    Tie(
-        "Hyperbola.stability",
-        "theorem-stability",
-        lambda f, p: curve(f, p).stability(p.omega2),
-        stability,
-        [*POINTS, *BAND],
-    ),
-    Tie(
-        "Hyperbola.least_stability",
-        "theorem-stability",
-        lambda f, p: curve(f, p).least_stability,
-        least,
-        FOLDED,
-        floors=("core",),
-    ),
-    Tie("Hyperbola.unstable_band", "theorem-band", lambda f, p: curve(f, p).unstable_band, band, BAND),
+    of_curve("Hyperbola.pole", "(71)", pole),
+    of_curve("Hyperbola.special", "(71) (72)", special),
+    of_curve("Hyperbola.asymptotes", "(67)", asymptotes),
+    of_curve("Hyperbola.stability", "theorem-stability", stability, [*POINTS, *BAND]),
+    of_curve("Hyperbola.least_stability", "theorem-stability", least, FOLDED, floors=("core",)),
+    of_curve("Hyperbola.unstable_band", "theorem-band", band, BAND),
     Tie(
         "Hyperbola.sample",
         "(71)",

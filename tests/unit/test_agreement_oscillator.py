@@ -5,13 +5,12 @@ from typing import Any
 
 import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, power
+from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, of, power
 
 from atlas.core.motions import pseudo_oscillator
 from atlas.core.motions.integrals import Integrals
 
 POINTS = bodies(55, 8)
-at_points = partial(Tie, points=POINTS)
 in_core = partial(Tie, points=POINTS, floors=("core",))
 MOVING = bodies(50, 8, u=lambda p: p.omega[2])
 """States with Omega3 = u."""
@@ -107,6 +106,8 @@ def spin(say: Ledger, p: Any) -> list[Any]:
 
 INTEGRALS = "(36) (37) (40) (41)"
 
+of_oscillator = of(oscillator, POINTS, at="u")
+
 TIES = (
     in_core(
         "integrals.integrals",
@@ -121,41 +122,31 @@ TIES = (
         lambda f, p: f.integrals.shape_factors(p.body),
         lambda say, p: [n + s * say("(33)", "I", I3=p.I3, I2=p.I2) for n, s in ((0, 1), (1, -1), (2, -1))],
     ),
-    at_points(
-        "PseudoOscillator.integrals",
-        INTEGRALS,
-        lambda f, p: oscillator(f, p).integrals,
-        lambda say, p: at_start(say, p).values(),
-        size=power(2),
-    ),
-    at_points(
+    of_oscillator("PseudoOscillator.integrals", INTEGRALS, lambda say, p: at_start(say, p).values(), size=power(2)),
+    of_oscillator(
         "PseudoOscillator.coefficients",
         f"{INTEGRALS} (48)",
-        lambda f, p: oscillator(f, p).coefficients,
         lambda say, p: cubic(say, p, at_start(say, p)).values(),
         size=power(3),
         ulps=16,
     ),
-    at_points(
+    of_oscillator(
         "PseudoOscillator.quartic_coefficients",
         f"{INTEGRALS} theorem-quartic",
-        lambda f, p: oscillator(f, p).quartic_coefficients,
         lambda say, p: powers(quartic(say, p, sympy.Symbol("u"), at_start(say, p)), sympy.Symbol("u")),
         size=power(4),
         ulps=16,
     ),
-    at_points(
+    of_oscillator(
         "PseudoOscillator.acceleration",
         f"{INTEGRALS} (47) (48)",
-        lambda f, p: oscillator(f, p).acceleration(p.u),
         lambda say, p: acceleration(say, p, p.u),
         size=power(3),
         ulps=16,
     ),
-    at_points(
+    of_oscillator(
         "PseudoOscillator.acceleration",
         "(37) (49)",
-        lambda f, p: oscillator(f, p).acceleration(p.u),
         lambda say, p: say(
             "(49)",
             "ddOmega3",
@@ -166,18 +157,12 @@ TIES = (
         size=power(3),
         ulps=16,
     ),
-    in_core(
-        "PseudoOscillator.stiffness",
-        f"{INTEGRALS} (47) (48)",
-        lambda f, p: oscillator(f, p).stiffness(p.u),
-        stiffness,
-        size=power(2),
-        ulps=64,
+    of_oscillator(
+        "PseudoOscillator.stiffness", f"{INTEGRALS} (47) (48)", stiffness, size=power(2), ulps=64, floors=("core",)
     ),
-    at_points(
+    of_oscillator(
         "PseudoOscillator.quartic",
         f"{INTEGRALS} theorem-quartic",
-        lambda f, p: oscillator(f, p).quartic(p.u),
         lambda say, p: quartic(say, p, p.u, at_start(say, p)),
         size=power(4),
         ulps=64,

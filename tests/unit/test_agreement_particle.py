@@ -1,6 +1,5 @@
 """Point particle and flight: core and exact say what the ledger's (89) to (99) say, for either sign of the charge."""
 
-from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,6 +16,7 @@ from agreement import (
     each,
     elementary,
     length,
+    of,
     rotation,
     signed,
     unit,
@@ -40,8 +40,6 @@ def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
 
 
 POINTS = launches(10, 8)
-at_points = partial(Tie, points=POINTS)
-in_core = partial(Tie, points=POINTS, floors=("core",))
 DARK = launches(2, 3, B=(0.0, 0.0, 0.0))
 BODIES = bodies(
     17,
@@ -198,66 +196,36 @@ ACROSS = "(90) (97) (98) text-drift-direction"
 PATH = f"{ACROSS} (93) (101)"
 MATRIX = "(71) (72) (79) (84)"
 
+of_motion, of_flight = of(motion, POINTS), of(flight, BODIES)
+
 TIES = (
-    at_points("ParticleMotion.cyclotron_frequency", "(97)", lambda f, p: motion(f, p).cyclotron_frequency, frequency),
-    at_points(
-        "ParticleMotion.period",
-        "(97)",
-        lambda f, p: motion(f, p).period,
-        lambda say, p: 2 * sympy.pi / abs(frequency(say, p)),
+    of_motion("ParticleMotion.cyclotron_frequency", "(97)", frequency),
+    of_motion("ParticleMotion.period", "(97)", lambda say, p: 2 * sympy.pi / abs(frequency(say, p))),
+    of_motion(
+        "ParticleMotion.prime", "(32)", lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B), floors=("core",)
     ),
-    in_core(
-        "ParticleMotion.prime",
-        "(32)",
-        lambda f, p: motion(f, p).prime,
-        lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
-    ),
-    at_points("ParticleMotion.drift", "text-drift", lambda f, p: motion(f, p).drift, drift, size=length),
-    at_points("ParticleMotion.radius", ACROSS, lambda f, p: motion(f, p).radius, lambda say, p: circle(say, p)[0]),
-    in_core("ParticleMotion.axes", "text-drift-direction", lambda f, p: motion(f, p).axes, frame, size=unit),
-    at_points("ParticleMotion.position", PATH, lambda f, p: motion(f, p).position(p.t), place, size=travelled),
+    of_motion("ParticleMotion.drift", "text-drift", drift, size=length),
+    of_motion("ParticleMotion.radius", ACROSS, lambda say, p: circle(say, p)[0]),
+    of_motion("ParticleMotion.axes", "text-drift-direction", frame, size=unit, floors=("core",)),
+    of_motion("ParticleMotion.position", PATH, place, size=travelled),
+    of_motion("ParticleMotion.position", "text-no-magnetic-field", fall, DARK, size=travelled),
+    of_motion("ParticleMotion.velocity", PATH, velocity, size=quick, ulps=8),
+    of_motion("ParticleMotion.guiding_centre", PATH, centre, size=travelled),
     Tie(
-        "ParticleMotion.position",
-        "text-no-magnetic-field",
-        lambda f, p: motion(f, p).position(p.t),
-        fall,
-        DARK,
-        size=travelled,
-    ),
-    at_points("ParticleMotion.velocity", PATH, lambda f, p: motion(f, p).velocity(p.t), velocity, size=quick, ulps=8),
-    at_points(
-        "ParticleMotion.guiding_centre", PATH, lambda f, p: motion(f, p).guiding_centre(p.t), centre, size=travelled
-    ),
-    in_core(
         "ParticleMotion.trochoid",
         "(93) (97) (101) (99) text-drift-direction",
         lambda f, p: f.ParticleMotion.trochoid(p.mu, p.E, p.B, p.a, p.c).position(p.t),
         trochoid,
+        POINTS,
         size=travelled,
-    ),
-    Tie(
-        "Flight.arm",
-        MATRIX,
-        lambda f, p: flight(f, p).arm(p.t),
-        turned,
-        BODIES,
-        size=length,
         floors=("core",),
     ),
-    Tie(
-        "Flight.position",
-        f"{PATH} {MATRIX}",
-        lambda f, p: flight(f, p).position(p.t),
-        lambda say, p: place(say, p) + turned(say, p),
-        BODIES,
-        size=travelled,
-    ),
-    Tie(
+    of_flight("Flight.arm", MATRIX, turned, size=length, floors=("core",)),
+    of_flight("Flight.position", f"{PATH} {MATRIX}", lambda say, p: place(say, p) + turned(say, p), size=travelled),
+    of_flight(
         "Flight.velocity",
         f"{PATH} {MATRIX} (73) (12)",
-        lambda f, p: flight(f, p).velocity(p.t),
         lambda say, p: velocity(say, p) + swept(say, p),
-        BODIES,
         size=swinging,
         ulps=8,
         floors=("core",),

@@ -1,16 +1,14 @@
 """Quadric: core and exact say what the ledger's (51) to (57) say."""
 
-from functools import partial
 from typing import Any
 
 import pytest
 import sympy
-from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letters
+from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letters, of
 
 from atlas.formulas import quadric as formulas
 
 POINTS = bodies(58, 8)
-at_points = partial(Tie, points=POINTS)
 TWO_SHEETS = bodies(61, 3, body=1.7)
 ONE_SHEET = bodies(63, 3, body=0.3)
 
@@ -53,56 +51,21 @@ def off_canonical(say: Ledger, p: Any) -> Any:
     return ((left - (1 - p.I) * sympy.Rational(p.B2) ** 2) * sympy.Rational(p.B3)).evalf(60)
 
 
+of_quadric = of(lambda f, p: f.Quadric(p.body, p.field), POINTS, at="omega")
+
 TIES = (
-    at_points("Quadric.beta", "text-beta", lambda f, p: f.Quadric(p.body, p.field).beta, beta),
-    at_points(
-        "Quadric.a2",
-        "(54) text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).a2,
-        lambda say, p: say("(54)", "a2", beta=beta(say, p)),
+    of_quadric("Quadric.beta", "text-beta", beta),
+    of_quadric("Quadric.a2", "(54) text-beta", lambda say, p: say("(54)", "a2", beta=beta(say, p))),
+    of_quadric("Quadric.a3", "(54) text-beta", lambda say, p: say("(54)", "a3", beta=beta(say, p))),
+    of_quadric("Quadric.semi_axes", "(55) text-beta", semi_axes, TWO_SHEETS),
+    of_quadric("Quadric.semi_axes", "(57) text-beta", semi_axes, ONE_SHEET),
+    of_quadric("Quadric.centre", "(53) text-beta", centre),
+    of_quadric("Quadric.axes", "(53) text-beta", axes),
+    of_quadric("Quadric.canonical", "(53) text-beta", lambda say, p: coordinates(say, p, p.omega), size=length),
+    of_quadric(
+        "Quadric.residual", "(50)", lambda say, p: say("(50)", "0", **letters(p, "I B2 B3 omega1 omega2 omega3"))
     ),
-    at_points(
-        "Quadric.a3",
-        "(54) text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).a3,
-        lambda say, p: say("(54)", "a3", beta=beta(say, p)),
-    ),
-    Tie(
-        "Quadric.semi_axes",
-        "(55) text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).semi_axes,
-        semi_axes,
-        TWO_SHEETS,
-    ),
-    Tie(
-        "Quadric.semi_axes",
-        "(57) text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).semi_axes,
-        semi_axes,
-        ONE_SHEET,
-    ),
-    at_points("Quadric.centre", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).centre, centre),
-    at_points("Quadric.axes", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).axes, axes),
-    at_points(
-        "Quadric.canonical",
-        "(53) text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).canonical(p.omega),
-        lambda say, p: coordinates(say, p, p.omega),
-        size=length,
-    ),
-    at_points(
-        "Quadric.residual",
-        "(50)",
-        lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
-        lambda say, p: say("(50)", "0", **letters(p, "I B2 B3 omega1 omega2 omega3")),
-    ),
-    Tie(
-        "Quadric.residual",
-        "(54) (53) text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
-        off_canonical,
-        POINTS[:3],
-    ),
+    of_quadric("Quadric.residual", "(54) (53) text-beta", off_canonical, POINTS[:3]),
 )
 
 
