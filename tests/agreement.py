@@ -122,7 +122,7 @@ class Tie:
 
     quantity  "Class.name" or "module.function"
     names    of the ledger's entries that `truth` evaluates
-    read      (floor, point) -> the quantity on a floor; `exact` where the exact floor is asked in another way
+    read      (floor, point) -> the quantity on a floor
     truth     (ledger, point) -> what the entries make it
     points    where they are compared
     size, ulps  how near a double must be: `ulps` units in the last place of a number of that size
@@ -136,7 +136,6 @@ class Tie:
     size: Size = own
     ulps: float = 4.0
     floors: tuple[str, ...] = FLOORS
-    exact: Callable[[Any, Any], Any] | None = None
 
     def __str__(self) -> str:
         return f"{self.quantity} {self.names}"
@@ -238,8 +237,7 @@ def _compare_doubles(tie: Tie, point: Any, true: list[Fraction]) -> None:
 
 
 def _compare_balls(tie: Tie, point: Any, true: list[Fraction]) -> None:
-    read = tie.exact or tie.read
-    found = list(numbers(enclosed(lambda: read(Floor("exact"), point), 200)))
+    found = list(numbers(enclosed(lambda: tie.read(Floor("exact"), point), 200)))
     assert len(found) == len(true), tie
     for ball, y in zip(found, true, strict=True):
         middle, radius = (_dyadic(ball.mid()), _dyadic(ball.rad())) if isinstance(ball, arb) else (_dyadic(ball), 0)
