@@ -216,3 +216,34 @@ def test_scalars_have_derivatives() -> None:
     # k = omega2 b/B2, (79)
     found = atlas.ElementaryMotion(1.5, (3.0, 4.0), 0.6).sensitivity(0, ["omega2", "ratio"], "k")
     assert found == pytest.approx([5 / 3, 0], abs=1e-15)
+
+
+def test_sensitivity_of_a_body_with_three_moments() -> None:
+    """By theta functions: against a difference of motions in all inputs at once, and along the motion at any time."""
+    x = np.array([0.8, 1.0, 1.3, 0.2, 1.0, 0.6, 0.3, 0.7, 0.2])
+    names = [f"{name}{i}" for name in ("I", "B", "omega") for i in (1, 2, 3)]
+    way, h, t = np.array([0.3, -0.2, 0.5, 0.7, -0.4, 0.1, -0.6, 0.2, 0.9]), 1e-5, np.array([0.7, -20.0, 1e9])
+    motion, *others = (atlas.AsymmetricMotion(y[:3], y[3:6], y[6:]) for y in (x, x + h * way, x - h * way))
+    v, R = motion.sensitivity(t, [*names, "t"]), motion.rotation(t)
+    up, down = (y.rotation(t) for y in others)
+    turn = ((up - down) / (2 * h)) @ R.swapaxes(1, 2)
+    found, slope = way @ v[:, :9], np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
+    assert np.abs(found - slope)[:2].max() <= 1e-7 * np.abs(slope)[:2].max()
+    for of, method in list(VECTORS.items())[1:]:
+        up, down = (getattr(y, method)(t) for y in others)
+        found = way @ motion.sensitivity(t, names, of)
+        assert np.abs(found - (up - down) / (2 * h))[:2].max() <= 1e-7 * np.abs(found)[:2].max(), of
+    # started a little later, from where field and angular velocity have gone by then, it is the same motion
+    rates = [motion.sensitivity(0.0, ["t"], of)[0] for of in ("field", "angular_velocity")]
+    later = np.concatenate(rates) @ v[:, 3:9]
+    size = 1 + np.abs(v).max((1, 2))
+    assert (np.abs(later - (v[:, 9] - motion.angular_velocity(0.0))).max(1) <= BOUND * size).all()
+    # f1 and f2 of both flows have the derivatives of the frequencies
+    slopes = [way @ motion.sensitivity(0.0, names, f"f{i}") for i in (1, 2, 3)]
+    assert slopes == pytest.approx((others[0].frequencies - others[1].frequencies) / (2 * h), rel=1e-7)
+
+
+def test_sensitivity_next_to_a_torus_is_refused() -> None:
+    """A free body of three moments: with a field its neighbours are on a torus."""
+    with pytest.raises(atlas.DomainError, match="Euler's top"):
+        atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0, 0, 0), (0.3, 0.7, 0.2)).sensitivity(1.0, "I1")

@@ -65,20 +65,19 @@ SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
 """Cells along a side of a table of quaternions, and the largest squared distance of two that are neighbours."""
 
 
-class ThetaKernel:
-    """R, K and W = II^-1 M of one motion at many times; `rate` is the unit 1/time, `size` the largest rate in it.
+class Constants:
+    """What a motion is made of, to some forty digits: `forms` of N, D, K and W, `ways` (3, 2), `frequencies`, `frame`.
 
-    `accuracy` bounds rounding errors, `proved` what the formulas, without rounding, are wrong by at any time: None
-    where there is no proof. Both are found when they are asked for.
+    Half the phases go by `ways` to the arguments of the forms and the angle by which N turns; `frame` are e_x, e_y and
+    B'/b^2, of which R consists with the real and the imaginary part of N, and with K.
     """
 
-    def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
-        self._made_of = theta, torus
+    def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq) -> None:
         with workprec(BITS):
             motion, X = theta.motion, theta.X.inv()
             self.b = arb(motion.square).sqrt()
             periods = [Period(H.real, F.real, -self.b * along.real) for H, F, along in theta.lattice.real]
-            if not self.fits:
+            if not theta.misfit < FITS:
                 periods = [Period(p.H.mid(), p.F.mid(), p.angle.mid()) for p in torus.periods(PERIODS)]
             into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
             lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
@@ -87,29 +86,45 @@ class ThetaKernel:
                 p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid()))
                 for p, x in zip(periods, lines, strict=True)
             ]  # those nearest to what N turns by
-            periods = [replace(p, angle=angle) for p, angle in zip(periods, angles, strict=True)]
-            self.periods = periods
-            self.frequencies = [x * rate for x in frequencies(periods, self.b)]
-            self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
+            self.periods = [replace(p, angle=angle) for p, angle in zip(periods, angles, strict=True)]
+            self.frequencies = [x * rate for x in frequencies(self.periods, self.b)]
             turning = [(x - a) / arb.pi() for x, a in zip(lines, angles, strict=True)]
-            ways = [[2 * x for x in into[0]], into[1], turning]
+            self.ways = [[2 * x for x in into[0]], into[1], turning]
+            self.hat, self.start = theta.hat, (2 * theta.start[0], theta.start[1])
+            *forms, M1, M2, M3 = theta.forms
+            self.forms = [*forms, *(x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True))]
+            self.frame = [*frame(theta.field), [x / arb(motion.square) for x in theta.field]]
+
+
+class ThetaKernel:
+    """R, K and W = II^-1 M of one motion at many times; `rate` is the unit 1/time, `size` the largest rate in it.
+
+    `accuracy` bounds rounding errors, `proved` what the formulas, without rounding, are wrong by at any time: None
+    where there is no proof. Both are found when they are asked for.
+    """
+
+    def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
+        self.made_of = theta, torus
+        self.constants = Constants(theta, torus, rate)
+        with workprec(BITS):
+            self.periods, self.frequencies, ways = (
+                self.constants.periods, self.constants.frequencies, self.constants.ways,
+            )  # fmt: skip
+            self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
             rounded: Array = np.array([[complex_of(x) for x in row] for row in ways])
             unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER)
             self.upper: Array = np.round(rounded / unit) * unit
             lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
             self.lower: Array = np.reshape(lower, (3, 2))
-            start = (2 * theta.start[0], theta.start[1])
-            *forms, M1, M2, M3 = theta.forms
-            W = [x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True)]
             line = np.linspace(-HALF * np.pi, HALF * np.pi, 13)
             region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-            self.sums = Sums(theta.hat, [*forms, *W], start, rounded[:2] @ region)
-            ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
-            n = [float((x / arb(motion.square)).mid()) for x in theta.field]
-        self.rate, self.axis = int(rate.p) / int(rate.q), np.array(n) / np.linalg.norm(n)
+            self.sums = Sums(self.constants.hat, self.constants.forms, self.constants.start, rounded[:2] @ region)
+            ex, ey, n = ([float(arb(x).mid()) for x in e] for e in self.constants.frame)
+            b = float(self.constants.b.mid())
+        self.rate, self.axis = int(rate.p) / int(rate.q), np.array(n) * b
         self.size = size / self.rate
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
-        self.rounding = Rounding(self.sums, rounded[:2], rounded[2], float(self.b.mid()), self.size)
+        self.rounding = Rounding(self.sums, rounded[:2], rounded[2], b, self.size)
         tau = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
         self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
             abs(tau.imag) < NOTHING, 0, tau.imag
@@ -118,7 +133,7 @@ class ThetaKernel:
     @property
     def fits(self) -> bool:
         """Whether the integrals that it is made of are as precise as they should be."""
-        return self._made_of[0].misfit < FITS
+        return self.made_of[0].misfit < FITS
 
     @cached_property
     def accuracy(self) -> float:
@@ -130,13 +145,13 @@ class ThetaKernel:
         """Bound on what the formulas are wrong by at any time up to phases of 2^50; None where it is not proved."""
         from atlas.exact.motions.clebsch_proof import distances, drifts
 
-        theta, torus = self._made_of
+        theta, torus = self.made_of
         try:
             periods = torus.periods(PERIODS)
             M, K, N = distances(theta, torus, periods) + drifts(theta, periods, self.periods)
         except NotCertifiedError:
             return None
-        error = max(N + K / float(self.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
+        error = max(N + K / float(self.constants.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
         return error if error <= PROVED else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:

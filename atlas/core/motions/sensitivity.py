@@ -14,9 +14,12 @@ import numpy as np
 from flint import arb, fmpq
 
 from atlas.core.inputs import FloatArray, common_shape, real
+from atlas.core.motions.clebsch_theta import ThetaKernel
+from atlas.core.motions.clebsch_variations import TorusVaried
 from atlas.core.nutation.variations import Varied
 from atlas.core.quantities import TIME, bare
 from atlas.errors import AtlasError, DomainError
+from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
@@ -51,7 +54,7 @@ class Inputs:
     field: FloatArray
     fields: Mapping[str, FloatArray]
 
-    def varied(self, names: Sequence[str]) -> Varied:
+    def varied(self, names: Sequence[str]) -> Any:
         """Return what gives v and dv/dt for some of the inputs."""
         return Varied(variations(self._constants, self.values, self._places(names), self.scales))
 
@@ -157,6 +160,42 @@ def _elliptic(exact: EllipticMotion) -> Inputs:
     )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class OnTorus(Inputs):
+    """The inputs of a motion on a torus."""
+
+    kernel: ThetaKernel
+    exact: AsymmetricMotion
+    known: dict[tuple[str, ...], TorusVaried]
+
+    def varied(self, names: Sequence[str]) -> TorusVaried:
+        """Return what gives v and R dOmega/dp for some of the inputs, kept for what is asked for next."""
+        key = tuple(names)
+        if key not in self.known:
+            self.known[key] = TorusVaried(self.exact, self.kernel, self._places(names))
+        return self.known[key]
+
+    def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
+        """Return the derivatives of a frequency, (len(names),)."""
+        return np.asarray(self.varied(names).of_frequencies[:, int(name[1]) - 1])
+
+
+def _asymmetric(one: Any) -> Inputs:
+    """Return the inputs of a body with three moments."""
+    exact, kernel = one.exact, one.closed
+    if not isinstance(kernel, ThetaKernel):
+        raise DomainError(
+            f"The motion has no theta functions whose constants could be differentiated: it is {exact.kind!r}."
+        )
+    size, J = _size(*exact.field, *exact.omega), _floats(exact.inertia)
+    return OnTorus(
+        ("I1", "I2", "I3", "K1", "K2", "K3", "omega1", "omega2", "omega3"),
+        (*exact.inertia, *exact.field, *exact.omega), (*exact.inertia, *[size] * 6),
+        AsymmetricMotion, {f"f{i}": lambda x, i=i: x.frequencies[i] for i in (1, 2, 3)},  # type: ignore[misc]
+        (J, J, 0.0, 0.0), _floats(exact.field), _units(("K1", "K2", "K3")), kernel, exact, {},
+    )  # fmt: skip
+
+
 TURNS: dict[str, Callable[[Turns], Any]] = {
     "k": lambda x: x.k,
     "phi": lambda x: x.phi,
@@ -245,15 +284,15 @@ class One:
                 self.sides = self.left, _ = self.one.rotation(np.zeros(1))[0], self.axes
         elif turned and family in ("elementary", "free", "ball"):
             self.inputs = self._any_start(i, row)
+        elif family == "asymmetric":
+            self.inputs = _asymmetric(self.one)
         elif family in ("top", "elliptic"):
             self.inputs = _top([float(x) for x in row]) if family == "top" else _elliptic(self.one.exact)
         elif family == "elementary":
             self.inputs = _elementary(self.one.case, [0.0 if x is None else float(x) for x in row], row[5] is not None)
-        elif family in ("free", "ball"):
-            self.inputs = (_free if family == "free" else _ball)([float(x) for x in row])
         else:
-            raise DomainError(f"The {family} motion has no sensitivity here.")
-        self.moved, self._known = self._moved(turned), dict[tuple[str, ...], Varied]()
+            self.inputs = (_free if family == "free" else _ball)([float(x) for x in row])
+        self.moved, self._known = self._moved(turned), dict[tuple[str, ...], Any]()
 
     def _sides(self, i: int) -> tuple[FloatArray, FloatArray]:
         """Return L and C of a motion in given axes."""
@@ -350,7 +389,7 @@ class One:
                 out[:, j] = np.vecmat(change - np.cross(out[:, j], B), R)
         return out
 
-    def _varied(self, names: Sequence[str]) -> Varied:
+    def _varied(self, names: Sequence[str]) -> Any:
         """Return the derivatives in some of the inputs, kept for the next times."""
         key = tuple(names)
         if key not in self._known:

@@ -38,9 +38,14 @@ Pair = tuple[acb, acb]
 
 
 class ThetaMotion:
-    """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`."""
+    """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`.
 
-    def __init__(self, motion: Integrals, W: Sequence[fmpq], K: Sequence[fmpq], lattice: Lattice) -> None:
+    `near`, complex times from the origin to the start, are what is known of them; else they are looked for.
+    """
+
+    def __init__(
+        self, motion: Integrals, W: Sequence[fmpq], K: Sequence[fmpq], lattice: Lattice, near: Array | None = None
+    ) -> None:
         self.motion, self.field, self.lattice = motion, K, lattice
         self.misfit = 0.0  # the largest residual of a fit, beside its values
         with workprec(BITS):
@@ -52,7 +57,7 @@ class ThetaMotion:
             N = [acb(x, y) for x, y in zip(*e, strict=True)]
             M = [acb(I * w) for I, w in zip(motion.moments, W, strict=True)]
             self.at_start = State(M, [acb(x) for x in K], N)
-            self.start = self._place()
+            self.start = self._place() if near is None else self._improved(near)
             self.l, self.w = self._quasi_periods()
             self.N = self._turned()
 
@@ -137,14 +142,21 @@ class ThetaMotion:
             far = np.linalg.norm(rough.states(times) - target, axis=1)
             found = rough.near(times[np.argsort(far)[:CANDIDATES]], target)
             if found is not None:
-                return self._improved(found, fields(self.motion.moments, target))
+                return self._improved(found)
         raise NotCertifiedError("not certified: the place of the start on the motion's torus was not found.")
 
-    def _improved(self, T: Array, fields: Array) -> Vector:
+    @property
+    def times(self) -> Array:
+        """Complex times from the origin to the start."""
+        X = np.array([[complex_of(self.X[i, j]) for j in range(2)] for i in range(2)])
+        return np.asarray(X @ [complex_of(x) for x in self.start])
+
+    def _improved(self, T: Array) -> Vector:
         """Return zeta at the start to all digits, from times near it."""
-        i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(fields[list(p)])))
+        rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.all[:6]]))
+        i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
         start = self.at_start.all
-        a, b, c, d = (acb(complex(fields[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
+        a, b, c, d = (acb(complex(rates[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
         times = [acb(complex(x)) for x in T]
         before = np.inf
         for _ in range(NEWTON):

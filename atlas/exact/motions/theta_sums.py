@@ -101,6 +101,7 @@ class Sums:
                 place = f, P - low[0], Q - low[1]
                 self.table[place] = complex_of(weight)
                 self.rest[place] = complex_of(weight - acb(self.table[place]))
+        self.centre = centre
         self.P, self.Q = (np.arange(a, b + 1) for a, b in zip(low - centre, high - centre, strict=True))
         self.reach = int(max(abs(self.P).max(), abs(self.Q).max()))
         self.odd = np.array([(CHARACTERISTICS[form.place][0] + centre[1]) % 2 for form in forms])

@@ -1,0 +1,157 @@
+"""Derivatives of the motion of a body with three moments in its inputs, by theta functions, at any time.
+
+N, K, W and their denominator are sums of exponentials exp(i (P v_1 + Q v_2)), v = ways x/2, at phases x of the torus,
+see `atlas.core.motions.clebsch_theta`. So derivatives need those of the weights, of the ways and of the frequencies f:
+
+    dv = (d ways) x/2 + ways (t df)/2,       d sum = sum of (d weight + i (P dv_1 + Q dv_2) weight) exp(...).
+
+They are differences of constants that are known to some forty digits, over steps of 2^-56 of the inputs. Where one
+changes by more than the step explains, the functions were found in another form, and the derivative is refused.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from flint import acb, arb, fmpq
+
+from atlas.core.inputs import FloatArray
+from atlas.core.motions.clebsch_theta import BITS, Constants, ThetaKernel
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.exact.motions.clebsch_theta import ThetaMotion
+from atlas.exact.motions.theta_sums import Array
+from atlas.exact.motions.torus import Torus
+from atlas.formulas.numbers import workprec
+
+STEP = 56
+"""Binary digits behind the point that a step leaves alone; moments and rates are near 1 in the units of the torus."""
+
+NEAR = 2.0**-20
+"""Largest change of a constant, beside the largest of its kind, that a step explains."""
+
+PART = 256
+"""Times at once."""
+
+LEAST = 2.0**-64
+"""Part of the largest weight below which a term is left out."""
+
+
+class TorusVaried:
+    """Derivatives of one motion on a torus in some inputs, by their places among moments, field and omega."""
+
+    def __init__(self, exact: Any, kernel: ThetaKernel, places: Sequence[int]) -> None:
+        motion, sums = exact.on_torus, kernel.sums
+        self.kernel, low = kernel, sums.centre
+        box = [(int(P + low[0]), int(Q + low[1])) for P in sums.P for Q in sums.Q]
+        peak = int(np.argmax(abs(sums.table[3]).ravel()))
+        with workprec(BITS):
+            here = _tables(kernel.constants, box, peak)
+            start = kernel.made_of[0].times
+            values = [*motion.torus.moments, *motion.torus.K]
+            values += [w - k for w, k in zip(motion.torus.W, motion.torus.K, strict=True)]
+            unit = float(arb(exact.inertia[0] / motion.torus.moments[0]).mid())
+            weights, ways, frequencies, frame = (np.array([complex_of(x) for x in kind]) for kind in here)
+            found, groups = dict[int, list[Array]](), ((0, 1, 2), (3, 4, 5, 6, 7, 8))
+            # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
+            left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
+            for place in set(places) - left:
+                found[place] = _slopes(here, _tables(_moved(values, place, motion.rate, start), box, peak))
+            by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
+            by_rates.append(-frame * np.repeat([0, 1], [6, 3]))
+            for place in left:
+                group, whole = groups[place > 2], by_rates if place > 2 else [0 * x for x in by_rates]
+                others = {i: float(arb(values[i]).mid()) for i in group if i != place}
+                found[place] = [
+                    (x - sum(size * found[i][n] for i, size in others.items())) / float(arb(values[place]).mid())
+                    for n, x in enumerate(whole)
+                ]
+        slopes = [[x / (kernel.rate if place > 2 else unit) for x in found[place]] for place in places]
+        kept = abs(weights.reshape(10, -1)).max(0) > LEAST * abs(weights).max()
+        self.P, self.Q = (np.array([x[i] - low[i] for x in box])[kept] for i in (0, 1))
+        self.ways, self.frame = ways.reshape(3, 2), frame.real.reshape(3, 3)
+        self.weights = weights.reshape(10, -1)[:, kept]
+        self.d_weights = np.array([x[0].reshape(10, -1)[:, kept] for x in slopes]).reshape(len(places), 10, -1)
+        self.d_ways = np.array([x[1].reshape(3, 2) for x in slopes]).reshape(len(places), 3, 2)
+        self.d_frequencies = np.array([x[2].real for x in slopes]).reshape(len(places), 3)
+        self.d_frame = np.array([x[3].real.reshape(3, 3) for x in slopes]).reshape(len(places), 3, 3)
+
+    @property
+    def of_frequencies(self) -> FloatArray:
+        """Derivatives of f1, f2 and f3, (inputs, 3), of f3 that of the least angles."""
+        turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
+        return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
+
+    def vectors(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
+        """Return v of each input at times (m,), (m, inputs, 3), and R dOmega/dp, which is dv/dt, if asked for."""
+        out = [np.empty((t.size, len(self.d_ways), 3)) for _ in range(1 + slopes)]
+        for i in range(0, t.size, PART):
+            for part, values in zip(out, self._block(t[i : i + PART]), strict=False):
+                part[i : i + PART] = values.swapaxes(0, 1)
+        return out
+
+    def _block(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        half, rest, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
+        half = half + rest
+        x = self.ways @ half[:2]
+        grown = self.d_frequencies[:, :, None] * t / 2
+        dx = self.d_ways @ half[:2] + self.ways @ grown[:, :2]
+        turn = np.exp(1j * (x[2].real + 2 * half[2]) - x[2].imag)
+        d_turn = 1j * (dx[:, 2] + 2 * grown[:, 2])
+        waves = np.exp(1j * (self.P[:, None] * x[0] + self.Q[:, None] * x[1]))
+        inputs = len(self.d_ways)
+        table = [self.weights, 1j * self.P * self.weights, 1j * self.Q * self.weights, *self.d_weights]
+        S, by_P, by_Q, *own = (np.concatenate(table) @ waves).reshape(3 + inputs, 10, -1)
+        D = S[3]
+        changed = np.array(own).reshape(inputs, 10, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
+        values = S / D
+        changed = (changed - values * changed[:, 3:4]) / D
+        N, K = values[:3] * turn, values[4:7].real
+        dN = changed[:, :3] * turn + N * d_turn[:, None]
+        dK, dW = changed[:, 4:7].real, changed[:, 7:].real
+        rows, d_rows = np.array([N.real, N.imag, K]), np.stack([dN.real, dN.imag, dK], 1)
+        R = np.einsum("ka,kbm->mab", self.frame, rows)
+        dR = np.einsum("pka,kbm->pmab", self.d_frame, rows) + np.einsum("ka,pkbm->pmab", self.frame, d_rows)
+        turned = dR @ R.swapaxes(-1, -2)
+        v = np.stack([turned[..., 2, 1], turned[..., 0, 2], turned[..., 1, 0]], -1)
+        return v, np.matvec(R, (dW - dK).swapaxes(1, 2)) * self.kernel.rate
+
+
+def _moved(values: Sequence[fmpq], place: int, rate: fmpq, start: Array) -> Constants:
+    """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
+    moved = [x + fmpq(1, 2**STEP) if i == place else x for i, x in enumerate(values)]
+    K, omega = moved[3:6], moved[6:]
+    torus = Torus(tuple(moved[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
+    try:
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice, start)
+    except NotCertifiedError as reason:
+        raise DomainError(f"A neighbour of the motion has no theta functions: {reason}") from reason
+    return Constants(theta, torus, rate)
+
+
+def _tables(found: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
+    """Return weights beside the largest of the denominator, ways, frequencies and frame, each in a row."""
+    hat = found.hat
+    rows = [{(P, Q): x for P, Q, x in form.terms(hat, found.start, box)} for form in found.forms]
+    if box[peak] not in rows[3]:
+        raise _other_form()
+    unit = rows[3][box[peak]]
+    weights = [row.get(place, acb(0)) / unit for row in rows for place in box]
+    return [weights, *([x for row in kind for x in row] for kind in (found.ways, [found.frequencies], found.frame))]
+
+
+def _slopes(here: list[list[Any]], there: list[list[Any]]) -> list[Array]:
+    """Return the derivatives of constants, whose changes are small beside the largest of their kind."""
+    found: list[Array] = []
+    for first, second in zip(here, there, strict=True):
+        change = np.array([complex_of(acb(y - x)) for x, y in zip(first, second, strict=True)], dtype=complex)
+        if not abs(change).max() <= NEAR * max(abs(complex_of(acb(x))) for x in first):
+            raise _other_form()
+        found.append(np.asarray(change * 2.0**STEP, dtype=np.complex128))
+    return found
+
+
+def _other_form() -> DomainError:
+    return DomainError(
+        "The theta functions of a neighbour have another form: there is no derivative in closed form here."
+    )
