@@ -18,6 +18,7 @@ from flint import acb, arb, fmpq
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.clebsch_theta import BITS, Constants, ThetaKernel
 from atlas.errors import DomainError, NotCertifiedError
+from atlas.exact.motions.clebsch_lattice import Lattice
 from atlas.exact.motions.clebsch_periods import complex_of
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import Array
@@ -29,6 +30,9 @@ STEP = 56
 
 NEAR = 2.0**-20
 """Largest change of a constant, beside the largest of its kind, that a step explains."""
+
+WHOLE = 1e-3
+"""How near to whole numbers are those by which a basis goes into another."""
 
 PART = 256
 """Times at once."""
@@ -47,7 +51,6 @@ class TorusVaried:
         peak = int(np.argmax(abs(sums.table[3]).ravel()))
         with workprec(BITS):
             here = _tables(kernel.constants, box, peak)
-            start = kernel.made_of[0].times
             values = [*motion.torus.moments, *motion.torus.K]
             values += [w - k for w, k in zip(motion.torus.W, motion.torus.K, strict=True)]
             unit = float(arb(exact.inertia[0] / motion.torus.moments[0]).mid())
@@ -56,7 +59,7 @@ class TorusVaried:
             # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
             left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
             for place in set(places) - left:
-                found[place] = _slopes(here, _tables(_moved(values, place, motion.rate, start), box, peak))
+                found[place] = _slopes(here, _tables(_moved(values, place, motion.rate, kernel.made_of[0]), box, peak))
             by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
             by_rates.append(-frame * np.repeat([0, 1], [6, 3]))
             for place in left:
@@ -117,16 +120,38 @@ class TorusVaried:
         return v, np.matvec(R, (dW - dK).swapaxes(1, 2)) * self.kernel.rate
 
 
-def _moved(values: Sequence[fmpq], place: int, rate: fmpq, start: Array) -> Constants:
+def _moved(values: Sequence[fmpq], place: int, rate: fmpq, here: ThetaMotion) -> Constants:
     """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
     moved = [x + fmpq(1, 2**STEP) if i == place else x for i, x in enumerate(values)]
     K, omega = moved[3:6], moved[6:]
     torus = Torus(tuple(moved[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
     try:
-        theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice, start)
+        with workprec(BITS):
+            lattice = _followed(torus.lattice, here.lattice)
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, lattice, here.times)
     except NotCertifiedError as reason:
         raise DomainError(f"A neighbour of the motion has no theta functions: {reason}") from reason
     return Constants(theta, torus, rate)
+
+
+def _followed(found: Lattice, like: Lattice) -> Lattice:
+    """Return a lattice in the basis that is next to another one's."""
+    periods = [*found.real, *found.others]
+
+    def reals(rows: Sequence[Sequence[acb]]) -> FloatArray:
+        return np.array([[complex_of(x) for x in row[:2]] for row in rows]).view(float)
+
+    def next_to(rows: tuple[list[acb], list[acb]]) -> tuple[list[acb], list[acb]]:
+        whole = np.linalg.solve(reals(periods).T, reals(rows).T).T
+        if not abs(whole - np.rint(whole)).max() < WHOLE:
+            raise _other_form()
+        first, second = (
+            [sum((round(n) * period[k] for n, period in zip(row, periods, strict=True)), acb(0)) for k in range(3)]
+            for row in whole.tolist()
+        )
+        return first, second
+
+    return Lattice(next_to(like.real), next_to(like.others), next_to(like.a), next_to(like.b))
 
 
 def _tables(found: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
