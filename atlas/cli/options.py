@@ -91,7 +91,7 @@ def _fraction(value: str | float) -> "Fraction":
     return Fraction(value)
 
 
-class Real(click.ParamType[Typed]):
+class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
     """A finite real number."""
 
     name = "number"

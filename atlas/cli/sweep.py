@@ -45,7 +45,7 @@ MOST = 10**7
 """Values of one parameter that a range may have."""
 
 
-class Out(click.ParamType[str]):
+class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
     """Where a table goes: a file; a folder, if the name ends in /; or an address."""
 
     name = "path"

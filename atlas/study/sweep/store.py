@@ -4,6 +4,7 @@ A part is a file whose name says all that is to be known of it: its rows, the sw
 what it holds. So a part that is cut, altered or of another sweep is known as such, and no record is kept beside.
 """
 
+import fcntl
 import hashlib
 import json
 import os
@@ -199,16 +200,10 @@ class Table:
         The file is removed at the end; one that a killed sweep left behind is no hindrance. Raises AtlasError that says
         who holds it, or that the file is of another kind.
         """
-        from filelock import FileLock, Timeout
-
         if self.lock.is_symlink() or self._record() is None:
             raise AtlasError(f"{self.lock} is needed for the lock of the sweep, but is something else.")
         self.lock.parent.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(self.lock)
-        try:
-            lock.acquire(timeout=0)
-        except Timeout as error:
-            raise AtlasError(f"{self.place} is being written by another sweep{self._holder()}.") from error
+        lock = self._locked()
         try:
             since = datetime.now().astimezone().isoformat(" ", "seconds")
             record = {MARK: str(self.place), "pid": os.getpid(), "host": socket.gethostname(), "since": since}
@@ -218,7 +213,20 @@ class Table:
         finally:
             with suppress(OSError):  # while it is held, so that nobody holds another file of this name
                 self.lock.unlink()
-            lock.release()
+            os.close(lock)
+
+    def _locked(self) -> int:
+        """Return the lock's file, opened and locked: one that its holder removed meanwhile is made anew."""
+        while True:
+            lock = os.open(self.lock, os.O_RDWR | os.O_CREAT, 0o644)
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                os.close(lock)
+                raise AtlasError(f"{self.place} is being written by another sweep{self._holder()}.") from error
+            if os.fstat(lock).st_nlink:
+                return lock
+            os.close(lock)
 
     def _record(self) -> dict[str, Any] | None:
         """Return what the lock says of its holder, nothing while it is empty; None for a file of another kind."""
