@@ -25,8 +25,9 @@ from atlas.cli.progress import bar
 @click.argument("name")
 @click.option(
     "--over",
-    metavar="KEY=FROM:TO:COUNT",
-    help="The parameter that moves, its ends, and how many frames; when left out, the figure's time t.",
+    metavar="KEY=START:STOP:COUNT",
+    help="The parameter that moves, its ends, and how many frames, or a list a,b,c of numbers; when left out, the "
+    "figure's time t.",
 )
 @click.option("--set", "settings", cls=Many, metavar="KEY=VALUE [...]", help="Other parameters; a list is a,b,c.")
 @click.option(
@@ -73,7 +74,7 @@ def command(
 
 
 def through(text: str) -> tuple[str, list[Any]]:
-    """Read KEY=FROM:TO:COUNT: numbers, or lists of numbers of one length, at equal steps.
+    """Read KEY=START:STOP:COUNT, numbers, or lists of numbers of one length, at equal steps; or KEY=a,b,c, numbers.
 
     Raises click.UsageError for anything else.
     """
@@ -83,8 +84,10 @@ def through(text: str) -> tuple[str, list[Any]]:
 
     key, _, values = text.partition("=")
     parts = values.split(":")
+    if parts == [values] and "," in values:
+        return key, [float(setting(f"{key}={one}")[1]) for one in values.split(",")]
     if len(parts) != 3 or not (parts[2].isascii() and parts[2].isdecimal()):
-        raise click.UsageError(f"--over takes KEY=FROM:TO:COUNT, such as omega2=0:2:60, not {text!r}.")
+        raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
     if len(parts[2]) > len(str(MOST)) or int(parts[2]) > MOST:  # before there is a list of them
         raise click.UsageError(f"an animation has from 2 to {MOST} frames, not {parts[2]:.30}.")
     (_, start), (_, stop) = (setting(f"{key}={part}") for part in parts[:2])

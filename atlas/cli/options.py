@@ -4,7 +4,7 @@ import math
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence
-from itertools import takewhile
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -24,6 +24,9 @@ MOST = 1_000_000
 
 LONGEST = 2000
 """Characters of a number that is typed: beyond it, arithmetic with all digits takes its time."""
+
+WHOLE = ("settings",)
+"""Options of several values in which a comma is part of one."""
 
 NUMBER = re.compile(
     r"""[+-]? (?: (?P<decimal> (?: \d+ \.? \d* | \.\d+ ) (?: e[+-]?0*\d{1,4} )? )
@@ -169,6 +172,8 @@ class Command(click.Command):
         several = [param for param in self.params if isinstance(param, Many)]
         many = {name for param in several for name in param.opts}
         numbers = {name for param in several if param.type is REAL for name in param.opts}
+        words = {name for param in several if param.name not in WHOLE for name in param.opts} - numbers
+        args = _ranges_of_times(args)
         if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and are_three(args, "--inertia"):
             raise click.UsageError(
                 "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
@@ -176,7 +181,7 @@ class Command(click.Command):
                 "it is the family asymmetric, with --set I1=0.8 and so on."
             )
         try:
-            return super().parse_args(ctx, list(_spread(args, many, numbers)))
+            return super().parse_args(ctx, list(_spread(args, many, numbers, words)))
         except click.UsageError as error:
             hint = "" if isinstance(error, click.MissingParameter) else _miscounted(args, self.params)
             if hint:
@@ -244,19 +249,36 @@ def are_three(args: Sequence[str], option: str) -> bool:
     return len(following) == 3 and all(map(LIKE_A_NUMBER.fullmatch, following))
 
 
-def _ranged(word: str) -> list[str]:
-    """Return the numbers of a range START:STOP:COUNT, both ends among them; another word as it is."""
+def _listed(word: str) -> list[str]:
+    """Return the numbers of a list with commas, or of a range, both ends among them; another word as it is.
+
+    A range is START:STOP:COUNT, or with :log at the end for even steps of the logarithm.
+    """
+    if "," in word:
+        return [one for part in word.split(",") for one in _listed(part)]
     parts = word.split(":")
-    if len(parts) != 3:
+    log = parts[3:] == ["log"]
+    if len(parts) != 3 + log:
         return [word]
-    start, stop, count = (REAL.convert(part, None, None) for part in parts)
+    start, stop, count = (REAL.convert(part, None, None) for part in parts[:3])
     if not count.is_integer() or not 2 <= count <= MOST:
         raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
-    first, step = start.exactly(), (stop.exactly() - start.exactly()) / (int(count) - 1)
-    return [repr(float(first + i * step)) for i in range(int(count))]
+    if log and start * stop <= 0:
+        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}.")
+    last = int(count) - 1
+    if log:
+        return [repr(start * (stop / start) ** (i / last)) for i in range(last + 1)]
+    first, step = start.exactly(), (stop.exactly() - start.exactly()) / last
+    return [repr(float(first + i * step)) for i in range(last + 1)]
 
 
-def _spread(args: Sequence[str], many: set[str], numbers: set[str]) -> Iterator[str]:
+def _ranges_of_times(args: list[str]) -> list[str]:
+    """Return arguments with --grid START:STOP:COUNT, a range as elsewhere, as --times."""
+    ranges = {i for i, (one, word) in enumerate(pairwise(args)) if one == "--grid" and ":" in word}
+    return ["--times" if i in ranges else word for i, word in enumerate(args)]
+
+
+def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[str]) -> Iterator[str]:
     option, given = "", True
     for word in args:
         if not option or word.startswith("--"):
@@ -266,7 +288,7 @@ def _spread(args: Sequence[str], many: set[str], numbers: set[str]) -> Iterator[
             if not option:
                 yield word
         else:
-            for one in _ranged(word) if option in numbers else [word]:
+            for one in _listed(word) if option in numbers else word.split(",") if option in words else [word]:
                 yield from (option, one)
             given = True
     if not given:
@@ -319,8 +341,10 @@ style_option: Callable[[F], F] = click.option(
 
 
 times_options: Callable[[F], F] = stack(
-    click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT."),
-    click.option("--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="A uniform grid of times instead."),
+    click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT[:log]."),
+    click.option(
+        "--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="The same by a step; or START:STOP:COUNT."
+    ),
 )
 
 

@@ -25,7 +25,7 @@ from atlas.cli.body import (
 )
 from atlas.cli.check import start_option
 from atlas.cli.family import in_principal_axes, motion_in_given_axes, start_of
-from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
+from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, stack
 from atlas.cli.points import columns_of
 from atlas.cli.progress import bar
 from atlas.families import FAMILIES
@@ -69,18 +69,16 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         click.option(
             "--set",
             "settings",
-            multiple=True,
-            metavar="NAME=VALUES",
-            help="A parameter: one number, several with commas, or START:STOP:COUNT; :log for even steps of the "
+            cls=Many,
+            metavar="NAME=VALUES [...]",
+            help="Parameters: a number, several with commas, or START:STOP:COUNT; :log for even steps of the "
             "logarithm.",
         ),
         *of_body,
         click.option(
             "--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading."
         ),
-        click.option(
-            "--quantity", "quantities", multiple=True, metavar="NAME", help="What to compute; may be repeated."
-        ),
+        click.option("--quantity", "quantities", cls=Many, metavar="NAME [NAME ...]", help="What to compute."),
         click.option(
             "--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file."
         ),

@@ -200,6 +200,18 @@ def test_help_and_lists_are_asked_for_as_one_would() -> None:
     assert json.loads(run("list", "reports", "--json")[1])["reports"]
 
 
+@pytest.mark.parametrize(
+    "times", ["--times 0,0.5,1", "--times 0 0.5,1", "--grid 0 0.5 3", "--grid 0:1:3", "--times 0:1:3"]
+)
+def test_lists_and_ranges_of_times_are_one(times: str) -> None:
+    """Words, commas, a range and a grid give the same times; even steps of the logarithm their powers."""
+    words = "motion --ratio 1.5 --field 1 2 --omega2 0.7"
+    found = numbers(*words.split(), *times.split(), "--json")["samples"]
+    assert [one["t"] for one in found] == [0.0, 0.5, 1.0]
+    found = numbers(*words.split(), *"--times 1:100:3:log --json".split())["samples"]
+    assert [one["t"] for one in found] == pytest.approx([1, 10, 100])
+
+
 def test_a_range_of_times_is_its_list() -> None:
     """START:STOP:COUNT has both ends, beside single times, exact where decimals are not."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --times".split()

@@ -109,6 +109,7 @@ CASES = [
     ("page --ratio 1.3(1) --field 1 2 --omega2 0.3", "motions carry it"),
     ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --spectrum axis --digits 9", "--spectrum is computed in doubles"),
     ("motion --inertia 1(1) 2 2.5 --field 1 2 3 --spin 1 --curve", "--curve is proven"),
+    ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --times 0:2:3:log", "ends of one sign"),
     ("explore top --ratio 1", "those of atlas motion stand alone"),
     ("motion --tensor 1 1 1 0 0 0.1 --field 0 0 1 --spin 1 --digits 9", "go with principal axes, and the unit matrix"),
     ("motion --inertia 5 3 6 --field 0 1 2 --mu 1 --omega 1 2 3", "--mu goes with --magnetic only"),
@@ -132,7 +133,7 @@ CASES = [
     ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),
     ("top --inertia 1 1 --magnetic 1 2 --coat ring --radius 1 --omega 1 2 3", "--coat needs --charge"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --charged 1 1", "--charged goes with --magnetic, not with --heavy"),
-    *((f"animate motion --over {text} --out {{place}}/a.mp4", "--over takes KEY=FROM:TO:COUNT")
+    *((f"animate motion --over {text} --out {{place}}/a.mp4", "--over takes KEY=START:STOP:COUNT")
       for text in ("omega2=0:2", "omega2=0:2:x", "omega2=0:2:3:4")),
     ("classify --ratio 1 --field 1 2 3", "--field takes 2 numbers"),
     ("animate motion --over omega2=0:2:1000000 --out {place}/new", "an animation has from 2 to"),

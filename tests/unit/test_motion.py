@@ -145,6 +145,19 @@ def test_a_motion_in_given_axes_is_copied_and_says_what_it_is() -> None:
     assert m.period > 0
 
 
+@pytest.mark.parametrize(
+    ("made", "says"),
+    [
+        (lambda: atlas.GeneralMotion(1.5, (1, 2), omega2=3), "omega2, which is for atlas.ElementaryMotion"),  # type: ignore[call-arg]
+        (lambda: atlas.ElementaryMotion(1.5, (1, 2), omega=(1, 2, 3)), "omega, which is for atlas.motion"),  # type: ignore[call-arg]
+    ],
+)
+def test_an_argument_of_another_class_is_led_there(made: Any, says: str) -> None:
+    """The line names the class that takes it, and what this one takes."""
+    with pytest.raises(TypeError, match=says):
+        made()
+
+
 def test_every_class_takes_the_laboratory() -> None:
     """R(0) is the attitude, n or B' and the angular velocity are where they were given; a wrong class is refused."""
     A, B, w = turn(8), np.array([0.3, -1.0, 2.0]), np.array([0.3, 0.7, 0.2])

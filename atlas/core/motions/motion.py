@@ -6,7 +6,7 @@ from functools import cached_property, partial
 from importlib import import_module
 from math import prod
 from numbers import Integral
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, Self, TypeVar
 from weakref import proxy
 
 import numpy as np
@@ -18,6 +18,14 @@ from atlas.core.inputs import FloatArray, common_shape, finite, number, real, wh
 from atlas.core.quantities import TIME, bare
 from atlas.core.shown import Shown, notebook
 from atlas.errors import AtlasError
+
+OTHERS = {
+    "omega2": "atlas.ElementaryMotion(ratio, field, omega2), the paper's family",
+    "omega": "atlas.motion(inertia, field, omega), any start",
+    "z": "atlas.EllipticMotion(inertia, field, z)",
+    "attitude": "atlas.motion(inertia, field, omega, attitude)",
+}
+"""What takes an argument that a class of motions does not."""
 
 
 class Evaluated(Protocol):
@@ -55,6 +63,14 @@ class Motion(Shown, Generic[Single]):
 
     _rows: Any = None
     """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
+
+    def __new__(cls, *_: Any, **given: Any) -> Self:
+        """Tell who gives a start that is another class's which one takes it."""
+        code = cls.__init__.__code__
+        known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+        for name in given.keys() - set(known) & OTHERS.keys():
+            raise TypeError(f"{cls.__name__} takes {', '.join(known)}, not {name}, which is for {OTHERS[name]}.")
+        return super().__new__(cls)
 
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
         self._make, self._inputs = make, inputs
