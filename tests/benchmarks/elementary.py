@@ -8,11 +8,14 @@ A short solenoid, I = 1.5, in an oblique field B' = (1, 2), launched with omega2
 from collections.abc import Sequence
 from typing import Any
 
+from flint import arb
+
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.exact.motions.elementary import ElementaryMotion as Exact
+from atlas.formulas.numbers import nearest, workprec
 from atlas.study.sweep.rotation_errors import constants, formula
 from benchmarks.case import Case, Method, Parameters, Solve, cross, rotation_case
-from benchmarks.peers import Turn, composed, lambdified
+from benchmarks.peers import Turn, compiled, composed, lambdified
 
 PARAMETERS: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega2": 0.7}
 
@@ -49,6 +52,15 @@ def plain() -> Solve:
     return lambda grid: formula(constants, grid.times)
 
 
+def in_words() -> list[float]:
+    """Return k and phi in two words each, and the axis of (84), from balls."""
+    exact = exact_motion()
+    with workprec(120):
+        k, phi = arb(exact.k), arb(exact.phi)
+        words = [word for x in (k, phi) for word in (nearest(x), nearest(x - nearest(x)))]
+    return [*words, *frequencies()[:2]]
+
+
 def motion() -> ElementaryMotion:
     """Make the motion."""
     return ElementaryMotion(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
@@ -68,6 +80,7 @@ def case() -> Case:
         exact.angular_velocity(0),
         Method("plain", plain),
         Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
+        Method("compiled", lambda: compiled(in_words())),
         Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
         name="elementary",
         parameters=PARAMETERS,

@@ -1,8 +1,12 @@
 """Closed forms as other libraries have them: a product of turns about fixed axes, (85) and (28)."""
 
+import ctypes
+import subprocess
+import tempfile
 from collections.abc import Sequence
 from functools import reduce
 from operator import mul
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -32,6 +36,24 @@ def composed(turns: Sequence[Turn]) -> Solve:
     def solve(grid: Grid) -> FloatArray:
         t = grid.times[:, None]
         return np.asarray(reduce(mul, (Rotation.from_rotvec(t * rate) for rate in rates)).as_matrix())
+
+    return solve
+
+
+def compiled(constants: Sequence[float]) -> Solve:
+    """Compile compiled.c for this machine: k and phi in two words each, and the components of the axis."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder) / "compiled.so"
+        flags = "-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC"
+        subprocess.run(["cc", *flags, str(Path(__file__).with_name("compiled.c")), "-lm", "-o", made], check=True)  # noqa: S607  whatever compiler there is
+        rotations = ctypes.CDLL(str(made)).rotations
+    given, floats = np.array(constants), np.ctypeslib.ndpointer(np.float64, flags="C")
+    rotations.argtypes, rotations.restype = (floats, ctypes.c_size_t, floats, floats), None
+
+    def solve(grid: Grid) -> FloatArray:
+        out, t = np.empty((grid.count, 3, 3)), grid.times
+        rotations(t, grid.count, given, out)
+        return out
 
     return solve
 
