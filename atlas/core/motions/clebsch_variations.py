@@ -128,7 +128,7 @@ def _moved(values: Sequence[fmpq], place: int, rate: fmpq, here: ThetaMotion) ->
     try:
         with workprec(BITS):
             lattice = _followed(torus.lattice, here.lattice)
-        theta = ThetaMotion(torus.integrals, torus.W, torus.K, lattice, here.times)
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, lattice, here)
     except NotCertifiedError as reason:
         raise DomainError(f"A neighbour of the motion has no theta functions: {reason}") from reason
     return Constants(theta, torus, rate)

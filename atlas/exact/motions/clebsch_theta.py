@@ -12,7 +12,7 @@ of that form rests on a count of dimensions; that they are the motion at hand is
 `atlas.exact.motions.clebsch_proof`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 
 import numpy as np
@@ -40,11 +40,16 @@ Pair = tuple[acb, acb]
 class ThetaMotion:
     """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`.
 
-    `near`, complex times from the origin to the start, are what is known of them; else they are looked for.
+    Where a motion `near` is known, its origin and its start are followed; else they are looked for.
     """
 
     def __init__(
-        self, motion: Integrals, W: Sequence[fmpq], K: Sequence[fmpq], lattice: Lattice, near: Array | None = None
+        self,
+        motion: Integrals,
+        W: Sequence[fmpq],
+        K: Sequence[fmpq],
+        lattice: Lattice,
+        near: "ThetaMotion | None" = None,
     ) -> None:
         self.motion, self.field, self.lattice = motion, K, lattice
         self.misfit = 0.0  # the largest residual of a fit, beside its values
@@ -52,12 +57,15 @@ class ThetaMotion:
             self.X, self.tau = lattice.X, lattice.tau
             t = self.tau
             self.hat = acb_mat([[2 * t[0, 0], t[0, 1]], [t[0, 1], t[1, 1] / 2]])
+            self.origin: tuple[int, State] = (
+                origins(motion)[0] if near is None else _next_to(near.origin, origins(motion))
+            )
             self.denominator, self.K, self.M = self._fitted()
             e = frame(K)
             N = [acb(x, y) for x, y in zip(*e, strict=True)]
             M = [acb(I * w) for I, w in zip(motion.moments, W, strict=True)]
             self.at_start = State(M, [acb(x) for x in K], N)
-            self.start = self._place() if near is None else self._improved(near)
+            self.start = self._place() if near is None else self._improved(near.times, reduced=False)
             self.l, self.w = self._quasi_periods()
             self.N = self._turned()
 
@@ -88,7 +96,7 @@ class ThetaMotion:
 
     def _fitted(self) -> tuple[Form, list[Form], list[Form]]:
         """Return the forms of the denominator, of K and of M."""
-        axis, origin = origins(self.motion)[0]
+        axis, origin = self.origin
         points = around(self.motion.moments, origin)
         pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]
         j = (axis + 1) % 3
@@ -151,8 +159,8 @@ class ThetaMotion:
         X = np.array([[complex_of(self.X[i, j]) for j in range(2)] for i in range(2)])
         return np.asarray(X @ [complex_of(x) for x in self.start])
 
-    def _improved(self, T: Array) -> Vector:
-        """Return zeta at the start to all digits, from times near it."""
+    def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
+        """Return zeta at the start to all digits, from times near it, less an even period if `reduced`."""
         rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.all[:6]]))
         i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
         start = self.at_start.all
@@ -170,7 +178,7 @@ class ThetaMotion:
                 centre(times[0] + (f * d - g * b) / (a * d - b * c)),
                 centre(times[1] + (g * a - f * c) / (a * d - b * c)),
             ]
-        zeta = self._near_real(self.zeta(times))
+        zeta = self._near_real(self.zeta(times)) if reduced else self.zeta(times)
         error = max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False))
         self.misfit = max(self.misfit, error)
         if not error < FITTED:
@@ -210,6 +218,21 @@ class ThetaMotion:
             self._form(shifted, [s.N[j] * x for (_, s), x in zip(points, factors, strict=True)], range(4))
             for j in range(3)
         ]
+
+
+def _next_to(known: tuple[int, State], found: Sequence[tuple[int, State]]) -> tuple[int, State]:
+    """Return the origin next to a known one, of those that are found and their images by the signs of components."""
+    axis, state = known
+
+    def images(found: State) -> Iterator[State]:
+        for signs in product((1, -1), repeat=3):
+            M, K = ([n * x for n, x in zip(signs, v, strict=True)] for v in (found.M, found.K))
+            yield State(M, K, [])
+
+    def far(image: State) -> float:
+        return sum(abs(complex_of(x - y)) ** 2 for x, y in zip(image.all, state.all, strict=True))
+
+    return axis, min((x for i, one in found if i == axis for x in images(one)), key=far)
 
 
 class Rough:
