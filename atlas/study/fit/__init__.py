@@ -66,7 +66,7 @@ def fit(
     of another shape, what is no number, no rotation or no parameter, fewer numbers than parameters, and where no motion
     is found at all.
 
-        >>> t = np.linspace(0, 20, 200)
+        >>> t = [i / 10 for i in range(100)]
         >>> motion = atlas.motion(1.3, (0.2, 0.4, 1.9), (0.5, 0.3, 1.7))
         >>> found = atlas.fit(t, rotation=motion.rotation(t), sigma=1e-3)
         >>> round(found.params["ratio"].value, 6)

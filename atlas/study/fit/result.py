@@ -92,14 +92,15 @@ class Fit:
             return problem.jacobian([params[name].value for name in names])
 
         minimizer = lmfit.Minimizer(residual, problem.params.copy(), scale_covar=not data.known)
-        result = minimizer.minimize(
-            method="least_squares",
-            jac=slopes,
-            loss=problem.loss,
-            x_scale="jac",
-            kwargs={},
-            **dict(FULL) | ({"gtol": np.inf} if steady else {}),
-        )
+        with np.errstate(invalid="ignore"):  # where a combination is not determined
+            result = minimizer.minimize(
+                method="least_squares",
+                jac=slopes,
+                loss=problem.loss,
+                x_scale="jac",
+                kwargs={},
+                **dict(FULL) | ({"gtol": np.inf} if steady else {}),
+            )
         x = np.array([result.params[name].value for name in names])
         motion, _ = problem.motion(list(x))
         r, J = problem.residuals(x), problem.jacobian(x)
