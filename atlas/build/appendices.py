@@ -50,7 +50,7 @@ def _findings() -> dict[str, Finding]:
     """Return what the trial recorded on each entry."""
     from atlas.proof import recorded
 
-    modules = _modules()
+    modules, scripts = _modules(), recorded.scripts()
     findings = {}
     for name, verdict in recorded.load().items():
         findings[name] = Finding(
@@ -65,6 +65,7 @@ def _findings() -> dict[str, Finding]:
             verdict.grade,
             verdict.slip,
             verdict.false if verdict.false_verdict == "refuted" else "",
+            scripts.get(name, ""),
         )
     return findings
 

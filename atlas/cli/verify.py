@@ -29,34 +29,45 @@ COLUMNS = (
 @click.command(
     "verify",
     cls=Command,
-    epilog=examples("atlas verify 48 71", "atlas verify --json"),
+    epilog=examples("atlas verify 48 71", "atlas verify 48 --script > proof.py", "atlas verify --json"),
 )
 @click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
 @click.option("--record", is_flag=True, help="Keep what was found as the recorded verdicts that reports draw.")
 @click.option("--anew", is_flag=True, help="Try everything, also what was tried before with the same proof.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
+@click.option("--script", is_flag=True, help="Print the proof of one equation as a script of SymPy, nothing else.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, as_json: bool) -> int:
+def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script: bool, as_json: bool) -> int:
     """Try equations and claims of the paper, all if none is named, on the form as printed.
 
     An equation is named by its printed number, 72 or "(72)", one without a number, and a theorem, by its name in the
     ledger. A LaTeX label of the paper's source will do, too.
 
     A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
-    supported, or definition where there is nothing to prove. Slips are graded. The exit
-    status is 1 if a verdict differs from the recorded one.
+    supported, or definition where there is nothing to prove. Slips are graded. Of an equation that is named, both sides
+    are shown as polynomials in free parameters. The exit status is 1 if a verdict differs from the recorded one.
+
+    --script prints plain SymPy that runs without atlas: its last line says what is proved or refuted, and it exits with
+    1 if that is not so.
     """
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
     from atlas import proof
+    from atlas.paper import find
     from atlas.proof.run import CACHE
+
+    if script and (as_json or len({entry.name for name in names for entry in find(name)}) != 1):
+        raise click.UsageError("--script prints one script: name one equation, without --json.")
 
     options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else Path(CACHE)}
     with bar("trials") as tell:
         found = proof.verify(names or None, lambda name, done, total: tell(done, total, name), **options)
+    if script:
+        return _script(found[0])
     status = _verdicts(found, as_json, record, named=bool(names))
     if record:
         proof.recorded.save(found)
+        proof.recorded.save_scripts({one.name: proof.script_of(one) for one in found})
     return status
 
 
@@ -79,6 +90,18 @@ def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
     return int(bool(different) and not record)
 
 
+def _script(one: Any) -> int:
+    """Print the script of one entry, with the exit status 1 if its verdict differs from the recorded one."""
+    from atlas import proof
+    from atlas.errors import AtlasError
+
+    text = proof.script_of(one)
+    if not text.startswith("#"):
+        raise AtlasError(f"{one.name}: {text}")
+    click.echo(text, nl=False)
+    return int(bool(proof.recorded.differs([one])))
+
+
 def _table(found: Any) -> None:
     """Show the verdicts, a line each."""
     heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
@@ -97,7 +120,16 @@ def _details(one: Any, *, named: bool) -> str:
     words = {name: plain(text) for name, text in says.items()}
     words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
     words |= {"note": plain(one.note)} if named else {}
-    return "\n".join([one.name, *(f"  {name + ':':16}{text}" for name, text in words.items() if text)])
+    lines = [f"  {name + ':':16}{text}" for name, text in words.items() if text]
+    return "\n".join([one.name, *lines, *(_proof(one) if named else ())])
+
+
+def _proof(one: Any) -> list[str]:
+    """Return what the sides of a proved form are, each on a line, and how its script is had."""
+    from atlas import proof
+
+    lines = [f"    {line}" for line in proof.sides_of(one.name)]
+    return [*(["  proof:", *lines] if lines else []), f"  {'script:':16}atlas verify {one.number or one.name} --script"]
 
 
 def _totals(found: Any) -> None:

@@ -15,13 +15,13 @@ from typing import Any
 from atlas.proof import recorded
 from atlas.proof.verdict import Verdict
 
-__all__ = ["Verdict", "recorded", "try_one", "verify"]
+__all__ = ["Verdict", "recorded", "script_of", "sides_of", "try_one", "verify"]
 
-_LAZY = {"verify", "try_one"}
+_LAZY = {"verify": "run", "try_one": "run", "script_of": "script", "sides_of": "script"}
 
 
 def __getattr__(name: str) -> Any:
     """Load what needs SymPy when it is first used."""
     if name not in _LAZY:
         raise AttributeError(f"module 'atlas.proof' has no attribute {name!r}")
-    return getattr(import_module("atlas.proof.run"), name)
+    return getattr(import_module(f"atlas.proof.{_LAZY[name]}"), name)

@@ -20,6 +20,7 @@ from atlas.proof.verdict import Verdict
 
 FOLDER = Path(__file__).resolve().parent
 VERDICTS = FOLDER / "verdicts.json"
+SCRIPTS = FOLDER / "scripts.json"
 MACHINERY = ("notation", "tex", "dimensions", "model", "identity", "decide", "trial")
 
 
@@ -67,6 +68,16 @@ def _read(path: Path) -> list[dict[str, Any]]:
             f"{path.name} holds no valid record ({reason}); `atlas verify --record` writes a new one"
         ) from None
     return entries
+
+
+def scripts(path: Path = SCRIPTS) -> dict[str, str]:
+    """Return the recorded scripts by name, or why there is none; see `atlas.proof.script`."""
+    return dict(json.loads(path.read_text("utf-8"))) if path.is_file() else {}
+
+
+def save_scripts(written: Mapping[str, str], path: Path = SCRIPTS) -> None:
+    """Write the scripts of all entries."""
+    files.write(path, json.dumps(dict(written), indent=1, ensure_ascii=False) + "\n")
 
 
 def save(found: Iterable[Verdict], path: Path = VERDICTS) -> None:

@@ -27,7 +27,7 @@ CACHE = Path("build") / "proofs"
 Progress = Callable[[str, int, int], None]
 
 
-class _OverTimeError(Exception):
+class OverTimeError(Exception):
     """A trial has used up its time."""
 
 
@@ -42,7 +42,7 @@ def limit(seconds: float) -> Iterator[None]:
         return
 
     def stop(_number: int, _frame: Any) -> None:
-        raise _OverTimeError
+        raise OverTimeError
 
     before = signal.signal(signal.SIGPROF, stop)
     signal.setitimer(signal.ITIMER_PROF, seconds)
@@ -109,7 +109,7 @@ def _within_time(run: Callable[[], Outcome]) -> Outcome:
     try:
         with limit(LIMIT):
             return run()
-    except _OverTimeError:
+    except OverTimeError:
         return Outcome("undecided", f"out of time after {LIMIT:.0f} s")
 
 

@@ -21,6 +21,7 @@ class Finding:
     modules         the modules that cite the entry, such as ``core/surfaces/hyperbola.py``
     grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
+    script          plain SymPy that shows it, or the line that says why there is none
     """
 
     verdict: str
@@ -34,6 +35,7 @@ class Finding:
     grade: str = ""
     slip: str = ""
     false: str = ""
+    script: str = ""
 
 
 @dataclass(frozen=True)

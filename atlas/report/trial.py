@@ -59,6 +59,7 @@ class EntryView:
     slip: str = ""
     quote: int | None = None
     false: int | None = None
+    script: str = ""
 
     @property
     def slug(self) -> str:
@@ -119,6 +120,7 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         slip=found.slip,
         quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
         false=keep(f"“{found.false}.”", inline=True) if found.false else None,
+        script=found.script,
     )
 
 

@@ -355,6 +355,14 @@ def test_a_line_that_checks_nothing_is_not_proved() -> None:
     assert decide("a2 = 17; a3 = 2*a2; a3*x = 34*x", Model(letters), defines=("a2", "a3")).decision == "proved"
 
 
+def test_a_chain_that_defines_a_letter_is_checked_from_its_second_side_on() -> None:
+    """In R = a product = another one the second side defines, and the third one must be the same."""
+    x = sympy.Symbol("x", real=True)
+    found = decide("a2 = x + 1 = x + 2; a2 - 1 = x", Model({"x": x}), defines=("a2",))
+    assert (found.decision, found.counterexample["relation"]) == ("refuted", "x + 1 = x + 2")
+    assert decide("a2 = x + x = 2*x; a2 - x = x", Model({"x": x}), defines=("a2",)).decision == "proved"
+
+
 def test_a_letter_that_is_defined_twice_is_refused() -> None:
     """The second definition doesn't silently replace the first."""
     letters = {"I": sympy.Symbol("I")}

@@ -144,6 +144,15 @@ def test_every_entry_says_what_the_paper_and_the_record_say(pages: dict[str, rea
         assert all(one.text.startswith(found.corrected_verdict) for one in corrected), name
 
 
+def test_the_script_of_an_entry_stands_under_a_fold(pages: dict[str, reader.HtmlElement]) -> None:
+    """Each entry has its recorded script, letter by letter, in a fold; or the line that says why there is none."""
+    scripts = recorded.scripts()
+    for name, _, element in entries(pages):
+        folds = element.xpath("./details[@class='script'][summary]/pre/code | ./p[@class='script']")
+        assert [fold.text_content() for fold in folds] == [scripts[name]], name
+        assert (folds[0].tag == "code") == scripts[name].startswith("#"), name
+
+
 def test_every_use_and_its_entry_link_to_each_other(pages: dict[str, reader.HtmlElement]) -> None:
     """From the entry to the place that uses it, and from there back to the entry; no use is forgotten."""
     uses = set()
