@@ -1,10 +1,10 @@
 """What there is to ask for: families with their quantities, targets of figures, roles, layers, blocks of reports."""
 
 import re
-from collections.abc import Iterator
-from dataclasses import MISSING, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields, is_dataclass
 from itertools import groupby
-from typing import get_args
+from typing import Any, get_args
 
 import msgspec
 
@@ -115,13 +115,12 @@ def blocks(request: Request) -> Data:
     from atlas.report.blocks import KINDS
 
     request.take(StrictStruct)
-    rows = [(f"`{name}`", _first(kind.record), _keys(kind.record)) for name, kind in KINDS.items()]
-    return Data(
-        (Column("Kind"), Column("What it is"), Column("Keys")),
-        tuple(rows),
+    kinds = {f"`{name}`": kind.record for name, kind in KINDS.items()}
+    says = (
         'The kinds of blocks, `kind = "NAME"`, with their keys; those in bold are needed, of others the value is what '
-        "holds where they are left out.",
+        "holds where they are left out."
     )
+    return _explained("Kind", kinds, "Keys", says)
 
 
 def report_keys(request: Request) -> Data:
@@ -131,16 +130,14 @@ def report_keys(request: Request) -> Data:
 
     request.take(StrictStruct)
     where = {
-        "": Report, "[[pages]]": Page, "thumbnail": Thumbnail, "[index]": Index, "[parameters.bodies.NAME]": Body,
-        "[parameters.fields.NAME]": Field,
+        "at the top": Report, "`[[pages]]`": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
+        "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
     }  # fmt: skip
-    rows = [(f"`{place}`" if place else "at the top", _first(kind), _keys(kind)) for place, kind in where.items()]
-    return Data(
-        (Column("Where"), Column("What it is"), Column("Keys")),
-        tuple(rows),
+    says = (
         "The keys of a report file; those in bold are needed, of others the value is what holds where they are left "
-        "out.",
+        "out."
     )
+    return _explained("Where", where, "Keys", says)
 
 
 def layers(request: Request) -> Data:
@@ -148,23 +145,15 @@ def layers(request: Request) -> Data:
     from atlas.scene import layers as made
 
     request.take(StrictStruct)
-    kinds = (made.Scene, made.Plane, made.Space, *get_args(made.Layer))
-    rows = [
-        (
-            f"`{kind.__name__}`",
-            _first(kind),
-            ", ".join(
-                f"**`{one.name}`**" if one.default is one.default_factory is MISSING else f"`{one.name}`"
-                for one in fields(kind)
-            ),
-        )
-        for kind in kinds
-    ]
-    return Data(
-        (Column("Name in `atlas.scene`"), Column("What it is"), Column("Fields")),
-        tuple(rows),
-        "What a recipe may return: a `Scene` of panels `Plane` and `Space`, with layers. Fields in bold are needed.",
-    )
+    kinds = {f"`{kind.__name__}`": kind for kind in (made.Scene, made.Plane, made.Space, *get_args(made.Layer))}
+    says = "What a recipe may return: a `Scene` of panels `Plane` and `Space`, with layers. Fields in bold are needed."
+    return _explained("Name in `atlas.scene`", kinds, "Fields", says)
+
+
+def _explained(first: str, kinds: Mapping[str, type], last: str, says: str) -> Data:
+    """Return a table of classes: name, first sentence, and what they hold, what is needed in bold."""
+    rows = [(name, _first(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
+    return Data((Column(first), Column("What it is"), Column(last)), tuple(rows), says)
 
 
 def _first(kind: type) -> str:
@@ -173,13 +162,13 @@ def _first(kind: type) -> str:
     return re.sub(r"``(.+?)``", r"`\1`", sentence)
 
 
-def _keys(kind: type) -> str:
-    """Return the keys of a record, with the values that hold where they are left out."""
-    return ", ".join(map(_key, msgspec.structs.fields(kind)))
-
-
-def _key(one: msgspec.structs.FieldInfo) -> str:
-    if one.required:
-        return f"**`{one.name}`**"
-    plain = isinstance(one.default, str | int | float | bool) and one.default != ""
-    return f"`{one.name}` = {toml.written(one.default)}" if plain else f"`{one.name}`"
+def _keys(kind: Any) -> Iterator[str]:
+    """Go through the keys of a record, with the values that hold where they are left out, or the fields of a layer."""
+    if is_dataclass(kind):
+        for field in fields(kind):
+            yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"
+        return
+    for one in msgspec.structs.fields(kind):
+        plain = isinstance(one.default, str | int | float | bool) and one.default != ""
+        left_out = f"`{one.name}` = {toml.written(one.default)}" if plain else f"`{one.name}`"
+        yield f"**`{one.name}`**" if one.required else left_out
