@@ -17,7 +17,7 @@ from pypdf import PdfReader
 
 from atlas import AtlasError
 from atlas.draw import gl, save, to_figure
-from atlas.draw.files import choose
+from atlas.draw.files import _short, choose
 from atlas.draw.labels import Tag, along, place
 from atlas.draw.space import silhouette
 from atlas.draw.view import fit
@@ -296,3 +296,9 @@ def test_dark_marks_stand_off_a_map_by_a_white_ring(mapped: bool) -> None:
     (mark,) = to_figure(Scene("a", "b", "c", (panel,))).axes[0].get_lines()
     assert (mark.get_markeredgecolor() == WHITE) is mapped
     assert mark.get_markerfacecolor() != WHITE
+
+
+def test_a_path_of_an_svg_is_short_and_the_same() -> None:
+    """To a hundredth of a point, no point twice, and what is no path or no straight line stays."""
+    given = '<path d="M 1.234567 2 \nL 1.2349 2.001 \nL 3.5 -0.001 \nQ 1 2 3.14159 4 \nL 5 6 \nz\n" style="w: 1.2345"/>'
+    assert _short(given) == '<path d="M 1.23 2 3.5 0 \nQ 1 2 3.14 4 \nL 5 6 \nz\n" style="w: 1.2345"/>'

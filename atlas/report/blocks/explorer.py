@@ -1,4 +1,4 @@
-"""Motions with sliders: the pages show them as they move, in print there is only a sentence."""
+"""Motions with sliders: the pages show them as they move; print leaves them out."""
 
 import json
 from dataclasses import asdict, dataclass, replace
