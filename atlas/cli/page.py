@@ -9,7 +9,7 @@ import click
 
 from atlas import files
 from atlas.cli.app import GONE
-from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, system_of, units_of
+from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, mass_of, system_of, units_of
 from atlas.cli.family import (
     family_of,
     in_field,
@@ -195,6 +195,8 @@ def _body(options: dict[str, Any]) -> dict[str, Any]:
     if options["points"] is not None:
         found = points(options["points"])
         given |= {"inertia": [found.body.I2, found.body.I3]}
+    if given.pop("density", None) is not None:
+        given["mass"] = float(mass_of(options))
     if options["shape"] is not None:
         given = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | given
     title = options["shape"].replace("-", " ").replace("_", " ") if options["shape"] else "body"

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import chain
+from math import pi
 from typing import Any
 
 from atlas.errors import AtlasError
@@ -82,6 +83,9 @@ def _texts(value: Any) -> tuple[str, ...]:
     return tuple(plain(x + 0.0) for x in (value if isinstance(value, list | tuple) else (value,)))
 
 
+SEEN = 1e-3
+"""Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
+
 FIGURES = "## Figures\n\nThose that fit it, each with the command that draws it."
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
@@ -110,6 +114,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     thing.kernels(), thing.balls()
     given = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
     figures = list(_figures(asked, left_out))
+    left_out += _too_slow(thing.kernels(), asked.time)
     beside = [one for one in FAMILIES.values() if one is not family and one.name != "free" and _holds(family, one)]
     blocks = [
         _table(asked, "properties", family.name, asked.values),
@@ -156,6 +161,21 @@ def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> 
         "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(asked, FAMILIES[family]),
         "digits": asked.digits, "parameters": {"family": family, **values, **unit},
     }  # fmt: skip
+
+
+def _too_slow(made: Any, time: str) -> Iterator[str]:
+    """Yield what is too slow to be seen in figures of some periods of nutation: the precession of a fast spin."""
+    unit = "s" if time in {"s", "1/s"} else time
+    try:
+        period, angle, rate = float(made.period), float(made.precession_per_period), float(made.precession_rate)
+    except (AttributeError, AtlasError):
+        return
+    if 0 < abs(angle) < SEEN:
+        yield (
+            f"The precession about the field: in a period of nutation, {period:.3g} {unit}, the axis turns by "
+            f"{angle:.3g} rad, so that figures of some periods show none of it; a whole turn takes "
+            f"{2 * pi / abs(rate):.3g} {unit}."
+        )
 
 
 def _setting() -> dict[str, Any]:

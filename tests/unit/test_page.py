@@ -296,6 +296,15 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
     assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14, abs=0.0)
 
 
+def test_a_precession_too_slow_to_be_drawn_is_told(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """A cylinder that spins at 2 MHz precesses at 2 mHz: eight minutes a turn, and nutates within a microsecond."""
+    body = "--shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e"
+    made = unbuilt(f"motion {body} --magnetic 0.4T 0.6928T --spin 2MHz")
+    prose = made["pages"][0]["blocks"][-1]["text"]
+    assert "a whole turn takes 492 s" in prose
+    assert "7.71e-07 s" in prose
+
+
 def test_neighbours_are_what_their_words_say(unbuilt: Callable[[str], dict[str, Any]]) -> None:
     """The pair turns with phi of the other sign, (80); the one that turns as a whole has phi = 0; at rest R is 1."""
     record = unbuilt("--ratio 1.3 --field 1 2 --omega2 0.7")
