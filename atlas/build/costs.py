@@ -1,4 +1,4 @@
-"""What a build cost: for each figure the points and faces of its scene, its times, memory and bytes."""
+"""What a build cost: for each figure the points and faces of its scene, its processor times, memory and bytes."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -10,7 +10,7 @@ from atlas import files
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
 
-HEADING = ("scene", "from", "points", "faces", "compute [ms]", "draw [ms]", "peak [MB]", "kB")
+HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms]", "peak [MB]", "kB")
 
 
 def write(path: Path, name: str, figures: Sequence["FigureBuild"], times: Mapping[str, float], jobs: int) -> Path:

@@ -60,9 +60,9 @@ def _draw(task: Task) -> None:
     settle_matplotlib()
     from atlas.draw.files import FORMATS, choose, save
 
-    start = time.perf_counter()
+    start = time.process_time()
     scene = recipes.load(task.recipe).scene(**task.parameters)
-    computed = time.perf_counter()
+    computed = time.process_time()
     cache = Cache(task.cache)
     renderer, note = choose(scene, task.renderer)
     target = suited(scene, [find(name) for name in task.targets]) if task.targets else None
@@ -96,7 +96,7 @@ def _draw(task: Task) -> None:
             "points": points(scene),
             "faces": faces(scene),
             "compute_s": computed - start,
-            "draw_s": time.perf_counter() - computed,
+            "draw_s": time.process_time() - computed,
             "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
             "bytes": sum(map(len, contents.values())),
         },

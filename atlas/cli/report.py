@@ -42,7 +42,7 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
     something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status
-    is 1. Beside the PDF, NAME.costs.json says what each figure cost.
+    is 1. Beside the PDF, NAME.costs.json says what each figure cost, in processor time.
 
     What you put into the folder of the pages stays. Beside a page or PDF that you edited the new one is written, as
     NAME.new.html, and then the exit status is 2.
