@@ -166,6 +166,13 @@ def test_what_has_no_sensitivity_is_refused() -> None:
         atlas.TopMotion((1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 2.0).sensitivity(1.0, "linear")
     with pytest.raises(atlas.AtlasError, match="no input 'omega4'"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, ["omega4"])
+    with pytest.raises(atlas.AtlasError, match="no derivative of 'speed'"):
+        atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, "ratio", "speed")
+    upright = atlas.TopMotion.in_laboratory(
+        (1.0, 0.5), (0, 0, 1.0), np.eye(3), (0, 0, 3.0), coupling=(0, 0), linear=1.0
+    )
+    with pytest.raises(atlas.DomainError, match="axis is along n"):
+        upright.sensitivity(1.0, "B1")
 
 
 def in_given_axes(**x: float) -> Any:
