@@ -218,7 +218,12 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
         {} if options["mu"] is None and options["points"] is None else {"charge_to_mass": charge_to_mass_of(options)}
     )
     unit = {"SI": "T", "Gaussian": "G"}[system]
-    return {"title": f"field of ({x.text}, {y.text}) {unit}", "system": system, "B": [0.0, *_plain((x, y))], **given}
+    return {
+        "title": f"field of ({float(x):g}, {float(y):g}) {unit}",
+        "system": system,
+        "B": [0.0, *_plain((x, y))],
+        **given,
+    }
 
 
 def make(wanted: Any, out: Path, jobs: int | None) -> int:

@@ -255,17 +255,27 @@ def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
     if name == "general":
         w1, w2, w3 = values["omega"]
         pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
-        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", asked.changed(name, omega=pair)
+        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", asked.changed(name, omega=pair, spin=None)
         if B2 and w2 != -B2:
-            same = asked.changed("elementary", omega2=w2, omega=None)
+            same = asked.changed("elementary", omega2=w2, omega=None, spin=None)
             yield r"the motion without nutation with this $\omega_2$", same
+    yield from _of_other_bodies(asked)
+    if name != "quadric":
+        yield (
+            "all motions of this body in this field",
+            asked.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),
+        )
+
+
+def _of_other_bodies(asked: Asked) -> Iterator[tuple[str, Asked]]:
+    """Yield the same in a ball and in a disk or loop."""
     ratio = _case(asked).ratio
-    shape = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
+    shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
+    if asked.body and "density" in asked.options:
+        shape |= {"density": None, "mass": asked.body["mass"]}
     for border, words in ((1.0, "the same in a ball, $I=1$"), (2.0, "the same in a disk or loop, $I=2$")):
         if ratio != border and "points" not in asked.options:
-            yield words, asked.changed(name, **shape, ratio=border)
-    if name != "quadric":
-        yield "all motions of this body in this field", asked.changed("quadric", omega2=None, omega3=None, omega=None)
+            yield words, asked.changed(asked.family.name, **shape, ratio=border)
 
 
 def _reproduce(asked: Asked) -> str:

@@ -296,13 +296,24 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
     assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14, abs=0.0)
 
 
-def test_a_precession_too_slow_to_be_drawn_is_told(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+def test_a_precession_too_slow_to_be_drawn_is_told(
+    unbuilt: Callable[[str], dict[str, Any]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A cylinder that spins at 2 MHz precesses at 2 mHz: eight minutes a turn, and nutates within a microsecond."""
     body = "--shape solid-cylinder --radius 1.2um --height 3um --density 1850kg/m3 --charge 5000e"
+    monkeypatch.chdir(tmp_path)
     made = unbuilt(f"motion {body} --magnetic 0.4T 0.6928T --spin 2MHz")
     prose = made["pages"][0]["blocks"][-1]["text"]
     assert "a whole turn takes 492 s" in prose
     assert "7.71e-07 s" in prose
+    (listing,) = (block for block in made["pages"][0]["blocks"] if block["kind"] == "listing")
+    assert made["parameters"]["fields"]["field"]["title"] == "field of (0.4, 0.6928) T"
+    for _, line in listing["rows"]:  # no start stands twice, and no density without its shape
+        words = re.sub(r"^`atlas page |`$", "", line).split()
+        assert not {"--omega", "--omega2"} & set(words) or "--spin" not in words
+        assert "--density" not in words or "--shape" in words
+        with pytest.raises(AtlasError, match="not built here"):
+            CliRunner().invoke(command, ["page", *words], catch_exceptions=False)
 
 
 def test_neighbours_are_what_their_words_say(unbuilt: Callable[[str], dict[str, Any]]) -> None:
