@@ -19,6 +19,7 @@ from atlas.errors import AtlasError
 PLANCK = "\N{PLANCK CONSTANT}"
 MINE = r"""
 name = "mine"
+front_matter = true
 title = "A Small Report"
 authors = ["A. Author"]
 abstract = "With a formula, $R(t)$."

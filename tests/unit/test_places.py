@@ -1,6 +1,7 @@
 """Strange machines: no home, nothing that can be written, an encoding without the letters."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -77,7 +78,8 @@ def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, c
         text=True,
         check=False,
     )
-    assert (done.returncode, done.stderr) == (0, "")
+    told = [line for line in done.stderr.splitlines() if not re.search(r" after \d+ s$", line)]  # on a busy machine
+    assert (done.returncode, told) == (0, [])
     assert len(list((tmp_path / "out").glob("*.pdf"))) == 2
 
 
