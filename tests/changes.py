@@ -6,6 +6,15 @@ import re
 _TOKEN = re.compile(r"\\(?:begin|end)\{\w+\}|\\(?:text|mathrm|operatorname)\{[^}]*\}|\\[A-Za-z]+|\\.|.", re.DOTALL)
 _GREEK = [rf"\{name}" for name in "alpha beta gamma kappa lambda mu nu phi psi chi omega Omega".split()]
 _SWAPS = {"+": "-", "-": "+", r"\pm": r"\mp", r"\mp": r"\pm", r"\sin": r"\cos", r"\cos": r"\sin"}
+_LETTERS = [[*"xyzuvwabcdefghijklmnopqrst"], [*"XYZUVWABCDEFGHIJKLMNOPQRST"]]
+SAME = (
+    (r"\lambda_{AB}[x_A^i-x_1^i]", "a dummy index: the multipliers are symmetric"),
+    (r"\lambda_{AB}[\mathbf{y}_A-\mathbf{y}_1]", "a dummy index: the multipliers are symmetric"),
+    (r"q''(-\nu_0)", "q has no cubic term, so that its second derivative is even"),
+    (r"e_\pm=-\nu_0\mp", "both roots stand in a product"),
+)
+"""What a change may put into a formula of the ledger and leave its mathematics as it is, and why."""
+
 _BOLD = re.compile(r"\\(?:mathbf|boldsymbol)$")
 
 
@@ -21,33 +30,49 @@ def changes(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[
         for what, other in _others(token, before, tokens, place):
             space = " " if other[-1:].isalpha() and other.startswith("\\") else ""
             found.setdefault("".join([*tokens[:place], other + space, *tokens[place + 1 :]]), f"{token} {what} {other}")
-    found.pop(tex, None)
+    found = {other: what for other, what in found.items() if other != tex and not any(s in other for s, _ in SAME)}
     every = list(found.items())
     if most is None or len(every) <= most:
         return every
     return random.Random(seed).sample(every, most)  # noqa: S311  a choice that is the same in every run
 
 
-def _others(token: str, before: str, tokens: list[str], place: int) -> list[tuple[str, str]]:
+def _others(mark: str, before: str, tokens: list[str], place: int) -> list[tuple[str, str]]:
     """Return what one token may be changed to."""
-    if token in _SWAPS:
-        return [("function" if len(token) == 4 else "sign", _SWAPS[token])]
-    if token in {"=", r"\equiv", "("} and _begins_a_term(tokens, place):
-        return [("sign", f"{token}-")]
-    if token.isdigit():
-        return [("index" if before == "_" else "number", str((int(token) + 1) % 10))]
-    if token in _GREEK:
-        return [("letter", next(other for other in _GREEK if other != token and other not in tokens))]
-    if len(token) == 1 and token.isalpha() and not _BOLD.match(before):
-        fresh = "XYZUVW" if token.isupper() else "xyzuvw"
-        return [("letter", next(other for other in fresh if other not in tokens))]
-    return []
+    kind, others = "letter", list[str]()
+    if mark in _SWAPS:
+        kind, others = "function" if len(mark) == 4 else "sign", [_SWAPS[mark]]
+    elif mark in {"=", r"\equiv", "("} and _begins_a_term(tokens, place):
+        kind, others = "sign", [f"{mark}-"]
+    elif mark.isdigit():
+        kind = "index" if before == "_" else "number"
+        among = "123" if before == "_" and mark in "123" else str((int(mark) + 1) % 10)
+        others = [other for other in among if other != mark]
+    elif mark in _GREEK:
+        others = _letters(_GREEK, mark, tokens)
+    elif len(mark) == 1 and mark.isalpha() and not _BOLD.match(before):
+        others = _letters(_LETTERS[mark.isupper()], mark, tokens)
+    return [(kind, other) for other in others]
+
+
+def _letters(letters: list[str], token: str, tokens: list[str]) -> list[str]:
+    """Return a letter that the formula does not have, and another one that it has."""
+    others = [other for other in letters if other != token]
+    return [
+        next(other for other in others if (other in tokens) is known)
+        for known in (False, True)
+        if any((other in tokens) is known for other in others)
+    ]
 
 
 def _begins_a_term(tokens: list[str], place: int) -> bool:
     """Whether a sign put behind an opening or a sign of equality changes something: not in a square, nor before = 0."""
+    if "".join(tokens[:place]).rstrip().endswith((r"\cos", r"\cosh")):
+        return False
     after = next((later for later in tokens[place + 1 :] if not later.isspace() and later != "&"), "")
-    rest = re.sub(r"[\s&]", "", "".join(tokens[place:]))
+    rest = re.sub(r"[\s&]|\\boxed\{", "", "".join(tokens[place:]))
+    if re.match(r"=([^=]*=)?0\b", rest):
+        return False
     if re.match(r"\([^()]*\)\}?(\^2|=0|=\\text\{const)", rest.replace("(t)", "").replace("(0)", "")):
         return False
     return after not in {"+", "-", "0", r"\pm", r"\mp", r"\text", "", r"\begin{aligned}", "]", ")"}

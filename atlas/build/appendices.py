@@ -66,6 +66,7 @@ def _findings() -> dict[str, Finding]:
             verdict.slip,
             verdict.false if verdict.false_verdict == "refuted" else "",
             scripts.get(name, ""),
+            verdict.said,
         )
     return findings
 

@@ -75,7 +75,7 @@ EQUATIONS = (
             "The flight does not depend on the rotation: other places and velocities about the same centre of mass "
             "do not change its acceleration"
         ),
-        tex=r"""\ddot{\mathbf{y}}_0\ \text{does not depend on}\ \mathbf{x}_N,\ \dot{\mathbf{x}}_N""",
+        tex=r"\frac{\partial\ddot{\mathbf{y}}_0}{\partial\mathbf{x}_N}=\frac{\partial\ddot{\mathbf{y}}_0}{\partial\dot{\mathbf{x}}_N}=0",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="rotational motion of the body does not affect its translational motion",
     ),
@@ -167,7 +167,7 @@ EQUATIONS = (
         section="II",
         kind="claim",
         says="The electric field does not affect the rotation: in another one no relative acceleration changes",
-        tex=r"\ddot{\mathbf{x}}_N\ \text{does not depend on}\ \mathbf{E}",
+        tex=r"\frac{\partial\ddot{\mathbf{x}}_N}{\partial\mathbf{E}}=0",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="the electric field do not affect the motion of rotational degrees of freedom",
     ),
@@ -179,7 +179,7 @@ EQUATIONS = (
             "The rotation does not depend on the flight: another place and velocity of the whole body changes no "
             "relative acceleration"
         ),
-        tex=r"""\ddot{\mathbf{x}}_N\ \text{does not depend on}\ \mathbf{y}_0,\ \dot{\mathbf{y}}_0""",
+        tex=r"\frac{\partial\ddot{\mathbf{x}}_N}{\partial\mathbf{y}_0}=\frac{\partial\ddot{\mathbf{x}}_N}{\partial\dot{\mathbf{y}}_0}=0",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="so the translational motion does not affect the rotational motion of the body",
     ),

@@ -46,7 +46,7 @@ EQUATIONS = (
         section="VII",
         kind="claim",
         says=r"Without an electric field the particle moves on a helix about an axis along $\mathbf{B}$",
-        tex=r"\frac{d}{dt}\lvert\mathbf{y}_2\rvert^2=0,\qquad\ddot{\mathbf{y}}_{\Vert}=0",
+        tex=r"\frac{d}{dt}\lvert\mathbf{y}_2\rvert=0,\qquad\ddot{\mathbf{y}}_{\Vert}=0",
         assumptions=(r"$\mathbf{E} = 0$",),
         quote="particle moves along a helical line located on a cylinder",
     ),

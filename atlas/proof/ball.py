@@ -1,20 +1,25 @@
 """Section III on trial: the charged ball, (19) to (30)."""
 
+import ast
 from functools import cache
 
 import sympy
 
 from atlas.proof import euler_poisson as general
 from atlas.proof import units
-from atlas.proof.model import Model, Value, cross, hat, rotation_symbols, turn, vector
+from atlas.proof.model import Model, Value, cross, hat, rodrigues, rotation_symbols, turn, vector
+from atlas.proof.notation import parse
+from atlas.proof.particle import SIGNS as PARTICLE_SIGNS
 from atlas.proof.particle import TRAJECTORY, trajectory_model
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial, read
 
+SIGNS = {r"\mathbf{B}": "Bf", r"\hat{k}_2": "k2", r"\hat{k}_3": "k3", r"\hat{\mathbf{k}}": "axis"}
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
 I0, mu, c = sympy.symbols("I0 mu c", positive=True)
 alpha, gamma, t, k2, k3, m2, m3 = sympy.symbols("alpha gamma t k2 k3 m2 m3", real=True)
 ca, sa, cg, sg, p, q, h = sympy.symbols("ca sa cg sg p q h", real=True)
 size = sympy.Symbol("s", positive=True)
+E3 = sympy.Matrix([0, 0, 1])
 
 LARMOR = {ca: -alpha * sa, sa: alpha * ca}
 TURNING = {cg: -gamma * sg, sg: gamma * cg}
@@ -33,9 +38,10 @@ def kinematic_model() -> Model:
     dR = R * hat(Omega)
     spin = sum((m * cross(R * x, dR * x) for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 1))
     letters = {"m": spin, "R": R, "I": g.trace() * sympy.eye(3) - g, "Omega": Omega, "omega": R * Omega}
-    letters |= {f"g{n + 1}": g[n, n] for n in range(3)}
-    letters |= {f"R{n + 1}": R.col(n) for n in range(3)} | {f"dR{n + 1}": dR.col(n) for n in range(3)}
-    return Model(letters, ROTATION)
+    families = zip((1, 2, 3), masses, places, strict=True)
+    letters |= {"mass": dict(enumerate(masses, 1)), "x": {n: R * place for n, _, place in families}}
+    letters |= {"g": {n: g[n - 1, n - 1] for n in (1, 2, 3)}, "column": {n: R.col(n - 1) for n in (1, 2, 3)}}
+    return Model(letters, ROTATION, dict(zip(R, dR, strict=True)), ranges={"N": (1, 2, 3)})
 
 
 @cache
@@ -57,14 +63,10 @@ def ball_model() -> Model:
     """(16) with I = I0 and so g = I0/2; m = I0 R Omega."""
     tensor = I0 * sympy.eye(3)
     rate = general.euler(tensor, tensor / 2, R.T * Bf) / I0
-    dm = I0 * R * (hat(Omega) * Omega + rate)
-    spin = I0 * R * Omega
-    dR = R * hat(Omega)
     columns = {n + 1: R.col(n) for n in range(3)}
-    rates = {n + 1: dR.col(n) for n in range(3)}
-    letters = {"R": R, "dR": dR, "Rj": columns, "dRj": rates, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
-    letters |= {"Omega": Omega, "dOmega": rate, "m": spin, "dm": dm}
-    return Model(letters, ROTATION, units=units.BALL)
+    letters = {"R": R, "column": columns, "Bf": Bf, "mu": mu, "c": c, "I0": I0, "Omega": Omega, "m": I0 * R * Omega}
+    flow = dict(zip([*R, *Omega], [*(R * hat(Omega)), *rate], strict=True))
+    return Model(letters, ROTATION, flow, units=units.BALL)
 
 
 @cache
@@ -80,7 +82,9 @@ def larmor_model() -> Model:
     b = sympy.Symbol("b", positive=True)
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
     where = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
-    return Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)}, units=units.BALL)
+    model = Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)}, units=units.BALL)
+    model.letters["about_B"] = model.about(E3)
+    return model
 
 
 @cache
@@ -90,19 +94,15 @@ def larmor_frequency_model() -> Model:
     field = sympy.Matrix([0, 0, b])
     dm = -mu / (2 * c) * cross(field, m)
     rate = -cross(m, dm)[2] / (m[0] ** 2 + m[1] ** 2)
-    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "b": b}, units=units.BALL)
+    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "Bf": field}, units=units.BALL)
 
 
 def _motion(spin: Value, where: list[tuple[Value, Value]]) -> Model:
     letters = {"alpha": alpha, "gamma": gamma, "t": t, "k2": k2, "k3": k3, "I0": I0, "m": spin, "m2": m2, "m3": m3}
     phases = {alpha * t: (ca, sa), gamma * t: (cg, sg)}
-    letters["rod"] = rodrigues
-    return Model(letters, where, {**LARMOR, **TURNING}, START, phases, units=units.BALL)
-
-
-def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
-    """Rotation about a unit vector by the angle with that cosine and sine."""
-    return cosine * sympy.eye(3) + (1 - cosine) * axis * axis.T + sine * hat(axis)
+    model = Model(letters, where, {**LARMOR, **TURNING}, START, phases, units=units.BALL)
+    model.letters |= {"about_B": model.about(E3), "about_k": model.about(sympy.Matrix([0, k2, k3]))}
+    return model
 
 
 @cache
@@ -115,7 +115,7 @@ def motion_model() -> Model:
 @cache
 def start_model() -> Model:
     """Model the momentum that the ansatz (28) has at t = 0: I0 times the axial vector of dR/dt."""
-    first = rodrigues(sympy.Matrix([0, 0, 1]), ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
+    first = rodrigues(E3, ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
     model = _motion(sympy.zeros(3, 1), [])
     W = (model.letters["d"](first)).subs(START)
     return _motion(sympy.zeros(3, 1), [(m2, I0 * W[0, 2]), (m3, I0 * W[1, 0]), *AXIS])
@@ -144,8 +144,8 @@ def true_constants_model() -> tuple[Model, Model]:
 @cache
 def parallel_model(sign: int = 1) -> Model:
     """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of (29)."""
-    axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
-    letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}
+    known = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
+    letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **known}
     return Model(letters, domains=UPRIGHT, units=units.BALL)
 
 
@@ -158,22 +158,12 @@ def parallel_motion_model() -> Model:
     return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)}, units=units.BALL)
 
 
-_EXPANDED = (
-    "[[cos(gamma*t)*cos(alpha*t) - k3*sin(gamma*t)*sin(alpha*t),"
-    " k3*sin(gamma*t)*cos(alpha*t) + (k2^2 + k3^2*cos(gamma*t))*sin(alpha*t),"
-    " -k2*sin(gamma*t)*cos(alpha*t) + k2*k3*(1 - cos(gamma*t))*sin(alpha*t)],"
-    " [-cos(gamma*t)*sin(alpha*t) - k3*sin(gamma*t)*cos(alpha*t),"
-    " -k3*sin(gamma*t)*sin(alpha*t) + (k2^2 + k3^2*cos(gamma*t))*cos(alpha*t),"
-    " k2*sin(gamma*t)*sin(alpha*t) + k2*k3*(1 - cos(gamma*t))*cos(alpha*t)],"
-    " [k2*sin(gamma*t), k2*k3*(1 - cos(gamma*t)), k3^2 + k2^2*cos(gamma*t)]]"
-)
-_LEFT = "[[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]"
-_RIGHT = (
-    "[[cos(gamma*t), k3*sin(gamma*t), -k2*sin(gamma*t)],"
-    " [-k3*sin(gamma*t), k2^2 + k3^2*cos(gamma*t), k2*k3*(1 - cos(gamma*t))],"
-    " [k2*sin(gamma*t), k2*k3*(1 - cos(gamma*t)), k3^2 + k2^2*cos(gamma*t)]]"
-)
-_STEADY = "[[cos(m3/I0*t), -sin(m3/I0*t), 0], [sin(m3/I0*t), cos(m3/I0*t), 0], [0, 0, 1]]"
+def _turned(line: str) -> str:
+    """Add to m = M m0 that the matrix M is the turn by -alpha t about the field: its first column meets a zero."""
+    product = parse(line)[0].comparators[0]
+    return f"{line}; {ast.unparse(product.left) if isinstance(product, ast.BinOp) else product} = about_B(-alpha*t)"
+
+
 _LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 
@@ -192,7 +182,8 @@ def body_flow_model() -> Model:
     """Omega by (21) and K = mu/(2c) R^T B by (35), for any state."""
     K = vector("K")
     flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
-    return Model({"Omega": Omega, "K": K}, flow=flow)
+    letters = {"Omega": Omega, "K": K, "R": R, "Bf": 2 * c / mu * R * K, "mu": mu, "c": c}
+    return Model(letters, ROTATION, flow)
 
 
 @cache
@@ -200,14 +191,16 @@ def any_momentum_model() -> Model:
     """Any vector m with any rate; Omega = R^T m/I0 with R of (20)."""
     m, rate = vector("m"), vector("w")
     spin = R.T * m / I0
-    letters = {"Omega": spin, "dOmega": ((R * hat(spin)).T * m + R.T * rate) / I0, "m": m, "dm": rate}
-    return Model({**letters, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}, ROTATION, units=units.BALL)
+    letters = {"Omega": spin, "m": m, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
+    flow = dict(zip([*R, *m], [*(R * hat(spin)), *rate], strict=True))
+    return Model(letters, ROTATION, flow, units=units.BALL)
 
 
 @cache
 def along_model() -> Model:
     """Model gamma of text-ball-parallel, solved for m3."""
-    letters = {"alpha": alpha, "gamma": gamma, "t": t, "m3": I0 * (gamma - alpha), "I0": I0, "rod": rodrigues}
+    letters = {"t": t, "m3": I0 * (gamma - alpha), "I0": I0}
+    letters["R"] = rodrigues(E3, ca, -sa) * rodrigues(-E3, cg, -sg)
     return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)}, units=units.BALL)
 
 
@@ -221,35 +214,32 @@ def frame_model() -> Model:
 @cache
 def orthogonal_model(sign: int = 1) -> Model:
     """Model an orthogonal matrix of the determinant `sign`, and any m."""
-    return Model({"R": sign * R, "m": vector("m"), "I0": I0}, ROTATION)
+    letters = {"R": sign * R, "m": vector("m"), "I0": I0, "det": lambda matrix: matrix.det(method="berkowitz")}
+    return Model(letters, ROTATION)
 
 
 TRIALS = (
     Trial(
         name="text-momentum",
-        tried="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
+        signs={r"\mathbf{m}": "m", "m": "mass[]", r"\mathbf{R}": "column[]"},
         model=kinematic_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the principal axes",
         false=Falsehood(
-            "The angular momentum has the same components in the laboratory and in the body",
-            "R*I*Omega",
-            "I*Omega",
+            "The angular momentum has the same components in the laboratory and in the body", "R*I*Omega", "I*Omega"
         ),
     ),
     Trial(
         name="(19)",
-        tried="I1 = I2 = I3 = I0",
         model=uniform_ball_model,
         follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$",
     ),
     Trial(
         name="text-ball-centre",
-        tried="y = ypar + yperp",
+        signs={**PARTICLE_SIGNS, r"\mathbf{y}_0": "y"},
         model=lambda: trajectory_model(signed=False),
         follows="@(4) by substitution, for either sign of the charge",
         defines=("y",),
         solves=TRAJECTORY,
-        corrected_tried="y = ypar + yperp",
         corrected_model=trajectory_model,
         corrected_tex=r"\mathbf{y}_0(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
         r"\mathbf{B}\rvert}{c}}",
@@ -261,7 +251,6 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-axis",
-        tried="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
         model=round_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the "
         "principal axes with equal moments",
@@ -274,35 +263,30 @@ TRIALS = (
     ),
     Trial(
         name="(20)",
-        tried="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
         model=general.poisson_model,
         follows="@(12)",
     ),
     Trial(
         name="(21)",
-        tried="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)",
         model=ball_model,
         follows="@(16) with $g = I_0/2$",
     ),
     Trial(
         name="(22)",
-        tried="dm = -mu/(2*c)*cross(Bf,m)",
         model=ball_model,
         follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
     ),
     Trial(
         name="(23)",
-        tried="d(m[1]^2 + m[2]^2 + m[3]^2) = 0; d(m[1]*Bf[1] + m[2]*Bf[2] + m[3]*Bf[3]) = 0",
         model=momentum_flow_model,
         follows="@(22)",
     ),
     Trial(
         name="text-ball-body-precession",
-        tried="d2(Omega) = cross(K,cross(K,Omega))",
+        signs={r"\dot{\boldsymbol{\Omega}}": "d(Omega)"},
         model=body_flow_model,
         follows=r"@(21) and @(35): a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
         "second rate",
-        corrected_tried="d(Omega) = -cross(Omega + K,Omega); d(Omega + K) = 0",
         corrected_tex=(
             r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
             r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}"
@@ -314,66 +298,52 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-equivalent",
-        tried="dOmega + mu/(2*c)*cross(T(R)*Bf,Omega) = 1/I0*T(R)*(dm + mu/(2*c)*cross(Bf,m))",
         model=any_momentum_model,
         follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @(20), for any rate of $\mathbf{m}$",
         note="The left side vanishes if and only if the right one does.",
         false=Falsehood(
             r"The angular momentum turns about $\mathbf{B}$ in the other sense",
-            "dm + mu/(2*c)*cross(Bf,m)",
-            "dm - mu/(2*c)*cross(Bf,m)",
+            "d(m) + mu/(2*c)*cross(Bf, m)",
+            "d(m) - mu/(2*c)*cross(Bf, m)",
         ),
     ),
     Trial(
         name="text-linear-poisson",
-        tried="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
         model=orthogonal_model,
         follows=r"$\det R = 1$",
         grade="missing case",
         slip="text-affirmation",
-        corrected_tried="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
-        corrected_also=(
-            Part(
-                line="1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
-                model=lambda: orthogonal_model(-1),
-            ),
-        ),
+        corrected_model=lambda: (orthogonal_model(), orthogonal_model(-1)),
         corrected_tex=(
             r"-\frac{\boxed{\det R}}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}"
         ),
         note="Said of all orthogonal matrices, it holds for the rotations; for the determinant $-1$ the sign "
         "changes. With "
         "$R(0) = 1$ no such matrix occurs.",
-        false=Falsehood(
-            "It holds for orthogonal matrices of the determinant $-1$ as well", model=lambda: orthogonal_model(-1)
-        ),
+        false=Falsehood("The sign does not depend on the determinant", "-det(R)/I0", "-1/I0"),
     ),
     Trial(
         name="(24)",
-        tried="dR[i,j] = 1/I0*eps[i,a,b]*m[a]*R[b,j]; dRj[j] = 1/I0*cross(m,Rj[j])",
+        signs={r"\mathbf{R}": "column[]"},
         model=ball_model,
         follows=r"@(20) and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
     ),
     Trial(
         name="(25)",
-        tried="dm = -mu/(2*c)*cross(Bf,m)",
         model=ball_model,
         follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
     ),
     Trial(
         name="text-ball-frame",
-        tried="R*(I0*one)*T(R) = I0*one",
         model=frame_model,
         follows="$R R^T = 1$",
         false=Falsehood(
-            "The inertia tensor of a symmetric body stays diagonal too",
-            "R*(I0*one)*T(R) = I0*one",
-            "R*J*T(R) = J",
+            "The inertia tensor of a symmetric body stays diagonal too", "R*(I0*one)*T(R) = I0*one", "R*J*T(R) = J"
         ),
     ),
     Trial(
         name="(26)",
-        tried=f"m = {_LEFT}*[0, m2, m3] = [m2*sin(alpha*t), m2*cos(alpha*t), m3]",
+        form=_turned,
         model=larmor_model,
         follows=r"@(25) by substitution, $\alpha$ of @(27)",
         defines=("m",),
@@ -381,32 +351,27 @@ TRIALS = (
     ),
     Trial(
         name="(27)",
-        tried="alpha = mu*b/(2*c)",
         model=larmor_frequency_model,
         follows=r"the rate of the angle of $\mathbf{m}$ about $\mathbf{B}$ in @(22)",
     ),
     Trial(
         name="text-ball-ansatz",
-        tried="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         model=start_model,
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
         grade="missing case",
         slip="(29)",
-        corrected_tried="gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0; I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         corrected_tex=(
             r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\qquad\gamma\hat{k}_3=-\frac{\alpha I_0+m_3}{I_0}},\qquad I_0^2"
             r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
         ),
         note=r"Where $\gamma = 0$ the quotients have no value.",
         false=Falsehood(
-            r"$\hat{\mathbf{k}}$ points along $\mathbf{m}$ and $\mathbf{B}$, not against them",
-            "k2 = -m2",
-            "k2 = m2",
+            r"$\hat{\mathbf{k}}$ points along $\mathbf{m}$ and $\mathbf{B}$, not against them", "k2 = -m2", "k2 = m2"
         ),
     ),
     Trial(
         name="(28)",
-        tried=f"R = {_EXPANDED} = {_LEFT}*{_RIGHT}",
+        signs={"": "R"},
         model=motion_model,
         follows=r"@(24) by substitution, with $\mathbf{m}$ of @(26) and $\hat{\mathbf{k}}$, $\gamma$ of @(29)",
         defines=("R",),
@@ -414,16 +379,10 @@ TRIALS = (
     ),
     Trial(
         name="(29)",
-        tried="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
-        " gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2)",
         model=lambda: constants_model()[0],
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$, for all initial data but one point",
         defines=("k2", "k3", "gamma"),
         solves="k2^2 + k3^2 = 1; gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0",
-        corrected_tried=(
-            "gamma*k2 = -m2/I0; gamma*k3 = -(m3 + alpha*I0)/I0; gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2);"
-            " k2^2 + k3^2 = 1"
-        ),
         corrected_model=true_constants_model,
         corrected_defines=(),
         corrected_solves="",
@@ -437,24 +396,24 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-two-rotations",
-        tried=f"{_LEFT}*{_RIGHT} = rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2,"
-        f" k3],cos(gamma*t),-sin(gamma*t))",
+        signs={r"R_{\hat{\mathbf{B}}}": "about_B()", r"R_{\hat{\mathbf{k}}}": "about_k()"},
+        defines=("R",),
+        solves=_LINEAR,
         model=motion_model,
         follows="Rodrigues' formula for a rotation about a unit vector",
         false=Falsehood(
             r"The turn about $\mathbf{B}$ comes first, then the one about $\hat{\mathbf{k}}$",
-            "rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2, k3],cos(gamma*t),-sin(gamma*t))",
-            "rod([0, k2, k3],cos(gamma*t),-sin(gamma*t))*rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))",
+            "about_B(-alpha*t)*about_k(-gamma*t)",
+            "about_k(-gamma*t)*about_B(-alpha*t)",
         ),
     ),
     Trial(
         name="text-ball-parallel",
-        tried="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         model=parallel_model,
         follows=r"@(29) with $m_2 = 0$, $m_3 > -\alpha I_0$",
         grade="missing case",
-        corrected_tried="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
-        corrected_also=(Part(line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)", model=lambda: parallel_model(-1)),),
+        corrected_model=lambda: (parallel_model(), parallel_model(-1)),
+        corrected_signs={r"\text{for}\quad m_3\gtrless-\alpha I_0": "sign*(m3 + alpha*I0) > 0"},
         corrected_tex=(
             r"\hat{\mathbf{k}}=(0,0,\boxed{\mp1})^T,\qquad\gamma=\boxed{\pm}\Bigl(\alpha+\frac{m_3}{I_0}\Bigr)\quad"
             r"\boxed{\text{for}\quad m_3\gtrless-\alpha I_0}"
@@ -462,26 +421,15 @@ TRIALS = (
         note=r"For a fast spin against $\mathbf{B}$, $m_3 < -\alpha I_0$, both signs turn round, since $\gamma$ is a "
         r"root and never negative. The product, and so @(30), is the same; for $m_3 = -\alpha I_0$ see "
         "@theorem-ball-rest.",
-        false=Falsehood(
-            "The frequency is the spin alone",
-            "gamma = alpha + m3/I0",
-            "gamma = m3/I0",
-        ),
+        false=Falsehood("The frequency is the spin alone", "(alpha + m3/I0)", "m3/I0"),
     ),
     Trial(
         name="(30)",
-        tried=f"R = {_STEADY}",
         model=parallel_motion_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
         "constants of @text-ball-parallel",
         defines=("R",),
         solves=_LINEAR,
-        also=(
-            Part(
-                line="rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, 0, -1],cos(gamma*t),-sin(gamma*t))"
-                f" = {_STEADY}",
-                model=along_model,
-            ),
-        ),
+        also=(Part(line=read("(30)", SIGNS), model=along_model),),
     ),
 )

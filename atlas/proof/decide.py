@@ -6,7 +6,7 @@ Every model is made of rational functions of free parameters, so that `left = ri
 
 import ast
 import random
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
@@ -15,7 +15,7 @@ import sympy
 
 from atlas.proof.dimensions import unbalanced
 from atlas.proof.identity import ordered, positive, resolved, vanishes
-from atlas.proof.model import COMMON, Model
+from atlas.proof.model import COMMON, Model, functions
 from atlas.proof.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
 from atlas.proof.verdict import Decision
 
@@ -51,7 +51,7 @@ def decide(  # noqa: PLR0911  one return for each way in which a line fails
     line: str,
     cases: Model | Sequence[Model],
     *,
-    defines: Iterable[str] = (),
+    defines: Sequence[str] = (),
     solves: str = "",
     sample_only: bool = False,
     shrink: bool = False,
@@ -80,7 +80,9 @@ def decide(  # noqa: PLR0911  one return for each way in which a line fails
         )
         if found:
             return Outcome("refuted", "exact counterexample", found)
-        idle = _unknown(trees, here) or _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
+        idle = _unknown(trees, model, defines) or _idle(
+            relations, here, tuple(defines), f"{line}; {solves}" if solves else line
+        )
         if idle:
             return Outcome("undecided", idle)
         methods += [] if sample_only else [_prove(relation, here) for relation in relations]
@@ -109,42 +111,72 @@ def _understand(
     letters, where = dict(model.letters), list(model.where)
     kept, defined = [], set()
     for tree in parse(line):
-        name = getattr(tree.left, "id", None)
-        if name not in defines and getattr(tree.comparators[-1], "id", None) in defines:
-            sides = [tree.left, *tree.comparators]
-            tree.left, *tree.comparators = reversed(sides)
-            name = getattr(tree.left, "id", None)
-        if name in defines:
-            if name in defined:
-                raise NoMeaningError(f"{name} is defined twice")
+        letters |= _function(tree, defines, Reader(letters, model.ranges))
+        name = _defined(tree, defines)
+        if name in defined:
+            raise NoMeaningError(f"{name} is defined twice")
+        if name:
             defined.add(name)
-            value = Reader(letters, model.ranges).value(tree.comparators[0], {})
-            known = letters.get(name)
-            pairs = list(zip(known, value, strict=True)) if isinstance(known, sympy.MatrixBase) else [(known, value)]
-            if all(isinstance(symbol, sympy.Symbol) for symbol, _ in pairs):
-                where = pairs + [entry for entry in where if entry[0] not in dict(pairs)]
-            letters[name] = value
-            if len(tree.comparators) > 1:
-                if any(getattr(side, "id", None) == name for side in tree.comparators):
-                    raise NoMeaningError(f"{name} is compared with itself")
-                tree.left, tree.ops, tree.comparators = tree.comparators[0], tree.ops[1:], tree.comparators[1:]
-                kept.append(tree)
-        else:
+            tree.left, tree.ops = tree.comparators.pop(0), tree.ops[1:]
+            value = Reader(letters, model.ranges).value(tree.left, {})
+            where, letters[name] = _meant(name, value, letters) + where, value
+        if tree.comparators:
             kept.append(tree)
     reader = Reader(letters, model.ranges)
     relations = reader.relations(write(kept)) if kept else []
-    return relations + (reader.relations(solves) if solves else []), letters, where
+    new = [entry for place, entry in enumerate(where) if entry[0] not in {symbol for symbol, _ in where[:place]}]
+    return relations + (reader.relations(solves) if solves else []), letters, new
 
 
-def _unknown(trees: list[ast.Compare], model: Model) -> str:
+def _defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
+    """Return the letter that a relation defines, which is put on its left; empty if it defines none."""
+    every = [tree.left, *tree.comparators]
+    if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
+        return ""
+    if getattr(tree.left, "id", None) not in defines and getattr(every[-1], "id", None) in defines:
+        tree.left, *tree.comparators = reversed(every)
+    name = getattr(tree.left, "id", "")
+    return name if name in defines and tree.comparators else ""
+
+
+def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
+    """Return what the symbols of a letter are that a line defines, so that it may stand before its definition."""
+    known = letters.get(name, sympy.Symbol(name, real=True))
+    if isinstance(known, sympy.MatrixBase):
+        pairs = list(zip(known, value, strict=True))
+    else:
+        pairs = [(known, value)] if isinstance(value, sympy.Expr) else []
+    return pairs if all(isinstance(symbol, sympy.Symbol) for symbol, _ in pairs) else []
+
+
+def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> dict[str, Value]:
+    """Return the function that d(u)^2 = Q(u) = u^4 + a defines, with its derivatives, and leave d(u)^2 = u^4 + a."""
+    every = [tree.left, *tree.comparators]
+    for place, side in enumerate(every):
+        match side:
+            case ast.Call(func=ast.Name(id=name), args=[ast.Name(id=variable)]) if name in defines:
+                del every[place]
+                value = reader.value(every[min(place, len(every) - 1)], {})
+                tree.left, *tree.comparators = every
+                tree.ops = tree.ops[1:]
+                symbol = reader.letters.get(variable, sympy.Symbol(variable, real=True))
+                if not value.has(symbol):
+                    raise NoMeaningError(f"{name} does not depend on {variable}")
+                return functions(name, value, symbol)
+    return {}
+
+
+def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> str:
     """Say which letters of a line have no meaning in the model, and what the line says twice; empty if all is well."""
-    known = set(model.letters) | set(model.ranges) | {str(symbol) for symbol, _ in model.where}
+    known = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.where}
     known |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
     strange = {name for tree in trees for name in letters_of(tree)} - known
     if strange:
         return f"unreadable: {', '.join(sorted(strange))} means nothing here"
     every = [ast.dump(tree) for tree in trees]
-    return "it says the same twice" if len(set(every)) < len(every) else ""
+    sides = [[ast.dump(side) for side in (tree.left, *tree.comparators)] for tree in trees]
+    twice = any(len(set(one)) < len(one) for one in (every, *sides))
+    return "it says the same twice, or of something that it is itself" if twice else ""
 
 
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
@@ -220,10 +252,10 @@ def _violated(sign: str, difference: Value) -> bool | None:
     if difference.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
         return None
     if not difference.is_Rational:
-        number = sympy.N(difference, 40)
+        number = sympy.N(sympy.expand(difference) if difference.has(sympy.I) else difference, 40)
         if not number.is_number or not number.is_finite:
             return None
-        if not number.is_real:
+        if not number.is_real and abs(number) > sympy.Float("1e-30"):
             return True
         difference = sympy.Integer(0) if abs(number) < sympy.Float("1e-30") else number
     broken = {

@@ -6,48 +6,83 @@ import sympy
 from sympy.polys.matrices import DomainMatrix
 
 from atlas.proof.clebsch import AXES, MOMENTS, K, M, determinant
-from atlas.proof.model import Model, cross, dot
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.model import Model, Value, cross, dot
+from atlas.proof.notation import sides
+from atlas.proof.trial import Falsehood, Part, Trial, read
+
+SIGNS = {
+    "M": "M[]",
+    "K": "K[]",
+    "I_i": "I[i]",
+    "x": "x[]",
+    "b^2": "dot(K, K)",
+    r"\sum_i": "sum over i",
+    "P'": "P1",
+    # x_i (x_j + x_k) - x_j x_k, with i, j, k all different
+    "x_ix_j+x_ix_k-x_jx_k": "(x[i]*(x[1] + x[2] + x[3] - x[i]) - x[1]*x[2]*x[3]/x[i])",
+}
+z = sympy.Symbol("z", positive=True)
+v, D, ONE = sympy.Symbol("v", real=True), determinant(AXES), sympy.eye(3)
+X = sympy.diag(*(z + D / moment for moment in MOMENTS))
+P = sympy.expand(X.det())
+LETTERS = {"M": M, "K": K, "J": AXES, "D": D, "z": z, "v": v, "P": P, "P1": P.diff(z), "P2": P.diff(z, 2)}
+LETTERS |= {"I": dict(enumerate(MOMENTS, 1)), "x": dict(enumerate(X.diagonal(), 1)), "one": ONE}
+LETTERS |= {"e2": sum(D / moment for moment in MOMENTS), "s": dot(K, X.inv() * K), "elliptic": -v * X.inv() * K}
+LETTERS |= {f"I{n}": moment for n, moment in enumerate(MOMENTS, 1)} | {"g": AXES.trace() / 2 * ONE - AXES}
+
+
+def energy(momentum: Value) -> Value:
+    """Return H of theorem-lie-poisson."""
+    return dot(momentum, AXES.inv() * momentum) / 2 + dot(K, AXES * K) / 2
+
+
+def clebsch(momentum: Value) -> Value:
+    """Return F of theorem-clebsch."""
+    return dot(momentum, momentum) - D * dot(K, AXES.inv() * K)
 
 
 @cache
 def elliptic_model() -> Model:
-    """Model any K of a body with principal moments, any z and v, and Omega as a linear function of K."""
-    z, v = sympy.symbols("z v", real=True)
-    D = determinant(AXES)
-    E = -v * (z * AXES + D * sympy.eye(3)).inv()
-    letters = {"J": AXES, "K": K, "z": z, "v": v, "D": D, "Omega": (E - sympy.eye(3)) * K}
-    letters["g"] = AXES.trace() / 2 * sympy.eye(3) - AXES
-    letters["P"] = sympy.prod(z + D / moment for moment in MOMENTS)
-    return Model(letters, flow=dict(zip(K, cross(K, E * K), strict=True)))
+    """Model any K of a body with principal moments, any z and v, with K turned as the theorem says."""
+    letters = {name: value for name, value in LETTERS.items() if name != "P"}
+    return Model(letters, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
 
 
 @cache
 def integrals_model() -> Model:
-    """Model any M and K of a body with principal moments, any z and v, and the integrals H and F."""
-    z, v = sympy.symbols("z v", real=True)
-    D = determinant(AXES)
-    x = sympy.diag(*(z + D / moment for moment in MOMENTS))
-    P = sympy.expand(x.det())
-    letters = {"M": M, "K": K, "J": AXES, "D": D, "z": z, "v": v, "x": x, "P": P, "P1": P.diff(z), "P2": P.diff(z, 2)}
-    letters |= {"e2": sum(D / moment for moment in MOMENTS), "s": dot(K, x.inv() * K), "elliptic": -v * x.inv() * K}
-    letters["H"] = lambda M: dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
-    letters["F"] = lambda M: dot(M, M) - D * dot(K, AXES.inv() * K)
-    letters |= dict(zip(("x1", "x2", "x3"), x.diagonal(), strict=True)) | dict(
-        zip(("I1", "I2", "I3"), MOMENTS, strict=True)
-    )
-    letters |= {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
-    letters["normal"] = x.inv() * (letters["P1"] * sympy.eye(3) - 2 * P * x.inv()) * K
-    return Model(letters)
+    """Model any M and K of a body with principal moments, and any z and v."""
+    letters = {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
+    letters["normal"] = X.inv() * (LETTERS["P1"] * ONE - 2 * P * X.inv()) * K
+    return Model({**LETTERS, **letters, "X": X})
+
+
+@cache
+def root_model(*, elliptic: bool = False) -> Model:
+    """Model the same for v^2 = P, with the integrals at M, or at the elliptic motion's own."""
+    momentum = LETTERS["elliptic"] if elliptic else M
+    letters = {"H": energy(momentum), "F": clebsch(momentum), "c": dot(momentum, K)}
+    return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
+
+
+@cache
+def edge_model() -> tuple[Model, Model]:
+    """Model any M and K of a body whose third moment is the largest."""
+    first, second = sympy.symbols("first second", nonnegative=True)
+    (I1, I2, I3), cases = MOMENTS, []
+    for order in ({I2: I1 + first, I3: I1 + first + second}, {I1: I2 + first, I3: I2 + first + second}):
+        letters = {**LETTERS, "H": energy(M), "F": clebsch(M)}
+        swapped = {name: value.xreplace(order) for name, value in letters.items() if isinstance(value, sympy.Basic)}
+        cases.append(Model({**letters, **swapped}, domains={"first": "positive", "second": "positive"}))
+    return cases[0], cases[1]
 
 
 @cache
 def critical_model() -> Model:
     """Model the values of F and 2 D H on the elliptic motions as functions of z, with v' = P'/2v, at any b and c."""
-    whole = integrals_model().letters
     b, c = sympy.symbols("b c", real=True)
-    letters = {name: whole[name] for name in ("z", "v", "D", "e2", "P", "P1", "P2")} | {"b": b, "c": c}
-    return Model(letters, flow={whole["z"]: sympy.Integer(1), whole["v"]: whole["P1"] / (2 * whole["v"])})
+    letters = {name: LETTERS[name] for name in ("z", "v", "D", "e2", "P1", "P2")} | {"b": b, "c": c, "P": v**2}
+    letters["C"] = 4 * b**2 * v**2 - c / v * (LETTERS["P1"] ** 2 - 2 * v**2 * LETTERS["P2"])
+    return Model(letters, flow={z: sympy.Integer(1), v: LETTERS["P1"] / (2 * v)})
 
 
 @cache
@@ -59,49 +94,54 @@ def linear_model() -> Model:
     w, k, lam = sympy.symbols("w1:4"), sympy.symbols("k1:4"), sympy.Symbol("lam")
     first, second, third = (root**2 for root in w)
     x, y = sympy.diag(first, second, third), sympy.diag(second * third, first * third, first * second)
+    letters = {"lam": lam, "x": {1: first, 2: second, 3: third}, "K": sympy.Matrix([k[i] * w[i] for i in range(3)])}
     rates = sympy.Matrix([*(cross(M, x * M) + cross(K, y * K)), *cross(K, x * M)])
     start = {M[i]: -k[i] * w[i - 1] * w[i - 2] for i in range(3)} | {K[i]: k[i] * w[i] for i in range(3)}
     flow = DomainMatrix.from_Matrix(rates.jacobian([*M, *K]).subs(start, simultaneous=True))
-    letters = {"lam": lam, "rates": rates.subs(start, simultaneous=True)}
+    letters["rates"] = rates.subs(start, simultaneous=True)
     letters["char"] = sum(flow.domain.to_sympy(c) * lam**n for n, c in enumerate(reversed(flow.charpoly())))
-    letters["C"] = sum(k[i] ** 2 * (y.trace() - 2 * y[i, i]) ** 2 for i in range(3))
     return Model(letters)
 
+
+_SPLITTING = read("theorem-splitting", SIGNS | {r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"})
+_C = sides(_SPLITTING.split("; ")[3])[1]
 
 TRIALS = (
     Trial(
         name="theorem-elliptic",
-        tried="E = -v*inv(z*J + D*one); d(K) = cross(K,Omega) = cross(K,E*K);"
-        " J*d(Omega) - cross(J*Omega,Omega) + 2*cross(g*K,Omega) = (1 - v^2/P)*cross(J*K,K)",
         model=elliptic_model,
         follows=r"@(16) and @(35), for any $v$",
-        defines=("E",),
+        signs={
+            "x": "x",
+            r"v^2=P": "P",
+            r"(zJ+D)^{-1}": "inv(z*J + D*one)",
+            r"[1+v(zJ+D)^{-1}]": "(one + v*inv(z*J + D*one))",
+        },
+        defines=("Omega", "E", "P"),
+        solves="d(K) = cross(K,Omega); J*d(Omega) - cross(J*Omega,Omega) + 2*cross(g*K,Omega)"
+        " = (1 - v^2/P)*cross(J*K,K)",
         note=r"What is left of @(16) vanishes for $v^2=P$, and from a start there is but one solution. For another $v$ "
         r"it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
-        false=Falsehood(
-            "Any $v$ will do",
-            "(1 - v^2/P)*cross(J*K,K)",
-            "0*cross(J*K,K)",
-        ),
+        false=Falsehood("The moments add, with no $z$", "z + D/I[1]", "D/I[1]"),
     ),
     Trial(
         name="theorem-splitting",
-        tried="x1*(M[1] + v*K[1]/x1)^2 + x2*(M[2] + v*K[2]/x2)^2 + x3*(M[3] + v*K[3]/x3)^2"
-        " = 2*D*H(M) + z*F(M) + 2*v*dot(M,K) + dot(K,K)*z*(z + e2) + (v^2 - P)*s",
-        model=integrals_model,
-        follows=r"$H$ and $F$; for $v^2=P$ the last term vanishes",
+        model=root_model,
+        follows="$H$ and $F$, and the characteristic polynomial of the linear flow",
+        signs={r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"},
+        defines=("C",),
+        elsewhere={2: linear_model, 3: linear_model},
         also=(
-            Part(line="rates[n] = 0; char = lam^4*(lam^2 + C)", model=linear_model),
+            Part(line="rates[n] = 0", model=linear_model),
             Part(
-                line="4*dot(K,K)*P + s*(P1^2 - 2*P*P2) = K[1]^2/x1*(x1*x2 + x1*x3 - x2*x3)^2"
-                " + K[2]^2/x2*(x2*x1 + x2*x3 - x1*x3)^2 + K[3]^2/x3*(x3*x1 + x3*x2 - x1*x2)^2;"
-                " P1^2 - 2*P*P2 = (x2*x3)^2 - 2*x2*x3*x1*(x2 + x3) + x1^2*(x2 - x3)^2",
+                line=f"4*dot(K,K)*P + s*(P1^2 - 2*P*P2) = {_C};"
+                " P1^2 - 2*P*P2 = (x[2]*x[3])^2 - 2*x[2]*x[3]*x[1]*(x[2] + x[3]) + x[1]^2*(x[2] - x[3])^2",
                 model=integrals_model,
             ),
             Part(
-                line="dot(normal,x*m + v*k) = 2*v*(dot(elliptic,m) - D*dot(K,inv(J)*k)) + P1*(dot(elliptic,k)"
-                " + dot(K,m)) + 2*v*(2*z + e2)*dot(K,k) + 2*(v^2 - P)*dot(K,inv(x)*m);"
-                " dot(normal,x*normal) = 4*dot(K,K)*P + s*(P1^2 - 2*P*P2)",
+                line="dot(normal,X*m + v*k) = 2*v*(dot(elliptic,m) - D*dot(K,inv(J)*k)) + P1*(dot(elliptic,k)"
+                " + dot(K,m)) + 2*v*(2*z + e2)*dot(K,k) + 2*(v^2 - P)*dot(K,inv(X)*m);"
+                " dot(normal,X*normal) = 4*dot(K,K)*P + s*(P1^2 - 2*P*P2)",
                 model=integrals_model,
             ),
         ),
@@ -126,41 +166,37 @@ TRIALS = (
     ),
     Trial(
         name="theorem-bifurcation",
-        tried="F = -c*P1/v - 2*b^2*z - e2*b^2; G = -2*c*v - b^2*z^2 - z*(F + e2*b^2);"
-        " C = 4*b^2*v^2 - c/v*(P1^2 - 2*v^2*P2); d(F) = -C/(2*v^2); d(G) = -z*d(F); d(-z/(2*D))/d(F) = v^2/(D*C)",
         model=critical_model,
         follows=r"$v^2=P$, of which $dv/dz=P'/2v$ is used; $G=2DH$",
-        defines=("F", "G", "C"),
+        signs={
+            "b^2": "b^2",
+            "2DH": "G",
+            r"\frac{dF}{dz}": "d(F)",
+            r"\frac{dH}{dF}": "d(G)/(2*D*d(F))",
+            r"\frac{d^2H}{dF^2}": "d(d(G)/(2*D*d(F)))/d(F)",
+        },
+        defines=("F", "G"),
         also=(
             Part(
-                line="c = dot(elliptic,K) = -v*s; F(elliptic) = -c*P1/v - 2*dot(K,K)*z - e2*dot(K,K)"
-                " + (v^2 - P)*dot(inv(x)*K,inv(x)*K); 2*D*H(elliptic) = -2*c*v - dot(K,K)*z^2"
-                " - z*(F(elliptic) + e2*dot(K,K)) - (v^2 - P)*s",
-                model=integrals_model,
-                defines=("c",),
+                line="; ".join(read("theorem-bifurcation", SIGNS).split("; ")[:2]),
+                model=lambda: root_model(elliptic=True),
             ),
         ),
         note="The second line is that an elliptic motion has these $F$ and $H$. The curve turns back in a cusp where "
         "$C=0$, and is convex, as $H$ over $F$, where $C>0$.",
-        false=Falsehood(
-            "The slope does not depend on the place on the curve",
-            "d(G) = -z*d(F)",
-            "d(G) = -e2*d(F)",
-        ),
+        false=Falsehood("The slope does not depend on the place on the curve", " = -z/(2*D)", " = -e2/(2*D)"),
     ),
     Trial(
         name="theorem-edge",
-        tried="2*(H(M) - F(M)/(2*I3)) - (I1 + I2)*dot(K,K) = (1/I1 - 1/I3)*M[1]^2 + (1/I2 - 1/I3)*M[2]^2"
-        " + (I3 - I1)*(I3 - I2)/I3*K[3]^2",
-        model=integrals_model,
+        model=edge_model,
         follows=r"$H$ and $F$",
         note=r"For $I_3$ the largest moment the right side is not negative, and it is 0 for $\mathbf{M}=(0,0,M_3)$, "
         r"$\mathbf{K}=(K_1,K_2,0)$, which is as $(\mathbf{M},\mathbf{K})=0$ asks: the body swings or turns about its "
         r"third axis, which stays across the field, as a plane pendulum.",
         false=Falsehood(
             "The bound is the energy of the spin about the axis of the largest moment along the field",
-            "(I1 + I2)*dot(K,K)",
-            "I3*dot(K,K)",
+            "(I1 + I2)*K^2",
+            "I3*K^2",
         ),
     ),
 )

@@ -4,15 +4,31 @@ from functools import cache
 
 import sympy
 
+from atlas.paper import EQUATIONS
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, hat, matrix, rotation, rotation_symbols, symmetric, vector
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.notation import sides
+from atlas.proof.trial import Falsehood, Part, Trial, read
+
+SIGNS = {
+    "c": "light",
+    "B": "Bf[]",
+    r"\mathbf{B}": "Bf",
+    r"\lambda": "Lam[]",
+    r"\dot R": "dR[]",
+    r"\ddot R": "ddR[]",
+    r"I\dot{\boldsymbol{\Omega}}": "IdOmega",
+    r"I_{ka}\dot\Omega_a": "IdOmega[k]",
+    r"(\mathbf{B}R\boldsymbol{\Omega})": "dot(Bf, R*Omega)",
+    r"(\mathbf{B}R)_a": "(T(R)*Bf)[a]",
+}
+RIGHT_OF_11 = sides(read("(11)", SIGNS))[1]
 
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
 mu, c = sympy.symbols("mu c", positive=True)
 g = symmetric("g")
 moments = g.trace() * sympy.eye(3) - g
-COMMON = {"R": R, "Omega": Omega, "Bf": Bf, "mu": mu, "c": c}
+COMMON = {"R": R, "Omega": Omega, "Bf": Bf, "mu": mu, "light": c}
 
 
 def _antisymmetric(S: Value) -> Value:
@@ -31,12 +47,8 @@ def multiplier_model() -> Model:
     slope = skew.jacobian(w)
     rest = skew.xreplace(dict.fromkeys(w, 0))
     solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * rest
-    ddRg = R * (hat(Omega) ** 2 + hat(w)) * g
-    return Model(
-        {**COMMON, "A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved, "ddRg": ddRg},
-        ROTATION,
-        units=units.BODY,
-    )
+    letters = {"A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved}
+    return Model({**COMMON, **letters, "ddR": R * (hat(Omega) ** 2 + hat(w))}, ROTATION, units=units.BODY)
 
 
 @cache
@@ -93,7 +105,8 @@ def poisson_model() -> Model:
     flow = dict(zip(parameters, sympy.symbols("p1:4", real=True), strict=True))
     dR = R.applyfunc(lambda entry: sum((entry.diff(q) * p for q, p in flow.items()), sympy.Integer(0)))
     W = (R.T * dR).applyfunc(sympy.cancel)
-    return Model({"R": R, "Omega": sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])}, flow=flow)
+    start = dict.fromkeys(parameters, sympy.Integer(0))
+    return Model({"R": R, "Omega": sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])}, flow=flow, start=start)
 
 
 @cache
@@ -124,9 +137,10 @@ def axes_model() -> Model:
     tensor = sum((m * (dot(x, x) * sympy.eye(3) - x * x.T) for m, x in zip(masses, turned, strict=True)), R * 0)
     moments = [m * x**2 for m, x in zip(masses, places, strict=True)]
     letters = {"R": R, "turned": tensor, "I": sympy.diag(*(sum(moments) - moment for moment in moments))}
-    letters |= {f"R{n + 1}": R.col(n) for n in range(3)} | {f"e{n + 1}": sympy.eye(3).col(n) for n in range(3)}
-    letters |= {f"I{n + 1}": letters["I"][n, n] for n in range(3)}
-    return Model(letters, ROTATION, start=dict(zip(R, sympy.eye(3), strict=True)))
+    letters |= {"column": {n + 1: R.col(n) for n in range(3)}, "e": {n + 1: sympy.eye(3).col(n) for n in range(3)}}
+    letters["moment"] = {n + 1: letters["I"][n, n] for n in range(3)}
+    start = dict(zip(R, sympy.eye(3), strict=True))
+    return Model(letters, ROTATION, start=start, ranges={"i": (1, 2, 3)})
 
 
 @cache
@@ -143,24 +157,12 @@ def inertia_model() -> Model:
 def grioli_model() -> Model:
     """B along e3; G3 is the third row of R."""
     b = sympy.Symbol("b", positive=True)
-    field = R.T * sympy.Matrix([0, 0, b])
+    field = sympy.Matrix([0, 0, b])
     return Model(
-        {**COMMON, "I": moments, "g": g, "b": b, "G3": R.row(2).T, "IdOmega": euler(moments, g, field)},
+        {**COMMON, "I": moments, "g": g, "Bf": field, "G3": R.row(2).T, "IdOmega": euler(moments, g, R.T * field)},
         ROTATION,
         units=units.BODY,
     )
-
-
-_EQUATION_11 = (
-    "cross(I*Omega,Omega)[k] + 1/2*eps[k,i,j]*((A*I)[a,i]*R[a,j] + (R*I)[a,i]*A[a,j])"
-    " - 1/2*I[k,a]*eps[a,i,j]*A[b,i]*R[b,j]"
-)
-_FORCE_MATRIX = (
-    "eps[i,j,k]*Bf[j]*dR[k,a] = {sign}eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
-    " = {sign}eps[i,j,k]*eps[al,be,ga]*R[al,a]*R[be,b]*R[ga,l]*Bf[j]*Omega[b]*R[k,l]"
-    " = {sign}eps[i,j,k]*eps[al,be,ga]*R[al,a]*Bf[j]*(R*Omega)[be]*(R*T(R))[ga,k]"
-    " = {sign}eps[i,j,k]*eps[al,be,k]*R[al,a]*Bf[j]*(R*Omega)[be]"
-)
 
 
 @cache
@@ -179,6 +181,7 @@ def moments_model() -> tuple[Model, Model]:
     cases = []
     for third in (g3, sympy.Integer(0)):
         letters = {"g1": g1, "g2": g2, "g3": third, "I1": g2 + third, "I2": g1 + third, "I3": g1 + g2}
+        letters |= {"g": sympy.diag(g1, g2, third), "I": sympy.diag(g2 + third, g1 + third, g1 + g2)}
         cases.append(Model(letters))
     return cases[0], cases[1]
 
@@ -187,12 +190,8 @@ def moments_model() -> tuple[Model, Model]:
 def covariance_model(sign: int = 1) -> Model:
     """Model another rotation S of the laboratory, or minus one: what vectors and tensors of Section II are there."""
     symbols, where = rotation_symbols("S")
-    other = sign * symbols
-    inertia, mass, K = symmetric("I"), symmetric("g"), vector("K")
-    letters = {"S": other, "I": inertia, "g": mass, "K": K, "Omega": Omega, "mu": mu, "c": c}
-    letters["seen"] = lambda tensor: other * tensor * other.T
-    letters["rate"] = lambda tensor, mass, field, spin: cross(tensor * spin, spin) - mu / c * cross(mass * field, spin)
-    return Model(letters, where)
+    letters = {"S": sign * symbols, "I": symmetric("I"), "g": symmetric("g"), "K": vector("K")}
+    return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, where)
 
 
 @cache
@@ -203,16 +202,20 @@ def flight_model() -> Model:
     places[4] = -sum((masses[N] * places[N] for N in places), sympy.zeros(3, 1)) / masses[4]
     mass = sum((masses[N] * places[N] * places[N].T for N in masses), sympy.zeros(3, 3))
     inertia = mass.trace() * sympy.eye(3) - mass
-    E, velocity = vector("E"), vector("v")
-    letters = {**COMMON, "m": masses, "x": places, "E": E, "dy0": velocity, "w": vector("w"), "I": inertia}
-    letters |= {"ddy0": mu * E + mu / c * cross(velocity, Bf), "IdOmega": euler(inertia, mass, R.T * Bf)}
-    return Model(letters, ROTATION, ranges={"N": (1, 2, 3, 4)})
+    E, y0, velocity, w = vector("E"), vector("y"), vector("v"), vector("w")
+    letters = {**COMMON, "m": masses, "x": places, "E": E, "y0": y0, "w": w, "I": inertia}
+    letters |= {"y": {N: y0 + R * place for N, place in places.items()}, "IdOmega": euler(inertia, mass, R.T * Bf)}
+    rates = [*velocity, *(mu * E + mu / c * cross(velocity, Bf)), *(R * hat(Omega)), *w]
+    flow = dict(zip([*y0, *velocity, *R, *Omega], rates, strict=True))
+    return Model(letters, ROTATION, flow, ranges={"N": (1, 2, 3, 4)})
 
+
+_LAST = r"R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a"
+_AFFIRMED = f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({RIGHT_OF_11})"
 
 TRIALS = (
     Trial(
         name="(10)",
-        tried="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
         model=multiplier_model,
         follows="@(6) about the centre of mass, solved for the multipliers",
         definition=True,
@@ -220,7 +223,8 @@ TRIALS = (
     ),
     Trial(
         name="text-affirmation",
-        tried=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
+        signs={r"\text{(10)}\iff\text{(11), (12)}": _AFFIRMED},
+        corrected_signs={r"\text{(10)},\ R_{ij}(0)=\delta_{ij}\iff\text{(11), (12)}": _AFFIRMED},
         model=multiplier_model,
         follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
         note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
@@ -229,210 +233,172 @@ TRIALS = (
         "matrix at the "
         "start, one of the determinant $-1$ among them, for which the identity holds too.",
         grade="missing case",
-        corrected_tried=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
-        corrected_also=(Part(line=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})", model=mirrored_model),),
+        corrected_model=lambda: (multiplier_model(), mirrored_model()),
         corrected_tex=r"\text{(10)},\ \boxed{R_{ij}(0)=\delta_{ij}}\iff\text{(11), (12)}",
         false=Falsehood(
-            "The Euler equations hold without their last term",
-            " - 1/2*I[k,a]*eps[a,i,j]*A[b,i]*R[b,j]",
-            "",
+            "The Euler equations hold without their last term", " - 1/2*I[k, a]*eps[a, i, j]*A[b, i]*R[b, j]", ""
         ),
     ),
     Trial(
         name="text-multipliers-algebraic",
-        tried="lam = -(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega) + T(R)*A)*g = T(lam)",
+        signs={
+            r"\lambda": "lam",
+            r"\hat\Omega": "hat(Omega)",
+            r"\hat w": "hat(w)",
+            r"\{\text{right side of (11)}\}": "IdOmega",
+        },
         model=algebraic_model,
         follows=r"@(10) with the rate of $\boldsymbol{\Omega}$ of @(11), for any matrix $A$",
-        defines=("lam",),
-        solves="R*(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega))*g = -R*lam - A*g",
+        defines=("lam", "w"),
+        solves="R*(hat(Omega)^2 + hat(w))*g = -R*lam - A*g",
         false=Falsehood(
             "The multipliers do not hold the centrifugal force: they are made of the angular acceleration and $A$",
-            "hat(Omega)*hat(Omega) + ",
+            "hat(Omega)^2 + ",
             "",
         ),
     ),
     Trial(
         name="text-nondegenerate",
-        tried="g1*g2*g3 != 0",
         model=lambda: moments_model()[0],
         follows="the moments of mass of a body that is not plane",
-        corrected_tried="I1*I2*I3 > 0",
         corrected_model=moments_model,
         corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
         grade="missing case",
         slip="text-rigid",
-        false=Falsehood("The mass matrix of a plane body is not degenerate", "I1*I2*I3 > 0", "g1*g2*g3 != 0"),
+        false=Falsehood(
+            "The mass matrix of a plane body is not degenerate", "det(I) = I1*I2*I3 != 0", "det(g) = g1*g2*g3 != 0"
+        ),
         note="For a plane body, the loop of Section IV, $g_3 = 0$. The Affirmation needs only that the inertia "
         "tensor be non-degenerate, which it is for every body that is no rod.",
     ),
     Trial(
         name="(11)",
-        tried=f"IdOmega[k] = {_EQUATION_11}",
         model=multiplier_model,
         follows="the symmetry of the multipliers in @(10)",
     ),
     Trial(
         name="(12)",
-        tried="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
+        signs={r"\dot R": "d(R)"},
         model=poisson_model,
         follows="any moving rotation, by its Cayley parameters",
     ),
     Trial(
         name="text-inertia-tensor",
-        tried="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
         model=inertia_model,
         follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
-        false=Falsehood(
-            "The inertia tensor is the mass matrix",
-            "g[a,a]*delta[i,j] - g[i,j]",
-            "g[i,j]",
-        ),
+        false=Falsehood("The inertia tensor is the mass matrix", "g[a, a]*delta[i, j] - g[i, j]", "g[i, j]"),
     ),
     Trial(
         name="text-mass-moments",
-        tried="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$",
-        false=Falsehood(
-            "A moment of mass is half the sum of all moments of inertia",
-            "I2 + I3 - I1",
-            "I2 + I3 + I1",
-        ),
+        false=Falsehood("A moment of mass is half the sum of all moments of inertia", "I2 + I3 - I1", "I2 + I3 + I1"),
     ),
     Trial(
         name="text-inertia-axes",
-        tried="turned = R*I*T(R); turned*R1 = I1*R1; turned*R2 = I2*R2; turned*R3 = I3*R3;"
-        " at0(R1) = e1; at0(R2) = e2; at0(R3) = e3",
+        signs={r"\mathbf{R}": "column[]", r"\mathbf{e}": "e[]", "I_i": "moment[i]"},
+        also=(Part(line="turned = R*I*T(R)", model=axes_model),),
         model=axes_model,
         follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
-        false=Falsehood(
-            "The rows of $R$ are the axes of inertia",
-            "turned = R*I*T(R)",
-            "turned = T(R)*I*R",
-        ),
+        false=Falsehood("The rows of $R$ are the axes of inertia", "turned = R*I*T(R)", "turned = T(R)*I*R"),
     ),
     Trial(
         name="text-orthogonal",
-        tried="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
         model=matrix_flow_model,
         follows="@(12) for any matrix $R$",
-        false=Falsehood(
-            "$R^T R$ stays what it is as well, for any matrix $R(0)$",
-            "R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]",
-            "R[1,i]*R[1,j] + R[2,i]*R[2,j] + R[3,i]*R[3,j]",
-        ),
+        false=Falsehood("$R^T R$ stays what it is as well, for any matrix $R(0)$", "R*T(R)", "T(R)*R"),
     ),
     Trial(
         name="text-covariance",
-        tried="rate(seen(I),seen(g),S*K,S*Omega) = S*rate(I,g,K,Omega); hat(S*Omega) = seen(hat(Omega))",
+        defines=("Ip", "gp", "Omegap", "Kp"),
+        also=(Part(line="hat(S*Omega) = S*hat(Omega)*T(S)", model=covariance_model),),
         model=covariance_model,
         follows="the right side of @(16) and that of @(12), for any rotation $S$",
         note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
-        false=Falsehood(
-            "The system is covariant under reflections as well",
-            model=lambda: covariance_model(-1),
-        ),
+        false=Falsehood("The system is covariant under reflections as well", model=lambda: covariance_model(-1)),
     ),
     Trial(
         name="text-force-matrix",
-        tried=_FORCE_MATRIX.format(sign="").replace("= ", "= ", 1)
-        + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
         model=magnetic_model,
         follows="@(12) and $R R^T = 1$",
-        corrected_tried=_FORCE_MATRIX.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
         corrected_tex=(
-            r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=\boxed{-}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}="
-            r"\ldots\\ "
-            r"&=\boxed{-}\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta"
-            r"=\boxed{(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})} \end{aligned}"
+            EQUATIONS["text-force-matrix"]
+            .tex.replace(r"=\epsilon", r"=\boxed{-}\epsilon")
+            .replace(_LAST, r"\boxed{(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})}")
         ),
         grade="misprint",
         note="The minus of @(12) is lost at the first step and back in @(13).",
     ),
     Trial(
         name="(13)",
-        tried="A[i,a] = -mu/c*eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
-        " = mu/c*((R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega))",
         model=magnetic_model,
         follows="@(7) and @(12)",
     ),
     Trial(
         name="(14)",
-        tried="IdOmega = cross(I*Omega,Omega) - mu/(2*c)*(I*cross(T(R)*Bf,Omega) - cross(I*T(R)*Bf,Omega)"
-        " + cross(T(R)*Bf,I*Omega))",
         model=magnetic_model,
         follows="@(11) with the matrix $A$ of @(7)",
     ),
     Trial(
         name="(15)",
-        tried="(I*cross(K,Omega))[1] - cross(I*K,Omega)[1] + cross(K,I*Omega)[1]"
-        " = (I1 - I2 + I3)*K2*Omega3 - (I1 - I3 + I2)*K3*Omega2 = 2*g2*K2*Omega3 - 2*g3*K3*Omega2 ="
-        " 2*cross(g*K,Omega)[1]",
+        signs={r"R^T\mathbf{B}": "K"},
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$",
     ),
     Trial(
         name="text-other-components",
-        tried="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
+        signs={r"R^T\mathbf{B}": "K"},
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
         false=Falsehood(
-            "The mass matrix may act on the angular velocity instead",
-            "2*cross(g*K,Omega)",
-            "2*cross(K,g*Omega)",
+            "The mass matrix may act on the angular velocity instead", "2*cross(g*K, Omega)", "2*cross(K, g*Omega)"
         ),
     ),
     Trial(
         name="(16)",
-        tried="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
         model=magnetic_model,
         follows="@(11) with the matrix $A$ of @(7)",
     ),
     Trial(
         name="(17)",
-        tried="dm = -mu/c*cross(R*g*T(R)*Bf,R*inv(I)*T(R)*m)",
+        signs={r"\dot{\mathbf{m}}": "dm"},
         model=momentum_model,
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @(12) and @(16)",
     ),
     Trial(
         name="(18)",
-        tried="dM = cross(M,inv(I)*M) - mu/c*cross(g*T(R)*Bf,inv(I)*M)",
+        signs={r"\dot{\mathbf{M}}": "dM"},
         model=momentum_model,
         follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @(16)",
     ),
     Trial(
         name="text-grioli",
-        tried="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
+        signs={"I'": "I", "g'": "g", r"I'\dot{\boldsymbol{\Omega}}": "IdOmega"},
         model=grioli_model,
         follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
         note="What is tried is the form. That Grioli deduced these equations is history, and not tried.",
         false=Falsehood(
-            "The torque holds the third column of $R$",
-            "cross(g*G3,Omega)",
-            "cross(g*[R[1,3], R[2,3], R[3,3]],Omega)",
+            "The torque holds the third column of $R$", "cross(g*G3, Omega)", "cross(g*[R[1,3], R[2,3], R[3,3]], Omega)"
         ),
     ),
     Trial(
         name="text-flight",
-        tried="R*(I*w - IdOmega) = m[N]*cross(R*x[N], R*(hat(Omega)*hat(Omega) + hat(w))*x[N]"
-        " - mu/c*cross(R*hat(Omega)*x[N],Bf))",
+        signs={r"\mathbf{y}_0": "y0", r"\mathbf{y}": "y[]", r"\mathbf{x}": "x[]"},
         model=flight_model,
         follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "
         "force and the torque that are not those of the constraints",
         also=(
             Part(
-                line="0 = m[N]*(ddy0 + R*(hat(Omega)*hat(Omega) + hat(w))*x[N] - mu*E"
-                " - mu/c*cross(dy0 + R*hat(Omega)*x[N],Bf))",
+                line="R*(I*w - IdOmega) = m[N]*cross(R*x[N], d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))",
                 model=flight_model,
             ),
+            Part(line="0 = m[N]*(d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))", model=flight_model),
         ),
         note=r"Both vanish if @(4) holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @(16), and only then. "
         "A force that is for all particles in proportion to their masses has no torque about the centre of "
         "mass, and is left out of it.",
         false=Falsehood(
-            "The magnetic force has no torque about the centre of mass",
-            " - mu/c*cross(R*hat(Omega)*x[N],Bf)",
-            "",
+            "The magnetic force has no torque about the centre of mass", "mu/light*cross(d(y[N]),Bf)", "mu*E"
         ),
     ),
 )

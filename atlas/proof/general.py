@@ -1,18 +1,42 @@
 """The general motion of the symmetric body on trial: the top of Larmor's frame, and its sigma functions."""
 
+from collections.abc import Mapping
 from functools import cache
 
 import sympy
 
 from atlas.proof.clebsch import symmetric_model
-from atlas.proof.model import Model, Value, dot
-from atlas.proof.trial import Falsehood, Trial
+from atlas.proof.model import COMMON, Model, Value, dot, functions
+from atlas.proof.notation import Reader, parse, sides
+from atlas.proof.trial import Falsehood, Part, Trial, read
 
+SIGNS = {
+    "E'": "E",
+    "q": "q()",
+    "Q": "Q()",
+    "Q'": "dQ()",
+    "Q''": "ddQ()",
+    r"\dot\psi": "psi1",
+    r"\dot\chi": "chi1",
+    r"\zeta": "zeta()",
+    r"\sigma": "sigma()",
+    r"\lambda": "lam[]",
+    r"\lambda_-": "lam_minus",
+    r"\lambda_+": "lam_plus",
+    "z_-": "z_minus",
+    r"\wp(t)": "P",
+}
 I, b = sympy.symbols("I b", positive=True)
-nu, c3, h, p, M3, e, A, g, u = sympy.symbols("nu c3 h p M3 e A g u", real=True)
+nu, c3, H, p, M3, e, A, g, u, t = sympy.symbols("nu c3 H p M3 e A g u t", real=True)
 P, P1 = sympy.symbols("P P1", real=True)
 QUARTIC = (1 - nu**2) * (g - A * nu**2) - (p - M3 * nu) ** 2
-"""The quartic of the top, with A = (I - 1) b^2 and g = h - M3^2/I - b^2."""
+"""The quartic of the top, with A = (I - 1) b^2 and g = 2H - M3^2/I - b^2."""
+G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
+
+
+def second_side(name: str, signs: Mapping[str, str], letters: Mapping[str, Value], side: int = 1) -> Value:
+    """Return the value of one side of the first relation of an entry of the ledger."""
+    return Reader({**COMMON, **letters}).value(parse(sides(read(name, signs))[side] + " = 0")[0].left, {})
 
 
 @cache
@@ -23,17 +47,23 @@ def top_model() -> Model:
     K = sympy.Matrix([whole.letters[f"K{n}"] for n in (1, 2, 3)])
     size = 1 + x**2 + y**2
     where = list(zip(K, (2 * b * x / size, 2 * b * y / size, b * (1 - x**2 - y**2) / size), strict=True))
-    I2, M, H = (whole.letters[name] for name in ("I2", "M", "H"))
-    letters = {**whole.letters, "b": b, "nu": K[2] / b, "M3": M[2] / I2, "p": dot(M, K) / (I2 * b), "h": 2 * H / I2}
-    letters |= {"u": whole.letters["Omega3"], "P": whole.letters["Omega1"] * K[0] + whole.letters["Omega2"] * K[1]}
-    return Model(letters, where, whole.flow)
+    I2, M, energy = (whole.letters[name] for name in ("I2", "M", "H"))
+    turn = (whole.letters["Omega1"] * K[0] + whole.letters["Omega2"] * K[1]) / b / (1 - nu**2)
+    letters = {**whole.letters, "b": b, "nu": nu, "M3": M[2] / I2, "p": dot(M, K) / (I2 * b), "H": energy / I2}
+    letters |= {"psi1": turn, "chi1": whole.letters["Omega3"] - nu * turn}
+    flow = {**whole.flow, nu: whole.flow[K[2]] / b}
+    return Model(letters, [*where, (nu, K[2] / b)], flow)
 
 
 @cache
 def letters_model() -> Model:
-    """Model the constants of the top as free letters, and u, with E' and c5 for them."""
-    letters = {"I": I, "b": b, "c3": c3, "h": h, "p": p, "u": u, "M3": I * c3, "nu": (c3 - u) / b}
-    return Model({**letters, "E": h - 2 * b * p, "c5": b * p - b**2 + (1 - I) * c3**2, "Bsquare": b**2})
+    """Model the constants of the top as free letters, and u, with the quartics of the two theorems."""
+    names = ("E", "c5", "Bsquare")
+    letters = {name: sympy.Symbol(name, real=True) for name in names}
+    letters |= {"I": I, "b": b, "c3": c3, "H": H, "p": p, "u": u, "M3": I * c3, "nu": nu}
+    letters |= functions("Q", second_side("theorem-quartic", SIGNS | {"b^2": "Bsquare"}, letters, 2), u)
+    letters |= functions("q", second_side("theorem-top", SIGNS, letters, 2), nu)
+    return Model(letters, [(letters["Bsquare"], b**2)])
 
 
 @cache
@@ -41,130 +71,130 @@ def weierstrass_model() -> Model:
     """Model any quartic with a root e, and P, P1 for the function of Weierstrass and its rate, P1^2 = 4P^3-g2 P-g3."""
     a = sympy.symbols("a0:4", real=True)
     last = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
-    letters = {f"a{n}": value for n, value in enumerate((*a, last))} | {"e": e, "u": u, "P": P, "P1": P1}
-    letters |= {"slope": lambda Q: Q.diff(u).subs(u, e), "bend": lambda Q: Q.diff(u, 2).subs(u, e)}
-    letters["at"] = lambda Q, value: Q.subs(u, value)
-    return Model(letters, flow={P: P1})
+    letters = {f"a{n}": value for n, value in enumerate((*a, last))} | {"e": e, "P": P, "P1": P1}
+    whole = a[0] * u**4 + 4 * a[1] * u**3 + 6 * a[2] * u**2 + 4 * a[3] * u + last
+    return Model({**letters, **functions("Q", whole, u)}, flow={P: P1})
 
 
 @cache
-def curve_model(s: int = 1) -> Model:
-    """Model nu on its curve: dnu^2 = q(nu), so that the second rate of nu is q'/2; w is dnu."""
-    w = sympy.Symbol("w", real=True)
-    letters = {"nu": nu, "w": w, "A": A, "g": g, "p": p, "M3": M3, "c3": c3, "s": sympy.Integer(s)}
-    letters |= {"at": lambda f, value: f.subs(nu, value)}
-    root = sympy.sympify((w**2 + (p - M3 * nu) ** 2) / (1 - nu**2) + A * nu**2)
-    return Model(letters, [(g, root)], flow={nu: w, w: QUARTIC.diff(nu) / 2})
+def curve_model() -> Model:
+    """Model nu on its curve, dnu = w, w^2 = q(nu), and the Cayley-Klein parameters up to a steady turn."""
+    w, a, eta = sympy.symbols("w a eta", real=True)
+    letters = {"nu": nu, "p": p, "M3": M3, "I": I, "b": b, "A": A, "a": a, "eta": eta}
+    letters |= {"H": (g + M3**2 / I + b**2) / 2, "C": (g + M3**2) / 4}
+    where = [(A, (I - 1) * b**2), (g, (w**2 + (p - M3 * nu) ** 2) / (1 - nu**2) + A * nu**2)]
+    turn = (p - M3 * nu) / (1 - nu**2)
+    flow = {nu: w, w: QUARTIC.diff(nu) / 2}
+    flow |= {a: a / 2 * (w / (1 + nu) + sympy.I * ((1 - nu) * turn + M3))}
+    flow |= {eta: eta / 2 * (-w / (1 - nu) + sympy.I * ((1 + nu) * turn - M3))}
+    return Model(letters, where, flow)
+
+
+@cache
+def residue_model() -> tuple[Model, ...]:
+    """Model the place nu = -1, with a rate of nu of either sign, and the logarithmic rate of xi there."""
+    w, cases = sympy.Symbol("w", real=True), []
+    rate = (w + sympy.I * (p - M3 * nu)) / 2  # times 1/(1 + nu): what is not finite there, by theorem-cayley-klein
+    for sign in (1, -1):
+        letters = {"nu": sympy.Integer(-1), "w": w, "p": p, "M3": M3, "sign": sympy.Integer(sign)}
+        letters |= {"residue": (rate / w).subs(nu, -1), **functions("q", QUARTIC, nu)}
+        cases.append(Model(letters, G_AND_A))
+    return tuple(cases)
 
 
 @cache
 def sigma_model() -> Model:
-    """Model q with a root e, so that g is known; P and P1 as in `weierstrass_model`, nu by theorem-weierstrass."""
+    """Model q with a root e, and P, P1 as in `weierstrass_model`; zeta and sigma by their addition theorem and rates.
+
+    zeta(t - z) is zeta(t) - zeta(z) + (P'(t) + P'(z))/(P(t) - P(z))/2; at the zero z of xi nu is -1, and P'(z) is i Y.
+    """
     root = A * e**2 + (p - M3 * e) ** 2 / (1 - e**2)
-    q = QUARTIC.subs(g, root)
-    letters: dict[str, Value] = {"nu": nu, "A": A, "g": root, "p": p, "M3": M3, "c3": c3, "e": e, "P": P, "P1": P1}
-    letters |= {"slope": sympy.factor(q.diff(nu).subs(nu, e)), "bend": sympy.factor(q.diff(nu, 2).subs(nu, e))}
-    a = [sympy.Poly(q, nu).coeff_monomial(nu**n) / sympy.binomial(4, n) for n in (4, 3, 2, 1, 0)]
+    q = functions("q", QUARTIC.subs(g, root), nu)
+    slope, bend = sympy.factor(q["dq"](e)), sympy.factor(q["ddq"](e))
+    zt, zminus, z0, logarithm = sympy.symbols("zt z_minus z0 zeta_z", real=True)
+    Z, Y = bend / 24 - slope / 4 / (1 + e), -(p + M3) * slope / 4 / (1 + e) ** 2
+    W, w0 = bend / 24, sympy.Symbol("w0", real=True)
+    known = {zminus: (logarithm, Z, sympy.I * Y), z0: (zt, W, w0)}
+    factors: dict[Value, Value] = {}
+
+    def zeta(at: Value) -> Value:
+        """Return zeta of a place, or of t and a place."""
+        place = next((symbol for symbol in known if at.has(symbol)), t)
+        value, height, rate = known[place]
+        sign = at.coeff(place)
+        if not at.has(t):
+            return sign * value
+        return sympy.Symbol("zeta_t", real=True) + sign * value + (P1 - sign * rate) / (P - height) / 2
+
+    def sigma(at: Value) -> Value:
+        """Return sigma of t and a place: a letter whose logarithmic rate is zeta."""
+        return factors.setdefault(at, sympy.Symbol(f"sigma{len(factors)}", positive=True))
+
+    x = e + slope / 4 / (P - bend / 24)
+    a = [sympy.Poly(q["q"](nu), nu).coeff_monomial(nu**n) / sympy.binomial(4, n) for n in (4, 3, 2, 1, 0)]
+    letters: dict[str, Value] = {"p": p, "M3": M3, "c3": c3, "b": b, "e": e, "x": x, "Z": Z, "Y": Y, "t": t}
+    letters |= {"z_minus": zminus, "z0": z0, "zeta": zeta, "sigma": sigma, "xi0": sympy.Symbol("xi0", positive=True)}
     letters["g2"] = a[0] * a[4] - 4 * a[1] * a[3] + 3 * a[2] ** 2
     letters["g3"] = sympy.Matrix([[a[0], a[1], a[2]], [a[1], a[2], a[3]], [a[2], a[3], a[4]]]).det(method="berkowitz")
-    return Model(letters, flow={P: P1})
+    letters["lam_minus"] = (c3 - M3 - b + (p + M3) / (1 + e)) / 2
+    letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - e)) / 2
+    for at in (t - zminus, t - z0, t + z0):
+        sigma(at)
+    rates = {symbol: zeta(at) * symbol for at, symbol in factors.items()}
+    return Model(letters, flow={P: P1, t: sympy.Integer(1), **rates})
 
-
-_q = "(1 - nu^2)*(h - M3^2/I - b^2 - (I - 1)*b^2*nu^2) - (p - M3*nu)^2"
-_Q = "(E - I*u^2)*(Bsquare - (c3 - u)^2) - (u^2 - (2 - I)*c3*u + c5)^2"
-
-
-_SIGMA = (
-    "x = e + slope/4/(P - bend/24); Z = bend/24 - slope/4/(1 + e); Y = -(p + M3)*slope/4/(1 + e)^2;"
-    " -Y^2 = 4*Z^3 - g2*Z - g3; 1/2*d(x)/(1 + x) = 1/2*P1/(P - Z) - 1/2*P1/(P - bend/24);"
-    " lam = 1/2*(c3 - M3 + (p + M3)/(1 + e)); 1/2*((p - M3*x)/(1 + x) + c3) = lam + 1/2*Y/(P - Z)"
-)
 
 TRIALS = (
     Trial(
         name="theorem-top",
-        tried=f"d(nu)^2 = {_q}; P/b/(1 - nu^2) + b = (p - M3*nu)/(1 - nu^2);"
-        " u - nu*P/b/(1 - nu^2) = c3 - nu*(p - M3*nu)/(1 - nu^2); d(M3) = 0; d(p) = 0; d(h) = 0; M3 = I*c3",
         model=top_model,
         follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
-        false=Falsehood(
-            "The potential is linear, as that of the heavy top",
-            "(I - 1)*b^2*nu^2",
-            "(I - 1)*b^2*nu",
-        ),
+        defines=("q",),
+        also=(Part(line="d(M3) = 0; d(p) = 0; d(H) = 0; M3 = I*c3", model=top_model),),
+        false=Falsehood("The potential is linear, as that of the heavy top", "(I - 1)*b^2*nu^2", "(I - 1)*b^2*nu"),
     ),
     Trial(
         name="theorem-top-quartic",
-        tried=f"{_Q} = b^2*({_q})",
         model=letters_model,
-        follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$, $\nu = (c_3 - u)/b$",
-        false=Falsehood(
-            "The two quartics are equal",
-            "= b^2*(",
-            "= (",
-        ),
+        follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$",
+        defines=("E", "c5"),
+        false=Falsehood("The two quartics are equal", "= b^2*q(", "= q("),
     ),
     Trial(
         name="theorem-weierstrass",
-        tried="Q = a0*u^4 + 4*a1*u^3 + 6*a2*u^2 + 4*a3*u + a4; x = e + slope(Q)/4/(P - bend(Q)/24);"
-        " g2 = a0*a4 - 4*a1*a3 + 3*a2^2; g3 = a0*a2*a4 + 2*a1*a2*a3 - a2^3 - a0*a3^2 - a1^2*a4",
         model=weierstrass_model,
         follows="$P' = P_1$ with $P_1^2 = 4 P^3 - g_2 P - g_3$, the equation of Weierstrass",
-        defines=("Q", "x", "g2", "g3"),
-        solves="d(x) = -slope(Q)/4*P1/(P - bend(Q)/24)^2;"
-        " (slope(Q)/4)^2*(4*P^3 - g2*P - g3)/(P - bend(Q)/24)^4 = at(Q,x)",
-        false=Falsehood(
-            "The function of Weierstrass is shifted the other way",
-            "(P - bend(Q)/24)",
-            "(P + bend(Q)/24)",
-        ),
+        defines=("u", "g2", "g3"),
+        solves="(d(u)/P1)^2*(4*P^3 - g2*P - g3) = Q(u)",
+        false=Falsehood("The function of Weierstrass is shifted the other way", "(P - ddQ(e)/24)", "(P + ddQ(e)/24)"),
     ),
     Trial(
         name="theorem-lame",
-        tried="C = 1/4*(g + M3^2); x = 1/2*w/(1 + nu);"
-        " y = 1/2*(p + M3)/(1 + nu) = 1/2*((p - M3*nu)/(1 + nu) + M3);"
-        " d(x) + x^2 - y^2 = 3/4*A*nu^2 - 1/2*A*nu - C; d(y) + 2*x*y = 0;"
-        " x2 = -1/2*w/(1 - nu); y2 = 1/2*(p - M3)/(1 - nu) = 1/2*((p - M3*nu)/(1 - nu) - M3);"
-        " d(x2) + x2^2 - y2^2 = 3/4*A*nu^2 + 1/2*A*nu - C; d(y2) + 2*x2*y2 = 0",
         model=curve_model,
-        follows="$a'/a = x + i y$ by @theorem-cayley-klein in Larmor's frame, so $a''/a = (x + i y)' + (x + i y)^2$",
-        defines=("C", "x", "y", "x2", "y2"),
+        follows="@theorem-cayley-klein in Larmor's frame, and @theorem-top",
         note=r"The potentials have no pole where $\nu = -1$ or 1. So $\xi$ and $\eta$ are regular there, and their "
         "zeros are simple.",
-        false=Falsehood(
-            "Both parameters obey the same equation",
-            "d(x2) + x2^2 - y2^2 = 3/4*A*nu^2 + 1/2*A*nu - C",
-            "d(x2) + x2^2 - y2^2 = 3/4*A*nu^2 - 1/2*A*nu - C",
-        ),
+        false=Falsehood("Both parameters obey the same equation", "3/4*A*nu^2 + 1/2*A*nu", "3/4*A*nu^2 - 1/2*A*nu"),
     ),
     Trial(
         name="theorem-residues",
-        tried="q = (1 - nu^2)*(g - A*nu^2) - (p - M3*nu)^2 = w^2; at(q,-1) = -(p + M3)^2; at(q,1) = -(p - M3)^2;"
-        " 1/2*(s*(p + M3) + p + M3)/(s*(p + M3)) = 1/2*(1 + s); 1/2*(-s*(p - M3) + p - M3)/(-s*(p - M3)) = 1/2*(1 - s)",
-        model=lambda: tuple(curve_model(s) for s in (1, -1)),
-        follows="@theorem-top, with $A = (I - 1) b^2$ and $g = 2 H - M_3^2/I - b^2$",
-        defines=("q",),
-        note=r"At $\nu = -1$, with $w_0 = i s (p + M_3)$ the rate of $\nu$ and $s = \pm 1$, the logarithmic rate of "
-        r"$\xi$ is $[w_0 + i(p + M_3)]/(2 w_0 (t - z))$: residue 1 or 0.",
-        false=Falsehood(
-            r"The rate of $\nu$ is real there",
-            "at(q,-1) = -(p + M3)^2",
-            "at(q,-1) = (p + M3)^2",
-        ),
+        model=residue_model,
+        signs={r"\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}": "residue", r"\dot\nu": "w"},
+        follows="@theorem-top, and @theorem-cayley-klein in Larmor's frame",
+        defines=("w",),
+        note=r"The logarithmic rate of $\xi$ is $[\dot\nu + i(p - M_3\nu)]/(2\dot\nu(t - z))$ there, but for what is "
+        r"finite; at $\nu = 1$ that of $\eta$ is so with the opposite sign of $M_3$.",
+        false=Falsehood(r"The rate of $\nu$ is real there", "= -(p + sign*M3)^2", "= (p + sign*M3)^2"),
     ),
     Trial(
         name="theorem-sigma",
-        tried=_SIGMA,
         model=sigma_model,
         follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
-        defines=("x", "Z", "Y", "lam"),
-        note="By the addition theorem, which is taken from the textbooks, the four zeta functions sum to $(P_1 + "
-        "Z_1)/(2(P - Z)) - P_1/(2(P - P(z_0)))$. Here $Z_1 = i Y$ is the rate at the zero $z$. Tried for "
-        r"$\alpha$; $\beta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
-        false=Falsehood(
-            "The zero lies on the opposite half period",
-            "Y = -(p + M3)",
-            "Y = (p + M3)",
-        ),
+        defines=("xi",),
+        solves="d(xi)/xi = 1/2*d(x)/(1 + x) + i/2*((p - M3*x)/(1 + x) + c3 - b)",
+        also=(Part(line="-Y^2 = 4*Z^3 - g2*Z - g3", model=sigma_model),),
+        note="The addition theorem is taken from the textbooks. Tried for "
+        r"$\xi$; $\eta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
+        false=Falsehood("The zero lies on the opposite half period", "sigma(t - z_minus)", "sigma(t + z0)"),
     ),
 )

@@ -25,9 +25,7 @@ from atlas.proof.quadric import (
     omega3,
     sd,
 )
-from atlas.proof.quadric import (
-    SIGNS as QUADRIC_SIGNS,
-)
+from atlas.proof.quadric import SIGNS as QUADRIC_SIGNS
 from atlas.proof.quadric import p as tangent
 from atlas.proof.trial import Part, Trial, read
 

@@ -42,6 +42,8 @@ def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool
     by the power of n that is missing. So no fraction is ever expanded.
     """
     numerator = sympy.numer(sympy.together(difference))
+    if where and vanishes(numerator):
+        return True
     used = {symbol: value for symbol, value in (where or {}).items() if numerator.has(symbol)}
     inverses: dict[Value, Value] = {}
     swap = {}
@@ -55,7 +57,7 @@ def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool
     if polynomial.is_number or not symbols:
         return bool(sympy.expand(polynomial) == 0)
     try:
-        algebra = ring(symbols, sympy.QQ)[0]
+        algebra = ring(symbols, sympy.QQ_I if polynomial.has(sympy.I) else sympy.QQ)[0]
         element = algebra.from_expr(polynomial)
     except (ValueError, sympy.polys.polyerrors.CoercionFailed):
         return bool(sympy.expand(sympy.numer(sympy.together(numerator.xreplace(used)))) == 0)
@@ -81,6 +83,7 @@ def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value
 
 def positive(value: Value, *, strict: bool) -> bool:
     """Whether a function of symbols of known sign is positive (nonnegative): factor by factor, or term by term."""
+    forms = [value]
     value = sympy.factor(sympy.together(value))
-    forms = [value, sympy.expand(sympy.numer(value)) / sympy.expand(sympy.denom(value))]
+    forms += [value, sympy.expand(sympy.numer(value)) / sympy.expand(sympy.denom(value))]
     return any(form.is_positive or (not strict and form.is_nonnegative) for form in forms)

@@ -30,6 +30,13 @@ def cross(a: Value, b: Value) -> Value:
     return a.cross(b)
 
 
+def partial(value: Value, by: Value) -> Value:
+    """Gradient of a number, or the Jacobian of a vector, by a vector of symbols; the derivative by one symbol."""
+    if not isinstance(by, sympy.MatrixBase):
+        return sympy.diff(value, by)
+    return sympy.Matrix([value]).jacobian(by).T if not isinstance(value, sympy.MatrixBase) else value.jacobian(by)
+
+
 def dot(a: Value, b: Value) -> Value:
     """Scalar product (a, b)."""
     return a.dot(b)
@@ -45,6 +52,8 @@ COMMON: dict[str, Value] = {
     "delta": _Kronecker(),
     "cross": cross,
     "dot": dot,
+    "partial": partial,
+    "det": lambda matrix: matrix.det(method="berkowitz"),
     "T": lambda matrix: matrix.T,
     "inv": lambda matrix: matrix.inv(),
     "diag": sympy.diag,
@@ -58,6 +67,8 @@ COMMON: dict[str, Value] = {
     "cos": entrywise(sympy.cos),
     "tan": entrywise(sympy.tan),
     "atan": entrywise(sympy.atan),
+    **{name: getattr(sympy, name) for name in ("exp", "cosh", "sinh", "tanh")},
+    "i": sympy.I,
     "pi": sympy.pi,
     "one": sympy.eye(3),
 }
@@ -105,9 +116,23 @@ def rotation_symbols(name: str = "R") -> tuple[Value, list[tuple[Value, Value]]]
     return symbols, list(zip(symbols, rotation(), strict=True))
 
 
+def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
+    """Rotation about a unit vector by the angle with that cosine and sine."""
+    return cosine * sympy.eye(3) + (1 - cosine) * axis * axis.T + sine * hat(axis)
+
+
 def turn(p: Value) -> tuple[Value, Value]:
     """Cosine and sine of the angle with tan(angle/2) = p: every angle but pi."""
     return (1 - p**2) / (1 + p**2), 2 * p / (1 + p**2)
+
+
+def functions(name: str, value: Value, variable: Value) -> dict[str, Callable[[Value], Value]]:
+    """Return a function of one variable and its first three derivatives, q, dq, ddq and dddq, as letters."""
+
+    def derivative(order: int) -> Callable[[Value], Value]:
+        return lambda at: sympy.diff(value, variable, order).xreplace({variable: at})
+
+    return {"d" * order + name: derivative(order) for order in range(4)}
 
 
 @dataclass
@@ -144,16 +169,21 @@ class Model:
             own["cos"] = entrywise(lambda angle: self._turned(angle)[0])
             own["sin"] = entrywise(lambda angle: self._turned(angle)[1])
             own["tan"] = entrywise(lambda angle: self._turned(angle)[1] / self._turned(angle)[0])
-        self.letters = {**COMMON, **own, **self.letters}
+        self.letters = {**COMMON, **self.letters, **own}
 
     def rate(self, value: Value) -> Value:
         """Rate in time along the flow."""
         return sum((sympy.diff(value, x) * rate for x, rate in self.flow.items() if value.has(x)), sympy.Integer(0))
 
+    def about(self, axis: Value) -> Callable[[Value], Value]:
+        """Return the rotation about a unit vector as a function of the angle."""
+        return lambda angle: rodrigues(axis, *self._turned(angle))
+
     def _turned(self, angle: Value) -> tuple[Value, Value]:
         """Cosine and sine of a whole combination of the phases and of pi, as polynomials in their cosines and sines."""
         c, s = sympy.Integer(1), sympy.Integer(0)
-        for term in sympy.Add.make_args(sympy.expand(angle)):
+        whole = any(sympy.cancel(angle / phase).is_Integer for phase in self.phases)
+        for term in [angle] if whole else sympy.Add.make_args(sympy.expand(angle)):
             for phase, (cosine, sine) in self.phases.items():
                 times = sympy.cancel(term / phase)
                 if times.is_Integer:

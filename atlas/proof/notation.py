@@ -218,8 +218,7 @@ class Reader:
                 return self._entry(node, bound)
             case ast.BinOp(op=ast.Pow()):
                 base, power = self.value(node.left, bound), self.value(node.right, bound)
-                column = isinstance(base, sympy.MatrixBase) and base.shape[1] == 1
-                return base.dot(base) ** (power / 2) if column else base**power
+                return self._power(base, power) if isinstance(base, sympy.MatrixBase) else base**power
             case ast.Call(func=ast.Name(id=name)):
                 return self.letters[name](*(self.value(argument, bound) for argument in node.args))
             case ast.List():
@@ -227,9 +226,20 @@ class Reader:
                 return sympy.Matrix([[self.value(entry, bound) for entry in row] for row in rows])
         return self.value(node, bound)
 
+    def _power(self, base: Value, power: Value) -> Value:
+        """Return the square of a vector, its scalar product with itself, or a power or the inverse of a matrix."""
+        if base.shape[1] == 1 and power == 2:
+            return base.dot(base)
+        if base.shape[1] == 1 or not getattr(power, "is_Integer", False):
+            raise NoMeaningError(f"{power} is no power of a vector or a matrix")
+        return self.letters["inv"](base) if power == -1 else base**power
+
     def _entry(self, node: ast.Subscript, bound: Mapping[str, int]) -> Value:
         """Return what brackets choose; those of a matrix count from one."""
         base = self._factor(node.value, bound)
+        strange = isinstance(node.slice, ast.Name) and node.slice.id not in self.ranges
+        if strange and isinstance(base, dict) and any(isinstance(key, int) and key > 3 for key in base):
+            raise NoMeaningError(f"{ast.unparse(node)} has an index that does not count these")
         where = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
         first = isinstance(base, sympy.MatrixBase)
         at = tuple(int(self._factor(index, bound)) - first for index in where)

@@ -1,12 +1,33 @@
 """The appendix on trial: a point particle in constant fields, (89) to (104)."""
 
+from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, turn, vector
-from atlas.proof.trial import Falsehood, Trial
+from atlas.proof.trial import Falsehood, Part, Trial
+
+SIGNS = {
+    r"\mathbf{B}": "Bf",
+    r"\dot{\mathbf{y}}": "dy",
+    r"\dot{\mathbf{O}}": "drift",
+    **{
+        rf"{letter}_{{\{mark}}}": plain
+        for mark, part in (("bot", "perp"), ("Vert", "par"))
+        for letter, plain in (
+            (r"\mathbf{C}", f"C{part}"),
+            (r"\mathbf{E}", f"E{part}"),
+            (r"\mathbf{y}", f"y{part}"),
+            (r"\dot{\mathbf{y}}", f"dy{part}"),
+        )
+    },
+    r"\ddot{\mathbf{y}}_{\Vert}": "d2(ypar)",
+    r"\mathbf{y}_{\Vert 0}": "ypar0",
+}
+_LAGRANGIAN = {r"\dot{\mathbf{y}}": "v", r"\ddot{\mathbf{y}}": "ddy"}
 
 E, B, y, v = vector("E"), vector("B"), vector("y"), vector("v")
 m, c, b, E2 = sympy.symbols("m c b E2", positive=True)
@@ -33,7 +54,7 @@ def lagrangian_model() -> Model:
     L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
     letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
     letters |= {f"B{n + 1}": B[n] for n in range(3)} | {f"y{n + 1}": y[n] for n in range(3)}
-    letters["acceleration"] = euler
+    letters |= {"K": m * dot(v, v) / 2, "U": -(e * A0 + e / c * dot(A, v)), "acceleration": euler}
     letters["force"] = lambda U: -_gradient(U, y) + _gradient(U, v).jacobian(y) * v
     letters["grad"] = lambda scalar: _gradient(scalar, y)
     letters["curl"] = lambda field: sympy.Matrix(
@@ -43,8 +64,15 @@ def lagrangian_model() -> Model:
             field[1].diff(y[0]) - field[0].diff(y[1]),
         ]
     )
-    letters["partial_t"] = lambda field: field.diff(t)
     return Model(letters, units=units.PARTICLE)
+
+
+@cache
+def potentials_model() -> Model:
+    """Model the potentials (102), or any part of E taken from A0 to A, which then changes in time."""
+    base, share = lagrangian_model().letters, sympy.Symbol("share", real=True)
+    letters = {**base, "A0": (1 - share) * base["A0"], "A": base["A"] - share * c * t * E}
+    return Model({**letters, "partial_t": lambda field: field.diff(t)})
 
 
 def _gradient(scalar: Value, place: Value) -> Value:
@@ -56,7 +84,8 @@ def velocity_model() -> Model:
     """Model A particle whose velocity is what the line says."""
     C = vector("C")
     letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
-    return Model(letters, flow={t: sympy.Integer(1), **dict(zip(y, v, strict=True))}, units=units.PARTICLE)
+    flow = {t: sympy.Integer(1), **dict(zip(y, v, strict=True))}
+    return Model(letters, flow=flow, start={t: sympy.Integer(0)}, units=units.PARTICLE)
 
 
 @cache
@@ -150,7 +179,8 @@ def shifted_model() -> Model:
     rate1 = mu / c * cross(y1 + drift * t, ALONG_Z) + parts["Cperp"] + mu * ACROSS * t - drift
     y2 = sympy.diag(1, 1, 0) * vector("z")
     rate2 = rate1.xreplace(dict(zip(parts["y"], y2 + second, strict=True)))
-    return Model({**parts, "y1": y1, "dy1": rate1, "y2": y2, "dy2": rate2}, units=units.PARTICLE)
+    flow = dict(zip([*y1[:2], *y2[:2]], [*rate1[:2], *rate2[:2]], strict=True))
+    return Model({**parts, "y1": y1, "y2": y2}, flow=flow, units=units.PARTICLE)
 
 
 @cache
@@ -168,6 +198,7 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
         drift = c * cross(ACROSS, ALONG_Z) / b**2
         chosen = {"any": letters["Cperp"], "origin": drift, "trochoid": drift - sign * strength * E2 / omega * e1}
         letters["Cperp"] = chosen[choice]
+        letters |= {"O": sign * strength * E2 / omega * t * e1, "P": a * (e1 * sw + e2 * cw)}
         where = [(omega, strength * b / c), *angles]
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
@@ -184,7 +215,7 @@ def drift_model() -> tuple[Model, Model]:
         velocity = sympy.Matrix([*rest, 0])
         rate = case.letters["mu"] * (case.letters["Eperp"] + cross(velocity, case.letters["Bf"]) / case.letters["c"])
         solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
-        letters = {**case.letters, "drift": velocity.subs(solved)}
+        letters = {**case.letters, "drift": velocity.subs(solved), "E": ACROSS + PARALLEL}
         cases.append(Model(letters, case.where, units=case.units))
     return cases[0], cases[1]
 
@@ -213,13 +244,8 @@ def _general(model: Model) -> Value:
     return constant + model.letters["mu"] * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
 
 
+_TURNING = "at0(d({})[2]) = -omega*a*sin(omega0)"
 _SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
-_EQUATION_98 = (
-    "yperp = (cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1"
-    " + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0))"
-)
-_EQUATION_99 = "yperp = mu*E2/omega*t*e1 + a*(e1*sin(omega*t) + e2*cos(omega*t))"
-_TROCHOID = "x = mu*E2/omega*t + a*sin(omega*t); yy = mu*E2/{omega} + a*cos(omega*t)"
 _SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
 _SENSE = (
     r"Said for any charge, it holds for $\mu > 0$ only; with $\omega = \mu |\mathbf{B}|/c$, of the sign of the "
@@ -244,20 +270,22 @@ def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
 
 
 @cache
-def later_model(*, kept: bool = False) -> tuple[Model, Model]:
-    """Model (98) as corrected with omega0 at t, and with omega0 = 0 and another C_perp at t + omega0/omega."""
-    cases = []
-    for model in signed_model():
-        mu_, C = model.letters["mu"], model.letters["Cperp"]
-        late = t + omega0 / omega
-        other = C if kept else C - mu_ * ACROSS * omega0 / omega
-        first = (cross(C, ALONG_Z) + c * ACROSS) / (omega * b) + mu_ * E2 / omega * t * e1
-        then = (cross(other, ALONG_Z) + c * ACROSS) / (omega * b) + mu_ * E2 / omega * late * e1
-        turned = a * (e1 * (sw * c0 + cw * s0) + e2 * (cw * c0 - sw * s0))
-        letters = {**model.letters, "then": then + turned}
-        del letters["omega0"]
-        cases.append(Model({**letters, "omega0": omega0, "first": first}, model.where, phases=model.phases))
-    return cases[0], cases[1]
+def later_model() -> tuple[Model, Model]:
+    """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
+    first, second = (replace(model, letters={**model.letters, "place": _place(model)}) for model in signed_model())
+    return first, second
+
+
+def _place(model: Model) -> Callable[[Value, Value, Value], Value]:
+    """Return (98) as a function."""
+    sine, cosine = model.letters["sin"], model.letters["cos"]
+
+    def place(at: Value, constant: Value, angle: Value) -> Value:
+        turned = a * (e1 * sine(omega * at + angle) + e2 * cosine(omega * at + angle))
+        first = (cross(constant, ALONG_Z) + c * ACROSS) / (omega * b)
+        return first + model.letters["mu"] * E2 / omega * at * e1 + turned
+
+    return place
 
 
 @cache
@@ -278,37 +306,32 @@ TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
 TRIALS = (
     Trial(
         name="(89)",
-        tried="m*ddy = e*E + e/c*cross(v,Bf); ddy = mu*E + mu/c*cross(v,Bf)",
+        signs=_LAGRANGIAN,
         model=lagrangian_model,
         follows="the variation of the Lagrangian @(104)",
     ),
     Trial(
         name="(90)",
-        tried="dy = mu*E*t + mu/c*cross(y,Bf) + C",
         model=velocity_model,
         follows="its rate is @(89)",
         defines=("dy",),
-        solves="d(dy) = mu*E + mu/c*cross(dy,Bf)",
+        solves="d(dy) = mu*E + mu/c*cross(dy,Bf); at0(dy) - mu/c*cross(y,Bf) = C",
     ),
     Trial(
         name="text-no-magnetic-field",
-        tried="y = y0 + C*t + 1/2*mu*E*t^2",
         model=fall_model,
         follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
         solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
-        false=Falsehood(
-            r"The particle falls with the acceleration $2\mu\mathbf{E}$",
-            "1/2*mu*E*t^2",
-            "mu*E*t^2",
-        ),
+        false=Falsehood(r"The particle falls with the acceleration $2\mu\mathbf{E}$", "1/2*mu*E*t^2", "mu*E*t^2"),
     ),
     Trial(
         name="text-along-field",
-        tried="d2(y) = mu*E; dot(d2(y),E) > 0",
+        solves="d2(y) = mu*E",
+        corrected_solves="",
+        signs={r"\ddot{\mathbf{y}}": "d2(y)"},
         model=along_field_model,
         follows="@text-no-magnetic-field, for either sign of the charge",
-        corrected_tried="d2(y) = mu*E",
         corrected_tex=r"\ddot{\mathbf{y}}=\boxed{\mu\mathbf{E}}",
         grade="sign of the charge",
         slip="(97)",
@@ -316,25 +339,19 @@ TRIALS = (
     ),
     Trial(
         name="text-helix",
-        tried="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
+        also=(Part(line="d2(y2) = -(mu*b/c)^2*y2", model=helix_model),),
         model=helix_model,
         follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
-        false=Falsehood(
-            "It turns with Larmor's frequency",
-            "-(mu*b/c)^2*y2",
-            "-(mu*b/(2*c))^2*y2",
-        ),
+        false=Falsehood("It turns with Larmor's frequency", "-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2"),
     ),
-    Trial(name="(91)", tried="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
+    Trial(name="(91)", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
     Trial(
         name="(92)",
-        tried="dyperp = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t",
         model=split_model,
         follows=r"@(90) projected across $\mathbf{B}$",
     ),
     Trial(
         name="(93)",
-        tried="ypar = ypar0 + Cpar*t + 1/2*mu*Epar*t^2",
         model=parallel_model,
         follows="@(91) by substitution",
         defines=("ypar",),
@@ -342,51 +359,40 @@ TRIALS = (
     ),
     Trial(
         name="text-parallel-acceleration",
-        tried="d2(ypar) = mu*Epar; dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
+        solves="d2(ypar) = mu*Epar",
         model=fall_along_model,
         follows="@(93)",
-        corrected_tried="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
         corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\boxed{\Vert}}\rvert",
         grade="misprint",
         note=r"The wrong part of $\mathbf{E}$.",
     ),
     Trial(
         name="text-double-product",
-        tried="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
         model=orthogonal_model,
         follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
-        false=Falsehood(
-            "The identity holds for any vector",
-            model=any_vector_model,
-        ),
+        false=Falsehood("The identity holds for any vector", model=any_vector_model),
     ),
     Trial(
         name="(94)",
-        tried="dyperp = mu/c*cross(yperp - c*t*cross(Eperp,Bf)/b^2,Bf) + Cperp",
         model=split_model,
         follows="@(92)",
     ),
     Trial(
         name="(95)",
-        tried="dy1 = mu/c*cross(y1,Bf) + Cperp - c*cross(Eperp,Bf)/b^2;"
-        " dy1 = mu/c*cross(y1 - (c*cross(Cperp,Bf) + c^2*Eperp)/(mu*b^2),Bf)",
         model=shifted_model,
         follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
     ),
     Trial(
         name="(96)",
-        tried="dy2 = -mu/c*cross(Bf,y2)",
         model=shifted_model,
         follows="@(92) for the twice shifted variable",
     ),
     Trial(
         name="(97)",
-        tried="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = abs(mu*b)/c",
         model=charges_model,
         follows="@(96) by substitution, for either sign of the charge",
         defines=("y2", "omega"),
-        solves="d(y2) = -mu/c*cross(Bf,y2)",
-        corrected_tried="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = mu*b/c",
+        solves="d(y2) = -mu/c*cross(Bf,y2); " + _TURNING.format("y2"),
         corrected_tex=(
             r"\mathbf{y}_2(t)=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
             + _SIGNED
@@ -396,23 +402,18 @@ TRIALS = (
     ),
     Trial(
         name="text-drift-direction",
-        tried="cross(Eperp,Bf) = E2*b*e1",
         model=charges_model,
         follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
         false=Falsehood(
-            r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{E}_\bot$",
-            "E2*b*e1",
-            "E2*b*e2",
+            r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{E}_\bot$", "norm(Bf)*e1", "norm(Bf)*e2"
         ),
     ),
     Trial(
         name="(98)",
-        tried=_EQUATION_98,
         model=charges_model,
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
-        solves=_SOLVES,
-        corrected_tried=_EQUATION_98 + "; omega = mu*b/c",
+        solves=f"{_SOLVES}; {_TURNING.format('yperp')}",
         corrected_model=signed_model,
         corrected_tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}"
@@ -426,22 +427,20 @@ TRIALS = (
     ),
     Trial(
         name="text-time-shift",
-        tried="first + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)) = then",
+        signs={r"\mathbf{y}_{\bot}": "place()", r"\mathbf{C}'_{\bot}": "Clater"},
+        defines=("Clater",),
         model=later_model,
         follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
         r"\mathbf{E}_\bot \omega_0/\omega$",
         note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
-        false=Falsehood(
-            r"$\mathbf{C}_\bot$ stays what it is",
-            model=lambda: later_model(kept=True),
-        ),
+        false=Falsehood(r"$\mathbf{C}_\bot$ stays what it is", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
     ),
     Trial(
         name="text-first-two-terms",
-        tried="(cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1 = 0",
+        signs={r"\implies": ""},
+        defines=("Cperp",),
         model=lambda: signed_model("origin"),
         follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
-        corrected_tried="(cross(Cperp,Bf) + c*Eperp)/(omega*b) = 0",
         corrected_tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
             r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}"
@@ -451,23 +450,16 @@ TRIALS = (
     ),
     Trial(
         name="text-initial-position",
-        tried="at0(yperp) = a*e2",
         model=start_model,
         follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
-        false=Falsehood(
-            r"The particle starts at $a\mathbf{e}_1$",
-            "a*e2",
-            "a*e1",
-        ),
+        false=Falsehood(r"The particle starts at $a\mathbf{e}_1$", "a*e2", "a*e1"),
     ),
     Trial(
         name="(99)",
-        tried=_EQUATION_99,
         model=lambda: charges_model("origin"),
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
-        corrected_tried=_EQUATION_99 + "; omega = mu*b/c",
         corrected_model=lambda: signed_model("origin"),
         corrected_tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
@@ -479,10 +471,8 @@ TRIALS = (
     ),
     Trial(
         name="text-drift",
-        tried="drift = mu*E2/omega*e1",
         model=drift_model,
         follows=r"@(89) solved for the velocity that does not change, for either sign of the charge, $\omega$ of @(97)",
-        corrected_tried="drift = c*cross(Eperp,Bf)/b^2",
         corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
         grade="sign of the charge",
         slip="(97)",
@@ -491,10 +481,8 @@ TRIALS = (
     ),
     Trial(
         name="text-trochoid-constant",
-        tried="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
         model=lambda: signed_model("trochoid"),
         follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
-        corrected_tried="Cperp = 0; Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
         corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
         grade="misprint",
         slip="(100)",
@@ -503,12 +491,10 @@ TRIALS = (
     ),
     Trial(
         name="(100)",
-        tried=_TROCHOID.format(omega="omega").replace("yy", "y"),
         model=lambda: charges_model("trochoid"),
         follows="@(98) with the constant chosen there; dimensions",
         defines=("x", "y"),
         solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
-        corrected_tried=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
         corrected_model=lambda: signed_model("trochoid"),
         corrected_tex=(
             r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad "
@@ -520,26 +506,19 @@ TRIALS = (
     ),
     Trial(
         name="text-trochoid",
-        tried="x = r*omega*t + a*sin(omega*t); y = r + a*cos(omega*t)",
         model=rolling_model,
         follows=(
             "@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
             "turns by one radian"
         ),
-        false=Falsehood(
-            "The circle rolls along the line through its middle",
-            "y = r + a*cos",
-            "y = a*cos",
-        ),
+        false=Falsehood("The circle rolls along the line through its middle", "y = r + a*cos", "y = a*cos"),
     ),
     Trial(
         name="(101)",
-        tried="y = ypar + yperp",
         model=lambda: trajectory_model(signed=False),
         follows="@(89) by substitution, the parts of @(93) and @(99), for either sign of the charge",
         defines=("y",),
         solves=TRAJECTORY,
-        corrected_tried="y = ypar + yperp",
         corrected_model=trajectory_model,
         corrected_tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
         r"\mathbf{B}\rvert}{c}}",
@@ -549,10 +528,9 @@ TRIALS = (
     ),
     Trial(
         name="(102)",
-        tried="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - b1*y3, B1*y2 - B2*y1]",
+        signs={r"\mathbf{A}(\mathbf{y})": "A", r"A_0(\mathbf{y})": "A0"},
         model=lagrangian_model,
         follows="the vector product in components",
-        corrected_tried="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - B1*y3, B1*y2 - B2*y1]",
         corrected_tex=(
             r"A_0(\mathbf{y})=(\mathbf{y},\mathbf{E}),\qquad\mathbf{A}(\mathbf{y})=\frac12[\mathbf{B},\mathbf{y}]="
             r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-\boxed{B_1}y_3\\B_1y_2-B_2y_1\end{pmatrix}"
@@ -562,29 +540,28 @@ TRIALS = (
     ),
     Trial(
         name="text-potentials",
-        tried="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
-        model=lagrangian_model,
+        signs={
+            r"\frac{\partial\mathbf{A}}{\partial t}": "partial_t(A)",
+            r"\nabla A_0": "grad(A0)",
+            r"[\nabla,\mathbf{A}]": "curl(A)",
+        },
+        model=potentials_model,
         follows="the potentials @(102)",
         note=r"With $\mathbf{E} = +\nabla A_0$ the paper has the opposite of the sign that is customary; $A_0$ is "
         r"minus the "
         "usual potential, and @(103) agrees with it.",
-        false=Falsehood(
-            r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$",
-            "grad(A0) - 1/c",
-            "-grad(A0) - 1/c",
-        ),
+        false=Falsehood(r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$", "+ grad(A0)", "- grad(A0)"),
     ),
     Trial(
         name="(103)",
-        tried="U = -(e*A0 + e/c*dot(A,v))",
+        signs=_LAGRANGIAN,
         model=lagrangian_model,
         follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
-        defines=("U",),
         solves="force(U) = e*E + e/c*cross(v,Bf)",
     ),
     Trial(
         name="(104)",
-        tried="L = m/2*dot(v,v) + e*A0 + e/c*dot(A,v) = m/2*dot(v,v) + e*dot(y,E) + e/(2*c)*dot(cross(y,v),Bf)",
+        signs=_LAGRANGIAN,
         model=lagrangian_model,
         follows="the potentials @(102), and @(89) by variation",
         defines=("L",),

@@ -108,16 +108,7 @@ def frame_model() -> Model:
     seen = sympy.Matrix(
         [sum((mu / (2 * c) * field[i] * R[i, n] for i in range(3)), sympy.Integer(0)) for n in range(3)]
     )
-    letters = {
-        "Bf": field,
-        "Bp": sympy.Matrix([0, B2, B3]),
-        "K": seen,
-        "R": R,
-        "mu": mu,
-        "c": c,
-        "B2": B2,
-        "B3": B3,
-    }
+    letters = {"Bf": field, "Bp": sympy.Matrix([0, B2, B3]), "K": seen, "R": R, "mu": mu, "c": c, "B2": B2, "B3": B3}
     letters |= {f"omega{n + 1}": w[n] for n in range(3)}
     return Model({**letters, "Omega": R.T * w}, where, start=dict(zip(R, sympy.eye(3), strict=True)))
 
@@ -194,11 +185,7 @@ TRIALS = (
         model=symmetric_body_model,
         signs={r"\mathrm{diag}": "diag()"},
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
-        false=Falsehood(
-            "The third moment of mass of a ball is zero",
-            "2*I2 - I3",
-            "I2 - I3",
-        ),
+        false=Falsehood("The third moment of mass of a ball is zero", "2*I2 - I3", "I2 - I3"),
     ),
     Trial(
         name="text-laboratory",
@@ -301,9 +288,7 @@ TRIALS = (
         "6)$",
         note="Independent at one point, so at all but those of a set of measure zero.",
         false=Falsehood(
-            "The component of the angular velocity along the field is conserved",
-            "d([E,",
-            "d([dot(Omega, K),",
+            "The component of the angular velocity along the field is conserved", "d([E,", "d([dot(Omega, K),"
         ),
     ),
     Trial(
@@ -413,10 +398,7 @@ TRIALS = (
         corrected_signs={r"\text{if}\quad I\ne1": ""},
         corrected_tex=r"a_3=-2(1-I)\ne0\quad\boxed{\text{if}\quad I\ne1}",
         note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @(47) is a harmonic oscillator.",
-        false=Falsehood(
-            "The degree is three for the ball too",
-            model=lambda: degree_model()[2],
-        ),
+        false=Falsehood("The degree is three for the ball too", model=lambda: degree_model()[2]),
     ),
     Trial(
         name="(49)",

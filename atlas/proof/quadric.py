@@ -23,7 +23,7 @@ excess = sympy.Symbol("e", positive=True)
 SIGNS = pseudo_oscillator.SIGNS | {rf"\omega'_{n}": f"w{n}" for n in (1, 2, 3)}
 SIGNS |= {f"C_{n}^2": f"C{n}s" for n in (1, 2, 3)} | {r"\omega_3(\omega_2)": "omega3"}
 SIGNS |= {r"\omega_2\in\mathbb{R}\setminus\{-B'_2\}": "", r"\omega_1\in\mathbb{R}": ""}
-SIGNS |= {r"\omega_3(\omega_1,\omega_2)": "omega3", r"\Omega_3": "omega3", r"\text{if}\quad\omega_2\ne-B'_2": ""}
+SIGNS |= {r"\omega_3(\omega_1,\omega_2)": "omega3", r"\text{if}\quad\omega_2\ne-B'_2": ""}
 
 LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B2, "B3": B3}
 
@@ -53,7 +53,8 @@ def lines_case() -> list[tuple[Value, Value]]:
 def condition_model() -> tuple[Model, Model]:
     """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
     certain(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
-    return Model(LETTERS, [(omega3, constant_omega3())], units=units.QUADRIC), Model(
+    letters = {**LETTERS, "Omega3": omega3}
+    return Model(letters, [(omega3, constant_omega3())], units=units.QUADRIC), Model(
         LETTERS, lines_case(), domains={"s": "unit"}, units=units.QUADRIC
     )
 
@@ -270,27 +271,20 @@ TRIALS = (
         model=condition_model,
         follows="@(50), and the other way round: the two differ by the factor $B'_3$ for every "
         r"$\boldsymbol{\omega}$",
-        also=(
-            Part(
-                line=f"{sides(_EQUATION_50)[0]} = B3*({sides(_EQUATION_51)[0]} - (1 - I)*B2^2)",
-                model=free_model,
-            ),
-        ),
+        also=(Part(line=f"{sides(_EQUATION_50)[0]} = B3*({sides(_EQUATION_51)[0]} - (1 - I)*B2^2)", model=free_model),),
     ),
     Trial(
         name="text-quadric-origin",
         model=origin_model,
         signs={r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}": _EQUATION_51},
         follows=r"@(51) at $\boldsymbol{\omega} = 0$",
-        false=Falsehood(
-            r"The surface passes through its centre $-\mathbf{B}'$",
-            model=centre_model,
-        ),
+        false=Falsehood(r"The surface passes through its centre $-\mathbf{B}'$", model=centre_model),
     ),
     Trial(
         name="(52)",
         model=lambda: condition_model()[0],
         follows=r"@(50) for $\omega_2$ different from $-B'_2$",
+        signs={r"\Omega_3": "Omega3"},
         corrected_also=(
             Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _EQUATION_50, model=lost_lines_model),
             Part(
@@ -328,32 +322,20 @@ TRIALS = (
         also=(Part(line=read("(53)", SIGNS), model=turned_model),),
         signs={r"\omega'_i": "w[i]", r"\mathbf{e}'_i": "axis[i]", r"\mathbf{e}'_2": "axis[2]"},
         follows="components along the turned axes, against @(53)",
-        false=Falsehood(
-            "The axes are turned clockwise",
-            "*e2 + sin",
-            "*e2 - sin",
-        ),
+        false=Falsehood("The axes are turned clockwise", "*e2 + sin", "*e2 - sin"),
     ),
     Trial(
         name="text-beta",
         model=angle_model,
         follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
-        false=Falsehood(
-            r"$\beta$ is the angle between $\mathbf{e}_2$ and $\mathbf{B}'$",
-            "B3/(I*B2)",
-            "B3/B2",
-        ),
+        false=Falsehood(r"$\beta$ is the angle between $\mathbf{e}_2$ and $\mathbf{B}'$", "B3/(I*B2)", "B3/B2"),
     ),
     Trial(
         name="text-beta-range",
         model=range_model,
         follows=r"$\tan\beta > 0$",
         check=decide_linear,
-        false=Falsehood(
-            r"They are turned by less than $\pi/3$",
-            "< pi/2",
-            "< pi/3",
-        ),
+        false=Falsehood(r"They are turned by less than $\pi/3$", "< pi/2", "< pi/3"),
     ),
     Trial(
         name="(54)",
@@ -371,32 +353,21 @@ TRIALS = (
         name="text-two-sheets",
         model=lambda: axes_model(above=True, sheets=2),
         follows=r"@(55), $0 < \sin\beta < 1$ and $I > 1$",
-        false=Falsehood(
-            "The surface has two sheets for $I < 1$ too",
-            model=lambda: axes_model(above=False, sheets=2),
-        ),
+        false=Falsehood("The surface has two sheets for $I < 1$ too", model=lambda: axes_model(above=False, sheets=2)),
     ),
     Trial(
         name="text-short-cylinder",
         model=shell_model,
         signs={r">1\iff h<\sqrt6\,r": "I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)"},
         follows="the moments of the surface, integrated",
-        false=Falsehood(
-            "A cylindrical surface is short if it is wider than high",
-            "(6*r^2 - h^2)",
-            "(4*r^2 - h^2)",
-        ),
+        false=Falsehood("A cylindrical surface is short if it is wider than high", "(6*r^2 - h^2)", "(4*r^2 - h^2)"),
     ),
     Trial(
         name="text-plane-body",
         model=plane_body_model,
         signs={r"I=2\iff g_3=0": "2 - I = 2*g3/I2"},
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
-        false=Falsehood(
-            "A plane body has $I = 1$",
-            "2 - I =",
-            "1 - I =",
-        ),
+        false=Falsehood("A plane body has $I = 1$", "2 - I =", "1 - I ="),
     ),
     Trial(
         name="text-tangent-planes",
@@ -411,9 +382,7 @@ TRIALS = (
         note=r"Never negative, and zero only at $\boldsymbol{\omega} = 0$ and at $\boldsymbol{\omega} = -2 "
         r"\mathbf{B}'$: there the sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$.",
         false=Falsehood(
-            r"The second plane is $\omega_3 = -B'_3$",
-            "(omega3 + B3)^2 - B3^2",
-            "(omega3 + B3/2)^2 - (B3/2)^2",
+            r"The second plane is $\omega_3 = -B'_3$", "(omega3 + B3)^2 - B3^2", "(omega3 + B3/2)^2 - (B3/2)^2"
         ),
     ),
     Trial(
@@ -440,10 +409,7 @@ TRIALS = (
         name="text-one-sheet",
         model=lambda: axes_model(above=False, sheets=1),
         follows=r"@(57), $0 < \sin\beta < 1$ and $I < 1$",
-        false=Falsehood(
-            "The surface has one sheet for $I > 1$ too",
-            model=lambda: axes_model(above=True, sheets=1),
-        ),
+        false=Falsehood("The surface has one sheet for $I > 1$ too", model=lambda: axes_model(above=True, sheets=1)),
     ),
     Trial(
         name="text-not-all",
@@ -456,10 +422,6 @@ TRIALS = (
         ),
         note=r"By the last equation of @(38) at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
         "quadric is its mirror image.",
-        false=Falsehood(
-            r"At every point of the quadric $\Omega_3$ starts with the rate zero",
-            "rate != 0",
-            "rate = 0",
-        ),
+        false=Falsehood(r"At every point of the quadric $\Omega_3$ starts with the rate zero", "rate != 0", "rate = 0"),
     ),
 )

@@ -73,9 +73,9 @@ def trial(name: str) -> Trial:
 def try_one(name: str) -> Verdict:
     """Try one entry of the ledger, now."""
     entry, case = equation(name), trial(name)
-    start = time.perf_counter()
-    outcome = _within_time(lambda: case.of_printed(shrink=True))
-    corrected = _within_time(case.of_corrected).decision if case.corrected else ""
+    start = time.process_time()
+    outcome = within_time(lambda: case.of_printed(shrink=True))
+    corrected = within_time(case.of_corrected).decision if case.corrected else ""
     false = case.false_part if case.false else None
     return Verdict(
         name=name,
@@ -86,6 +86,7 @@ def try_one(name: str) -> Verdict:
         method=outcome.method,
         follows=case.follows,
         printed=_lines(case.parts),
+        said=case.said,
         grade=case.grade,
         slip=case.slip,
         corrected=_lines(case.corrected_parts),
@@ -95,8 +96,8 @@ def try_one(name: str) -> Verdict:
         note=case.note,
         false=case.false.says if case.false else "",
         false_line=false.line if false else "",
-        false_verdict=_within_time(false.outcome).decision if false else "",
-        seconds=round(time.perf_counter() - start, 2),
+        false_verdict=within_time(false.outcome).decision if false else "",
+        seconds=round(time.process_time() - start, 2),
         source=recorded.source(name),
     )
 
@@ -105,7 +106,8 @@ def _lines(parts: Iterable[Part]) -> str:
     return "; ".join(part.line for part in parts)
 
 
-def _within_time(run: Callable[[], Outcome]) -> Outcome:
+def within_time(run: Callable[[], Outcome]) -> Outcome:
+    """Return what a trial finds, undecided if it takes longer than `LIMIT`."""
     try:
         with limit(LIMIT):
             return run()

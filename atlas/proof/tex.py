@@ -7,22 +7,27 @@ and the next is a factor. What a letter means is said by a table, in TeX; withou
     \mathbf{K}: K    \Omega_3: Omega3    \hat{B}_2: hB2    \dot m: d(m)    R_{ij}: R[i, j]    f(0): at0(f)
 
 A table may also say what a longer phrase means: an expression, a whole relation, or nothing, where the model says it.
-Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over.
+Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names what
+the table says. On both sides of a double arrow stand statements that are tried alike, in a model where one side is
+built in; before a single one a premise, which the table must say, or a letter that the line defines.
 """
 
 import ast
+import keyword
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import pairwise
 
 from atlas.proof.notation import names, parse, write
 
 _TOKEN = re.compile(r"\\begin\{\w+\}|\\end\{\w+\}|\\text\{[^}]*\}|\\[A-Za-z]+|\\.|\d|\S", re.DOTALL)
-_SILENT = {r"\left", r"\right", r"\Bigl", r"\Bigr", r"\bigl", r"\bigr", r"\displaystyle", r"\!"}
+_SILENT = {r"\left", r"\right", r"\Bigl", r"\Bigr", r"\bigl", r"\bigr", r"\displaystyle", r"\!", "\\ "}
 _SAME = {r"\tfrac": r"\frac", r"\varepsilon": r"\epsilon", r"\boldsymbol": r"\mathbf", r"\equiv": "=", r"\;": r"\,"}
+_RELATES = re.compile("[=<>]")
 _ALIGNED = {r"\begin{aligned}", r"\end{aligned}"}
-_SEPARATORS = {",", ";", ":", r"\quad", r"\qquad", r"\\"} | {
+_SEPARATORS = {",", ";", ":", r"\quad", r"\qquad", r"\\", r"\iff"} | {
     rf"\text{{{words}}}" for words in ("where", "then", "or", "or, equivalently", "and")
 }
 _SIGNS: dict[str, type[ast.cmpop]] = {
@@ -36,6 +41,7 @@ _SIGNS: dict[str, type[ast.cmpop]] = {
 _FUNCTIONS = {rf"\{name}" for name in ("sqrt", "sin", "cos", "tan", "ln", "det", "exp", "sinh", "cosh", "tanh")}
 _ACCENTS = {r"\hat": "h", r"\tilde": "tilde", r"\dot": "d", r"\ddot": "d2"}
 _FONTS = {r"\mathbf", r"\mathbb", r"\mathrm", r"\operatorname", r"\mathcal"}
+_TOTAL = "sum over "
 _CLOSING = {")", "]", "}", r"\}", r"\rvert", "&", r"\end{pmatrix}"}
 _PAIRS = {"(": (")", "dot"), "[": ("]", "cross"), r"\{": (r"\}", "br")}
 
@@ -66,7 +72,7 @@ _Token = str | _Said
 
 @dataclass(frozen=True)
 class _Table:
-    """What letters and phrases mean, the long ones first, and the left side of a formula that has none."""
+    """What letters and phrases mean, the long ones first, and the left side of a formula that is printed without."""
 
     letters: Mapping[_Letter, str] = field(default_factory=dict)
     phrases: tuple[tuple[tuple[str, ...], str], ...] = ()
@@ -76,6 +82,22 @@ class _Table:
 def line(tex: str, signs: Mapping[str, str]) -> str:
     """Return a formula in plain letters; UnreadableError if something in it is neither read nor said by `signs`."""
     return _line(tex, tuple(signs.items()))
+
+
+def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
+    """Return the phrases that are not read, each with the line in its place; without one, the model says them."""
+    tokens = _tokens(tex)
+    found = {}
+    for key, plain in signs.items():
+        phrase = _tokens(key)
+        stands = any(tokens[at : at + len(phrase)] == phrase for at in range(len(tokens))) if phrase else False
+        if (
+            stands
+            and phrase[0] not in {r"\sum", r"\implies"}
+            and (not plain or (_RELATES.search(plain) and not plain.endswith("=")))
+        ):
+            found[key] = plain
+    return found
 
 
 @cache
@@ -150,7 +172,17 @@ def _statements(tex: str, table: _Table) -> list[list[_Token]]:
             found.append([])
         row = ended = False
         found[-1].append(mark)
-    return [statement for statement in found if statement and statement != ["."]]
+    return [one for statement in found if statement and statement != ["."] for one in _signed(statement)]
+
+
+def _signed(statement: list[_Token]) -> list[list[_Token]]:
+    r"""Return what y_\pm = a \pm b says: two statements, of y_+ and of y_-; any other is one."""
+    if not any(pair[0] == "_" and pair[1] in {r"\pm", r"\mp"} for pair in pairwise(statement)):
+        return [statement]
+    upper, lower = {r"\pm": "+", r"\mp": "-"}, {r"\pm": "-", r"\mp": "+"}
+    return [
+        [signs.get(mark, mark) if isinstance(mark, str) else mark for mark in statement] for signs in (upper, lower)
+    ]
 
 
 def _said(tokens: list[str], table: _Table) -> list[_Token]:
@@ -160,14 +192,22 @@ def _said(tokens: list[str], table: _Table) -> list[_Token]:
     while at < len(tokens):
         for phrase, plain in table.phrases:
             if tuple(tokens[at : at + len(phrase)]) == phrase:
-                relates = re.search("[=<>]", plain) or not plain
-                result += [",", *([_Said(plain)] if plain else []), ","] if relates else [_Said(plain)]
+                result += _phrase(phrase, plain)
                 at += len(phrase)
                 break
         else:
             result.append(tokens[at])
             at += 1
     return result
+
+
+def _phrase(phrase: tuple[str, ...], plain: str) -> list[_Token]:
+    """Return what a phrase becomes: nothing, a statement of its own, the left side of one, or an expression."""
+    if not plain:
+        return [] if phrase[0] == r"\sum" else [","]
+    if plain.endswith("="):
+        return [_Said(plain.removesuffix("=")), "="]
+    return [",", _Said(plain), ","] if _RELATES.search(plain) else [_Said(plain)]
 
 
 class _Formula:
@@ -184,7 +224,7 @@ class _Formula:
         if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
             return [write(parse(self.tokens[0].plain))]
         sides, operators, found = [self.sum()], list[ast.cmpop](), list[str]()
-        if self.at == len(self.tokens) and self.table.left:
+        if self.table.left:
             sides, operators = [_expression(self.table.left), *sides], [ast.Eq()]
         while self.peek() in _SIGNS:
             sign = _SIGNS[str(self.take())]()
@@ -237,6 +277,12 @@ class _Formula:
                 self.take()
             elif self.peek() == r"\sum":
                 sums += self.summed()
+            elif self.peek() == r"\prod":
+                (index,) = self.summed()
+                result = _product(result, _expanded(self.power(), index, "*"))
+            elif isinstance(here := self.peek(), _Said) and here.plain.startswith(_TOTAL):
+                self.take()
+                result = _product(result, _expanded(self.product(), here.plain.removeprefix(_TOTAL), "+"))
             elif self.peek() in {"/", r"\times"} and result is not None:
                 divides = self.take() == "/"
                 result = ast.BinOp(result, ast.Div() if divides else ast.Mult(), self.power())
@@ -245,7 +291,7 @@ class _Formula:
                 result = _product(result, self.power())
         if result is None:
             raise UnreadableError(f"a term is missing where the formula has {self.peek() or 'its end'}")
-        if set(sums) - names(result):
+        if set(sums) - names(result) or len(set(sums)) < len(sums):
             raise UnreadableError(f"the sum over {', '.join(sums)} has no such index in it")
         return result
 
@@ -254,13 +300,15 @@ class _Formula:
         if before is None or self.peek() != "(":
             return
         behind = self.tokens[self.at + 1 : self.at + 3]
+        if isinstance(behind[0], _Said):
+            return
         if behind[-1:] == [")"] or (behind[:1] == ["-"] and self.peek(3) == ")"):
             raise UnreadableError(f"({''.join(str(mark) for mark in behind).rstrip(')')}) is not read as an argument")
 
     def ends(self, *, of_letters: bool) -> bool:
         """Whether a product ends here."""
         here = self.peek()
-        if here == "" or here in _SIGNS or here in {"+", "-", r"\pm", r"\mp", ",", r"\\"} or here in _CLOSING:
+        if here == "" or here in _SIGNS or here in {"+", "-", r"\pm", r"\mp", ",", ";", r"\\"} or here in _CLOSING:
             return True
         return of_letters and not (self.is_letter() or str(here).isdigit() or here == "/")
 
@@ -297,10 +345,15 @@ class _Formula:
         if self.peek() == "T":
             self.take()
             return _call("T", base)
-        if isinstance(base, ast.Subscript) and self.is_letter():
+        if isinstance(base, ast.Subscript) and (self.is_letter() or self.braced()):
             return ast.Subscript(base.value, _tuple([*_indices(base), *self.indices()]))
         exponent = self.group()
         return ast.BinOp(base, ast.Pow(), exponent)
+
+    def braced(self) -> bool:
+        """Whether a single letter in braces stands here."""
+        mark = self.peek(1)
+        return self.peek() == "{" and self.peek(2) == "}" and isinstance(mark, str) and mark.isalpha()
 
     def group(self) -> ast.expr:
         """Read what braces hold, or one mark without them."""
@@ -337,6 +390,10 @@ class _Formula:
         name = str(self.take()).strip("\\")
         if name == "sqrt":
             return _call(name, self.group())
+        if self.peek() == "^":
+            self.take()
+            exponent = self.group()
+            return ast.BinOp(_call(name, self.product(of_letters=True)), ast.Pow(), exponent)
         return _call(name, self.bracket() if self.peek() == "(" else self.product(of_letters=True))
 
     def bracket(self) -> ast.expr:
@@ -355,7 +412,7 @@ class _Formula:
     def entries(self, opening: str) -> list[ast.expr]:
         """Read what stands between commas in a bracket."""
         found = [self.sum()]
-        while self.peek() == ",":
+        while self.peek() in {",", ";"}:
             self.take()
             found.append(self.sum())
         self.take(_PAIRS[opening][0])
@@ -377,8 +434,18 @@ class _Formula:
         if self.tokens[self.at : self.at + 7] == ["{", "d", "}", "{", "d", "t", "}"]:
             self.at += 7
             return _call("d", self.power())
+        if self.tokens[self.at : self.at + 2] == ["{", r"\partial"]:
+            return _call("partial", *(self.varied() for _ in range(2)))
         top = self.group()
         return ast.BinOp(top, ast.Div(), self.group())
+
+    def varied(self) -> ast.expr:
+        """Read what is differentiated, or by what, in a partial derivative."""
+        self.take("{")
+        self.take(r"\partial")
+        inside = self.product()
+        self.take("}")
+        return inside
 
     def matrix(self) -> ast.expr:
         """Read a matrix or a column."""
@@ -464,13 +531,16 @@ class _Formula:
         """Return what a letter means: what the table says, else what it is named after itself."""
         letter = self.letter()
         self.bold |= letter.base.startswith(r"\mathbf")
+        family = self.table.letters.get(_Letter(letter.accents, letter.base, letter.primes, ()), "")
+        if letter.below and family.endswith("[]"):
+            return self.meant(letter)
         rates = [_ACCENTS[accent] for accent in letter.accents if accent in {r"\dot", r"\ddot"}]
         still = _Letter(tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}), *_marks(letter))
         whole = self.table.letters.get(letter)
         if whole is not None and whole.endswith("()"):
             self.take("(")
             return _call(whole.removesuffix("()"), *self.entries("("))
-        value = _expression(whole) if whole is not None else self.meant(still)
+        value = _expression(whole.removesuffix("[]")) if whole is not None else self.meant(still)
         for rate in reversed(rates) if whole is None else ():
             value = _call(rate, value)
         return value
@@ -478,10 +548,10 @@ class _Formula:
     def meant(self, letter: _Letter) -> ast.expr:
         """Return what a letter without dots means."""
         if letter in self.table.letters:
-            return _expression(self.table.letters[letter])
+            return _expression(self.table.letters[letter].removesuffix("[]"))
         bare = _Letter(letter.accents, letter.base, letter.primes, ())
         prefix = "".join(_ACCENTS[accent] for accent in letter.accents)
-        name = prefix + letter.base.split(" ")[-1].strip("\\") + "p" * letter.primes
+        name = prefix + _name(letter.base.split(" ")[-1].strip("\\")) + "p" * letter.primes
         known = self.table.letters.get(bare)
         if letter.below and not (known is None and all(mark.isdigit() for mark in letter.below)):
             array = _expression(known.removesuffix("[]")) if known else ast.Name(name)
@@ -496,12 +566,26 @@ _GREEK = re.compile(
 _COMMON = {r"\mathbf{1}": "one", r"\epsilon": "eps[]"}
 
 
+def _expanded(term: ast.expr, index: str, sign: str) -> ast.expr:
+    """Return a product or a sum of a term with the index 1, 2, 3."""
+    text = ast.unparse(term)
+    return _expression(sign.join("(" + re.sub(rf"\b{index}\b", str(n), text) + ")" for n in (1, 2, 3)))
+
+
 def _plain(below: Iterable[str]) -> list[str]:
     """Return indices in plain letters."""
-    found = [mark.strip("\\") for mark in below]
-    if not all(index.isdigit() or _GREEK.fullmatch(index) or (len(index) == 1 and index.isalpha()) for index in found):
+    found = [_name(mark.strip("\\")) for mark in below]
+    if not all(
+        index.isdigit() or _GREEK.fullmatch(index.rstrip("_")) or (len(index) == 1 and index.isalpha())
+        for index in found
+    ):
         raise UnreadableError(f"the index {' '.join(below)} is not read")
     return found
+
+
+def _name(word: str) -> str:
+    """Return a name that Python does not keep for itself, as it does lambda."""
+    return f"{word}_" if keyword.iskeyword(word) else word
 
 
 def _marks(letter: _Letter) -> tuple[str, int, tuple[str, ...]]:

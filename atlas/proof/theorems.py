@@ -4,14 +4,28 @@ from functools import cache
 
 import sympy
 
-from atlas.proof import ball, elementary, euler_poisson
-from atlas.proof.model import Model, Value, cross, turn
+from atlas.proof import ball, elementary, euler_poisson, pseudo_oscillator
+from atlas.proof.model import Model, Value, cross, functions, hat, turn
+from atlas.proof.notation import Reader, parse, sides
+from atlas.proof.particle import SIGNS as PARTICLE_SIGNS
 from atlas.proof.particle import drift_model
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, lines_case, omega1, omega2, omega3
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, omega1, omega2, omega3
+from atlas.proof.trial import Falsehood, Part, Trial, read
 
+SIGNS = pseudo_oscillator.SIGNS | {
+    r"\hat{\mathbf{B}}": "hat_B",
+    r"\nu_n^2": "nun2",
+    "Q": "Q()",
+    "Q'": "dQ()",
+    "Q''": "ddQ()",
+    "b^2": "Bsquare",
+    r"R_{\hat{\mathbf{B}}}": "about_B()",
+    "R_{OY}": "about_y()",
+    "R_{OZ}": "about_z()",
+}
 tau, x = sympy.symbols("tau x", real=True)
+U = sympy.Symbol("u", real=True)
 r, z, excess, T2 = sympy.symbols("r z e T2", positive=True)
 ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, and 0
 
@@ -19,97 +33,75 @@ ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, an
 @cache
 def quartic_model() -> Model:
     """Any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
-    whole = state_model()
-    u = sympy.Symbol("u", real=True)
-    names = ("E", "c3", "c5", "I")
-    fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names} | {
-        "Bsquare": sympy.Symbol("b2_0", positive=True)
-    }
-    a = cubic({name: fixed[name] for name in ("E", "c3", "c5")}, fixed["Bsquare"], fixed["I"])
-    letters = {**fixed, "u": u, "p": a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3}
-    letters |= {"udot": whole.letters["d"](whole.letters["Omega3"])}
-    letters["slope"] = lambda Q: Q.diff(u)
-    letters["leading"] = lambda Q: sympy.Poly(Q, u).coeff_monomial(u**4)
-    state = {fixed[name]: whole.letters[name] for name in names} | {
-        fixed["Bsquare"]: whole.letters["Bsquare"],
-        u: whole.letters["Omega3"],
-    }
-    letters["here"] = lambda Q: Q.xreplace(state)
-    return Model(letters)
+    whole = state_model().letters
+    names = ("E", "c3", "c5", "I", "Bsquare")
+    fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
+    letters = {**fixed, **cubic(fixed, fixed["Bsquare"], fixed["I"]), "u": U}
+    letters["leading"] = lambda Q: sympy.Poly(Q, U).coeff_monomial(U**4)
+    where = [(symbol, whole[name]) for name, symbol in fixed.items()]
+    return Model(letters, [*where, (U, whole["Omega3"])], flow={U: whole["d"](whole["Omega3"])})
 
 
-def _slope(spin: Value, scale: Value) -> Value:
-    """Return p'(omega3), p the cubic of the motion with these initial data in the field (0, B2, B3)."""
-    u = sympy.Symbol("u", real=True)
+def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
+    """Return Q of theorem-quartic and its derivatives, for the motion with these initial data in the field (0, B2, B3).
+
+    And the square of the nutation frequency at Omega3 = omega3, which is -Q''/2.
+    """
     field = sympy.Matrix([0, B2, B3])
-    a = cubic(integrals(spin, field, scale), field.dot(field), scale)
-    return (a["a1"] + 2 * a["a2"] * u + 3 * a["a3"] * u**2).subs(u, spin[2])
+    letters = {**integrals(spin, field, scale), "Bsquare": field.dot(field), "I": scale, "u": U}
+    line = parse(sides(read("theorem-quartic", SIGNS))[2] + " = 0")[0].left
+    found = functions("Q", Reader(letters).value(line, {}), U)
+    return {**found, "nun2": sympy.factor(-found["ddQ"](spin[2]) / 2)}
 
 
 @cache
 def stability_model() -> Model:
-    """Model the slope of the cubic on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; kappa = k + b = x b."""
-    where = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), (B3, tau * B2)]
-    square = B2**2 * (1 + tau**2)
-    letters = {"minus_slope": -_slope(sympy.Matrix([0, omega2, omega3]), I), "tau": tau, "x": x, "X": x * B2}
-    letters |= {"kappa2": x**2 * square, "b2": square, "hB3s": tau**2 / (1 + tau**2)}
-    return Model({**LETTERS, **letters}, where)
+    """Model Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
+    b, hB3 = elementary.b, elementary.hB3
+    where = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), *elementary.FIELD]
+    letters = {"tau": hB3 / elementary.hB2, "x": x, "w": x * b, "b": b, "Bsquare": b**2, "hB3": hB3}
+    return Model({**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), **letters}, where)
 
 
 @cache
 def short_model() -> Model:
-    """Model 1 <= I <= 2, any real X but 0."""
+    """Model the same for 1 <= I <= 2 and any real X but 0."""
     X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
-    return Model({"X": X, "I": 1 + more, "B2": B2}, domains={"more": "unit"})
+    where = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + more})), (omega2, X - B2), (B3, tau * B2)]
+    letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + more), "X": X, "tau": tau, "I": 1 + more}
+    return Model({**LETTERS, **letters}, where, domains={"more": "unit"})
 
 
 @cache
 def _slope_in_squares() -> Value:
-    """Return -p'(omega3) on the hyperbola as a function of z = x^2 and t2 = tau^2 alone."""
-    model = stability_model()
-    value = model.letters["minus_slope"]
-    for symbol, meaning in model.where:
+    """Return -Q''(omega3)/2 on the hyperbola as a function of z = x^2 and t2 = tau^2 alone."""
+    value = quartic(sympy.Matrix([0, omega2, omega3]))["nun2"]
+    for symbol, meaning in ((omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), (B3, tau * B2)):
         value = value.subs(symbol, meaning)
     return sympy.cancel(sympy.cancel(value).subs({x: sympy.sqrt(z), tau: sympy.sqrt(T2)}))
 
 
-def _band(t2: Value, **letters: Value) -> Model:
-    """I < 1 and a given tau^2; z = x^2 is any positive number."""
-    scale = 1 / (1 + excess)
-    slope = _slope_in_squares().subs({T2: t2, I: scale})
-    return Model({"minus_slope": slope, "I": scale, "z": z, "t2": t2, "B2": B2, **letters})
-
-
 @cache
-def band_model() -> tuple[Model, Model]:
-    """8 tau^2 = 1 - root^2 with 0 < root < 1, and with root = 0."""
-    first, second = (_band((1 - root**2) / 8, root=root) for root in ROOTS)
-    return first, second
-
-
-@cache
-def places_model(where: str) -> tuple[Model, ...]:
-    """Model x^2 within the band, or outside, below and above it."""
-    share, cases = sympy.Symbol("share", positive=True), []
+def places_model(*, within: bool) -> tuple[Model, ...]:
+    """Model x^2 = z within the band, its ends among them, or outside, below and above it; 8 tau^2 = 1 - root^2."""
+    share, more = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
+    long, cases = 1 - 1 / (1 + excess), []
     for root in ROOTS:
-        t2, long = (1 - root**2) / 8, 1 - 1 / (1 + excess)
+        t2 = (1 - root**2) / 8
         low, high = (long * (1 - 2 * t2 + side * root) / (2 * (1 + t2)) for side in (-1, 1))
-        places = [(low + share * high) / (1 + share)] if where == "within" else [low / (1 + share), high + share]
-        slopes = [_slope_in_squares().subs({T2: t2, I: 1 - long, z: place}) for place in places]
-        cases += [Model({f"minus_slope_{where}": slope}) for slope in slopes]
+        inside = [(low + share * high) / (1 + share), (share * low + high) / (1 + share)]
+        for place in inside if within else [low / (1 + more), high + more]:
+            letters = {"nun2": _slope_in_squares().subs({T2: t2, I: 1 - long, z: place}), "t2": t2, "I": 1 - long}
+            cases.append(Model({**letters, "z": place}, domains={"share": "positive"}))
     return tuple(cases)
 
 
 @cache
 def above_model() -> Model:
-    """8 tau^2 = 1 + gain."""
-    return _band((1 + r) / 8, gain=r)
-
-
-@cache
-def signs_model() -> Model:
-    """Model I < 1 and a positive gain."""
-    return Model({"I": 1 / (1 + excess), "gain": r})
+    """8 tau^2 = 1 + gain and I < 1; z = x^2 is any positive number."""
+    t2, scale = (1 + r) / 8, 1 / (1 + excess)
+    slope = _slope_in_squares().subs({T2: t2, I: scale})
+    return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
 
 
 @cache
@@ -118,9 +110,8 @@ def root_model() -> tuple[Model, Model, Model]:
 
     These are I = 1 with any omega3, and B3 = 0 with any I and omega3.
     """
-    v, zero = sympy.Symbol("v", real=True), sympy.Integer(0)
-    spin, field = sympy.Matrix([0, omega2, omega3]), sympy.Matrix([0, B2, B3])
-    letters = {**LETTERS, **integrals(spin, field, I), "Bsquare": field.dot(field), "v": v, "slope": _slope(spin, I)}
+    zero = sympy.Integer(0)
+    letters = {**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), "v": sympy.Symbol("v", real=True)}
     lines = [
         [(omega3, constant_omega3().subs(omega1, 0))],
         [(omega2, -B2), (I, sympy.Integer(1))],
@@ -132,9 +123,13 @@ def root_model() -> tuple[Model, Model, Model]:
 
 @cache
 def leaving_model() -> Model:
-    """Model I < 1 and time."""
-    t = sympy.Symbol("t", real=True)
-    return Model({"I": 1 / (1 + excess), "B3": B3, "t": t}, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
+    """Model I < 1, time, and Q by theorem-root with the frequency 0."""
+    t, v = sympy.symbols("t v", real=True)
+    letters: dict[str, Value] = {"I": 1 / (1 + excess), "B3": B3, "t": t, "v": v, "omega3": omega3}
+    line = parse(sides(read("theorem-root", SIGNS))[1] + " = 0")[0].left
+    whole = Reader({**letters, "nun2": sympy.Integer(0)}).value(line, {})
+    letters |= functions("Q", whole.xreplace({v: U - omega3}), U)
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
 @cache
@@ -144,18 +139,19 @@ def between_model() -> Model:
 
 
 @cache
-def equatorial_model(line: str) -> Model:
-    """B3 = 0: the line omega2 = -B2 with any omega3, or omega3 = 0 with any omega2."""
-    spin = sympy.Matrix([0, *((-B2, omega3) if line == "upright" else (omega2, 0))])
-    return Model({**LETTERS, "minus_slope": -_slope(spin, I), "X": omega2 + B2}, [(B3, sympy.Integer(0))])
+def equatorial_model() -> Model:
+    """B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
+    lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
+    found = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
+    return Model({**LETTERS, **found}, [(B3, sympy.Integer(0))])
 
 
 @cache
 def ball_nutation_model() -> Model:
     """I = 1 and any initial angular velocity."""
-    one = sympy.Integer(1)
-    slope = _slope(sympy.Matrix([omega1, omega2, omega3]), one)
-    return Model({**LETTERS, "minus_slope": -slope, "I": one})
+    spin = sympy.Matrix([omega1, omega2, omega3])
+    found = quartic(spin, sympy.Integer(1))
+    return Model({"nun2": found["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
 
 
 @cache
@@ -171,38 +167,38 @@ def torque_model() -> Model:
     R, tensor, mass = (whole.letters[name] for name in ("R", "I", "g"))
     spin, field = euler_poisson.Omega, euler_poisson.Bf
     torque = -euler_poisson.mu / euler_poisson.c * cross(R * mass * R.T * field, R * spin)
-    return Model({**whole.letters, "m": R * tensor * spin, "dm": torque}, whole.where)
+    letters = {**whole.letters, "m": R * tensor * spin, "dm": torque, "c": euler_poisson.c}
+    return Model(letters, whole.where, dict(zip(R, R * hat(spin), strict=True)))
 
 
 @cache
-def lines_model() -> Model:
-    """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2."""
-    return Model(LETTERS, lines_case(), domains={"s": "unit"})
+def lines_model() -> tuple[Model, Model]:
+    """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2, with omega1 of either sign."""
+    size = sympy.Symbol("size", positive=True)
+    first, second = (
+        Model({**LETTERS, "sign": sympy.Integer(sign), "I": 1 - size**2, "omega1": sign * size * B2, "omega2": -B2})
+        for sign in (1, -1)
+    )
+    return first, second
 
 
 @cache
 def turning_model(case: str) -> Model:
-    """R = R_B(k t) R_z(phi t) and Omega = (w sin, w cos, omega3) with the constants of each extra line."""
+    """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
     e = elementary
-    whole = e.matrix_model()
-    spin = e.SPIN.xreplace({omega2: -e.B2})
-    where = [*e.ANGLES, *e.FIELD, (e.k, -e.b)]
-    where += (
-        [(e.phi, omega3 + e.B3), (I, sympy.Integer(1))]
+    first, axis, where = (
+        (e.b, sympy.Matrix([0, e.hB2, e.hB3]), [(I, sympy.Integer(1))])
         if case == "ball"
-        else [(e.phi, omega3), (e.u, sympy.Integer(1))]
+        else (e.B2, sympy.Matrix([0, 1, 0]), [(e.u, sympy.Integer(1))])
     )
-    letters = {
-        **e.CONSTANTS,
-        "Omega": spin,
-        "P": whole.letters["P"],
-        "Q": whole.letters["Q"],
-        "b": e.b,
-        "J": e.TENSOR,
-        "g": e.MASS,
-    }
+    second = omega3 + e.B3 if case == "ball" else omega3
+    flow = {e.ck: -first * e.sk, e.sk: first * e.ck, e.cf: -second * e.sf, e.sf: second * e.cf}
+    letters = {**e.CONSTANTS, "Omega": e.SPIN.xreplace({omega2: -e.B2}), "b": e.b, "J": e.TENSOR, "g": e.MASS}
     letters["Bp"] = sympy.Matrix([0, e.B2, e.B3])
-    return Model(letters, where, e.FLOW, e.START, e.PHASES, e.DOMAINS)
+    phases = {first * e.t: (e.ck, e.sk), second * e.t: (e.cf, e.sf)}
+    model = Model(letters, [*e.ANGLES, *e.FIELD, *where], flow, e.START, phases, e.DOMAINS)
+    model.letters |= {"about_z": model.about(ball.E3), "about_B" if case == "ball" else "about_y": model.about(axis)}
+    return model
 
 
 @cache
@@ -210,7 +206,9 @@ def rest_model() -> Model:
     """Model A ball with m = (0, 0, -alpha I0)."""
     b = ball
     letters = {"alpha": b.alpha, "t": b.t, "I0": b.I0, "m": sympy.Matrix([0, 0, -b.alpha * b.I0])}
-    return Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})
+    model = Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})
+    model.letters["about_z"] = model.about(b.E3)
+    return model
 
 
 @cache
@@ -239,53 +237,42 @@ def angles_model() -> Model:
     spin = sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])
     K = b * R.row(2).T
     letters = {"P": spin[0] * K[0] + spin[1] * K[1], "b": b, "u": spin[2], "nu": K[2] / b, "psi1": psi1, "chi1": chi1}
-    letters |= {"ca": halves[names[1]][0], "sb": halves[names[1]][1], "R": R}
+    letters |= {"c3": spin[2] + K[2], "i": sympy.I}
+    for name, size, rate in zip(("xi", "eta"), halves[names[1]], (psi1 + chi1, psi1 - chi1), strict=True):
+        letters[name] = model.rate(size) / size + sympy.I * rate / 2
     return Model(letters, where, flow)
 
 
-_Q = "(E - I*u^2)*(Bsquare - (c3 - u)^2) - (u^2 - (2 - I)*c3*u + c5)^2"
-_CONDITION = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3"
-_YM, _YP = (f"(1 - I)*(1 - 2*t2 {sign} root)/(2*(1 + t2))" for sign in "-+")
+_CONDITION = sides(read("theorem-points", SIGNS).split("; ")[-1])[1]
 _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 _MOTION = f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
 
 TRIALS = (
     Trial(
         name="theorem-quartic",
-        tried=f"Q = {_Q}",
         model=quartic_model,
         follows="@(38) to @(41), for any state",
         defines=("Q",),
-        solves="here(Q) = udot^2; slope(Q) = 2*p; leading(Q) = I - 1",
-        false=Falsehood(
-            "The quartic is that of the ball for every body",
-            "E - I*u^2",
-            "E - u^2",
-        ),
+        solves="leading(Q(u)) = I - 1",
+        false=Falsehood("The quartic is that of the ball for every body", "E - I*u^2", "E - u^2"),
     ),
     Trial(
         name="theorem-points",
-        tried=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
+        signs={
+            r"\Omega_3=\text{const}\iff\dot\Omega_3(0)=0\ \text{and}\ \ddot\Omega_3(0)=0": "d(d2(Omega3))"
+            " = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)"
+        },
         model=state_model,
         follows=r"@(38) and @(39) at $t = 0$, and the cubic at $\omega_3$",
-        also=(
-            Part(line=f"p = {_CONDITION}", model=cubic_model),
-            Part(line="d(d2(Omega3)) = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)", model=state_model),
-        ),
+        also=(Part(line=f"p = {_CONDITION}", model=cubic_model),),
         note=r"A constant $\Omega_3$ has both rates zero. Conversely, the two rates obey linear equations along every "
         r"motion: that of the first is the second, that of the second the first times the slope of the cubic @(47). "
         "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @(67) and, "
         "for $I = 1$, the line of @theorem-ball-line.",
-        false=Falsehood(
-            r"$\Omega_3$ starts with the rate $\omega_1 B'_3$",
-            "at0(d(Omega3)) = omega1*B2",
-            "at0(d(Omega3)) = omega1*B3",
-        ),
+        false=Falsehood(r"$\Omega_3$ starts with the rate $\omega_1 B'_3$", "omega1*B2", "omega1*B3"),
     ),
     Trial(
         name="theorem-stability",
-        tried="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2"
-        " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
         follows="@(48) as corrected, on the hyperbola @(71)",
         note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
@@ -298,81 +285,58 @@ TRIALS = (
     ),
     Trial(
         name="theorem-root",
-        tried="(E - I*(omega3 + v)^2)*(Bsquare - (c3 - omega3 - v)^2)"
-        " - ((omega3 + v)^2 - (2 - I)*c3*(omega3 + v) + c5)^2 = v^2*(slope + (1 - I)*v*(4*B3 - v))",
+        defines=("nun2",),
         model=root_model,
         follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
         note=r"Where $\nu_n^2 > 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
         r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
-        false=Falsehood(
-            "At an end of the band the motion leaves by $2B'_3$",
-            "(4*B3 - v)",
-            "(2*B3 - v)",
-        ),
+        false=Falsehood("At an end of the band the motion leaves by $2B'_3$", "(4*B3 - v)", "(2*B3 - v)"),
     ),
     Trial(
         name="theorem-stable-short",
-        tried="minus_slope - (I - 1)*B2^2 = X^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
-        model=stability_model,
+        model=short_model,
         follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
-        defines=("S",),
-        also=(Part(line="X^2 > 0; (I - 1)*B2^2 >= 0", model=short_model),),
-        false=Falsehood(
-            "The bound holds from above",
-            "= X^2 + S^2",
-            "= X^2 - S^2",
-        ),
+        false=Falsehood("The bound holds from above", "> (I", "< (I"),
     ),
     Trial(
         name="theorem-band",
-        tried=f"minus_slope = B2^2*(1 + t2)*(z - ym)*(z - yp)/z; ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
-        model=band_model,
+        model=lambda: places_model(within=True),
         follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
+        signs={"x^2": "z", r"\tau^2": "t2", "y_-": "ym", "y_+": "yp", r"\tau\le\frac{1}{2\sqrt2}": "8*t2 <= 1"},
         defines=("ym", "yp"),
-        solves="ym > 0; yp >= ym",
         also=(
-            Part(line="minus_slope_within <= 0", model=lambda: places_model("within")),
-            Part(line="minus_slope_outside > 0", model=lambda: places_model("outside")),
+            Part(line="nun2 > 0", model=lambda: places_model(within=False)),
             Part(
-                line="minus_slope = B2^2*(S^2 + (1 - I)^2*gain)/(4*(1 + t2)*z); S = 2*(1 + t2)*z + (1 - I)*(2*t2 - 1);"
+                line="nun2 = B2^2*(S^2 + (1 - I)^2*gain)/(4*(1 + t2)*z); S = 2*(1 + t2)*z + (1 - I)*(2*t2 - 1);"
                 " 8*t2 = 1 + gain",
                 model=above_model,
                 defines=("S",),
             ),
-            Part(line="1 - I > 0; gain > 0", model=signs_model),
+            Part(line="1 - I > 0; gain > 0", model=above_model),
         ),
         note=r"Positive below and above the two roots, not positive between them and at them; for $8 \tau^2 > 1$ "
         "positive everywhere. Inside the band the motion is unstable by @theorem-root, at its ends by "
         "@theorem-band-ends.",
-        false=Falsehood(
-            "Inside the band the motions are stable",
-            "minus_slope_within <= 0",
-            "minus_slope_within > 0",
-        ),
+        false=Falsehood("Inside the band the motions are stable", "nun2 <= 0", "nun2 > 0"),
     ),
     Trial(
         name="theorem-band-ends",
-        tried="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
         model=leaving_model,
         follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
-        defines=("v",),
-        solves="d(v)^2 = (1 - I)*v^3*(4*B3 - v); d2(v) = (1 - I)*v^2*(6*B3 - 2*v); at0(v) = 4*B3",
+        signs={r"\nu_n=0": ""},
+        defines=("Omega3",),
+        solves="d(Omega3)^2 = Q(Omega3); 2*d2(Omega3) = dQ(Omega3); at0(Omega3) = omega3 + 4*B3",
         also=(Part(line="(1 - I)*v^3*(4*B3 - v) > 0", model=between_model),),
         note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
         r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
         r"@(42) brings $\mathbf{K}$ near as well.",
-        false=Falsehood(
-            "It leaves to infinity in a finite time",
-            "(1 + 4*(1 - I)",
-            "(1 - 4*(1 - I)",
-        ),
+        false=Falsehood("It leaves to infinity in a finite time", "(1 + 4*(1 - I)", "(1 - 4*(1 - I)"),
     ),
     Trial(
         name="theorem-equatorial-stability",
-        tried="minus_slope = I^2*omega3^2 - (1 - I)*B2^2",
-        model=lambda: equatorial_model("upright"),
+        model=equatorial_model,
+        signs={r"\omega_2=-B'_2:\quad\nu_n^2": "upright", r"\omega_3=0:\quad\nu_n^2": "level"},
         follows=r"@(48) as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
-        also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
         note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $\nu_n = 0$ is fourfold, and for "
         "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
         false=Falsehood(
@@ -383,106 +347,69 @@ TRIALS = (
     ),
     Trial(
         name="theorem-ball-nutation",
-        tried="minus_slope = omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
         model=ball_nutation_model,
         follows="@(48) as corrected, with $I = 1$",
         note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
         r"ball rests in Larmor's frame, and pushed by $\delta$ it turns in that frame with the angular velocity "
         r"$\delta$, however small.",
-        false=Falsehood(
-            "The ball nutates with its angular velocity in the laboratory",
-            "omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
-            "omega1^2 + omega2^2 + omega3^2",
-        ),
+        false=Falsehood("The ball nutates with its angular velocity in the laboratory", "omega + Bp", "omega"),
     ),
     Trial(
         name="theorem-ball-line",
-        tried="k = -b; phi = omega3 + B3; R = P*Q",
         model=lambda: turning_model("ball"),
         follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
         solves=_MOTION,
-        false=Falsehood(
-            r"The proper rotation is the spin $\omega_3$",
-            "phi = omega3 + B3",
-            "phi = omega3",
-        ),
+        false=Falsehood(r"The proper rotation is the spin $\omega_3$", "(omega3 + B3)", "omega3"),
     ),
     Trial(
         name="theorem-equatorial-field",
-        tried="k = -B2/hB2; phi = omega3; R = P*Q",
         model=lambda: turning_model("equator"),
         follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
         solves=_MOTION,
-        false=Falsehood(
-            "The proper rotation is counted from Larmor's frame",
-            "phi = omega3",
-            "phi = omega3 + B2",
-        ),
+        false=Falsehood("The proper rotation is counted from Larmor's frame", "omega3*t", "(omega3 + B2)*t"),
     ),
     Trial(
         name="theorem-quadric-lines",
-        tried="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0;"
-        " omega1^2 = (1 - I)*B2^2; omega2 = -B2",
         model=lines_model,
+        also=(Part(line=read("(50)", SIGNS), model=lines_model),),
         follows=r"@(50) by substitution, any $\omega_3$",
-        false=Falsehood(
-            r"The lines lie in the plane $\omega_1 = 0$",
-            "omega1^2 = (1 - I)*B2^2",
-            "omega1 = 0",
-        ),
+        false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),
     ),
     Trial(
         name="theorem-momentum",
-        tried="dm = k*cross(hat_B,m)",
+        signs={r"\dot{\mathbf{m}}": "dm"},
         model=elementary.matrix_model,
         follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
-        false=Falsehood(
-            "The angular momentum precesses against the axis",
-            "k*cross(hat_B,m)",
-            "k*cross(m,hat_B)",
-        ),
+        false=Falsehood("The angular momentum precesses against the axis", "k*cross(hat_B, m)", "k*cross(m, hat_B)"),
     ),
     Trial(
         name="theorem-moment",
-        tried="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
+        signs={r"\dot{\mathbf{m}}": "dm", r"\mathbf{B}": "Bf"},
         model=torque_model,
         follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
-        false=Falsehood(
-            "The equation of the magnetic moment holds for every body",
-            " - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf",
-            "",
-        ),
+        false=Falsehood("The equation of the magnetic moment holds for every body", " - d(R*I*T(R)*Bf)", ""),
     ),
     Trial(
         name="theorem-drift",
-        tried="drift = c*cross(Eperp,Bf)/b^2",
+        signs=PARTICLE_SIGNS,
         model=drift_model,
         follows="@(89) solved for the velocity that does not change, for either sign of the charge",
         note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
-        false=Falsehood(
-            "A negative charge drifts the other way",
-            "c*cross(Eperp,Bf)/b^2",
-            "mu/abs(mu)*c*cross(Eperp,Bf)/b^2",
-        ),
+        false=Falsehood("A negative charge drifts the other way", "c*cross(E, Bf)", "mu/abs(mu)*c*cross(E, Bf)"),
     ),
     Trial(
         name="theorem-ball-rest",
-        tried="R = [[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]",
         model=rest_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
         solves="d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one",
-        false=Falsehood(
-            r"The ball turns by $+\alpha t$",
-            "sin(alpha*t), 0], [-sin(alpha*t)",
-            "-sin(alpha*t), 0], [sin(alpha*t)",
-        ),
+        false=Falsehood(r"The ball turns by $+\alpha t$", "-alpha*t", "alpha*t"),
     ),
     Trial(
         name="theorem-angles",
-        tried="psi1 = P/b/(1 - nu^2); chi1 = u - nu*psi1",
+        signs={r"\dot\psi": "psi1", r"\dot\chi": "chi1"},
         model=angles_model,
         follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
         false=Falsehood(
@@ -493,15 +420,10 @@ TRIALS = (
     ),
     Trial(
         name="theorem-cayley-klein",
-        tried="d(ca)/ca = 1/2*d(nu)/(1 + nu); 1/2*(psi1 + chi1) = 1/2*(P/b/(1 + nu) + u);"
-        " d(sb)/sb = -1/2*d(nu)/(1 - nu); 1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
+        signs={r"\frac{\dot\xi}{\xi}": "xi", r"\frac{\dot\eta}{\eta}": "eta"},
         model=angles_model,
         follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "
         r"\chi)/2)$: moduli and arguments",
-        false=Falsehood(
-            "The spin enters both arguments with the same sign",
-            "1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
-            "1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) + u)",
-        ),
+        false=Falsehood("The spin enters both arguments with the same sign", "(1 - nu) - u", "(1 - nu) + u"),
     ),
 )

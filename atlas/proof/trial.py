@@ -58,17 +58,17 @@ class Trial:
     model      what stands before it, made when it is needed; several cases where the claim covers them all
     follows    from what the printed form is derived, in a few words
     signs      what letters and phrases of its TeX mean, where its topic does not say so; see `tex`
-    tried      the line that is tried where its TeX can't be read: a sentence
     form       what the line becomes that is made from the TeX, such as `notation.conserved`
     tex        the TeX, if it is not that of the ledger
     defines    letters that the printed form defines
     solves     what must hold with these
+    elsewhere  models of statements that are not of what `model` is about, by their place in the line
     also       further lines that the claim needs
     definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
     grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
     slip       the entry under which the slip is counted, if it is the same one
     corrected_tex  the true form where there is a slip, in which `\boxed` marks what has changed; `corrected_signs`,
-               `corrected_tried`, `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
+               `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
                those of the printed form, and `corrected_also`
     note       what the verdict means, where it needs a word
     false      a false sentence near it; a claim in words must have one, unless it is refuted itself
@@ -79,18 +79,17 @@ class Trial:
     model: Callable[[], Cases]
     follows: str
     signs: Mapping[str, str] = field(default_factory=dict)
-    tried: str = ""
     form: Callable[[str], str] = str
     tex: str = ""
     defines: tuple[str, ...] = ()
     solves: str = ""
+    elsewhere: Mapping[int, Callable[[], Cases]] = field(default_factory=dict)
     also: tuple[Part, ...] = ()
     definition: bool = False
     grade: Grade = ""
     slip: str = ""
     corrected_tex: str = ""
     corrected_signs: Mapping[str, str] = field(default_factory=dict)
-    corrected_tried: str = ""
     corrected_model: Callable[[], Cases] | None = None
     corrected_defines: tuple[str, ...] | None = None
     corrected_solves: str | None = None
@@ -102,20 +101,32 @@ class Trial:
     @property
     def printed(self) -> str:
         """The printed form in plain letters. Raises UnreadableError if its TeX can't be read."""
-        return self.tried or self.form(tex.line(self.tex or EQUATIONS[self.name].tex, self.signs))
+        return self.form(tex.line(self.tex or EQUATIONS[self.name].tex, self.signs))
 
     @property
     def corrected(self) -> str:
         """The true form in plain letters, empty if there is no slip. Raises UnreadableError if it can't be read."""
         if not self.corrected_tex:
             return ""
-        return self.corrected_tried or self.form(tex.line(self.corrected_tex, {**self.signs, **self.corrected_signs}))
+        return self.form(tex.line(self.corrected_tex, {**self.signs, **self.corrected_signs}))
+
+    @property
+    def said(self) -> dict[str, str]:
+        """What of the printed and of the corrected form is not read, with the lines that are tried in its place."""
+        printed = tex.said(EQUATIONS[self.name].tex, self.signs)
+        return printed | tex.said(self.corrected_tex, {**self.signs, **self.corrected_signs})
 
     @property
     def parts(self) -> tuple[Part, ...]:
         """The lines of the printed form."""
-        first = Part(line=self.printed, model=self.model, defines=self.defines, solves=self.solves, check=self.check)
-        return (first, *self.also)
+        statements: dict[Callable[[], Cases], list[str]] = {}
+        for place, statement in enumerate(self.printed.split("; ")):
+            statements.setdefault(self.elsewhere.get(place, self.model), []).append(statement)
+        first = [
+            Part(line="; ".join(lines), model=model, defines=self.defines, solves=self.solves, check=self.check)
+            for model, lines in statements.items()
+        ]
+        return (*first, *self.also)
 
     @property
     def corrected_parts(self) -> tuple[Part, ...]:
@@ -149,18 +160,21 @@ class Trial:
 
     def of_printed(self, *, shrink: bool = False) -> Outcome:
         """Try the printed form; a definition that holds is called one."""
-        try:
-            parts = self.parts
-        except tex.UnreadableError as reason:
-            return Outcome("undecided", f"unreadable: {reason}")
-        found = _joined([part.outcome(shrink=shrink) for part in parts])
+        found = self._of("parts", shrink=shrink)
         if self.definition and found.decision == "proved":
             return Outcome("definition", "it says what its letters mean")
         return found
 
     def of_corrected(self) -> Outcome:
         """Try the corrected form."""
-        return _joined([part.outcome() for part in self.corrected_parts])
+        return self._of("corrected_parts")
+
+    def _of(self, form: str, *, shrink: bool = False) -> Outcome:
+        try:
+            parts: tuple[Part, ...] = getattr(self, form)
+        except tex.UnreadableError as reason:
+            return Outcome("undecided", f"unreadable: {reason}")
+        return _joined([part.outcome(shrink=shrink) for part in parts])
 
 
 def read(name: str, signs: Mapping[str, str]) -> str:

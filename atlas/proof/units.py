@@ -17,7 +17,9 @@ def _all(kinds: dict[str, Power]) -> dict[str, Power]:
     return {letter: power for letters, power in kinds.items() for letter in letters.split()}
 
 
-PHYSICAL = _all({"mu": (0, 0, -1, 1), "c": SPEED, "E Bf b": FIELD, "t": TIME, "eps delta one R": PLAIN, "dR": RATE})
+PHYSICAL = _all(
+    {"mu": (0, 0, -1, 1), "c light": SPEED, "E Bf b": FIELD, "t": TIME, "eps delta one R": PLAIN, "dR": RATE}
+)
 
 PARTICLES = PHYSICAL | _all(
     {

@@ -24,14 +24,15 @@ class Verdict:
     slip            the entry under which the slip is counted, where several entries share one
     method          how: polynomial identity, exact counterexample, dimensions, indices, ...
     follows         from what the printed form was derived
-    printed         the printed form in plain letters, as it was tried
+    printed         the printed form in plain letters, as it was tried, read from its TeX
+    said            the phrases of it, in TeX, that are not read, with the lines in their place; empty if assumed
     corrected       the true form where the printed one is refuted, and its TeX; it has been proved if
                     `corrected_verdict` says so
     counterexample  values of the letters that break the printed form, and what its two sides then are
     note            what the verdict means, where it needs a word
     false           a false sentence near a claim in words, `false_line` in plain letters, `false_verdict` on it, which
                     must be refuted
-    seconds         what the trial took
+    seconds         what the trial took of the processor
     source          fingerprint of the proof's source
     """
 
@@ -43,6 +44,7 @@ class Verdict:
     method: str
     follows: str
     printed: str
+    said: dict[str, str] = field(default_factory=dict)
     grade: Grade = ""
     slip: str = ""
     corrected: str = ""

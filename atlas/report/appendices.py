@@ -22,6 +22,7 @@ class Finding:
     grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
     script          plain SymPy that shows it, or the line that says why there is none
+    said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed
     """
 
     verdict: str
@@ -36,6 +37,7 @@ class Finding:
     slip: str = ""
     false: str = ""
     script: str = ""
+    said: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

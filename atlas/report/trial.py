@@ -60,6 +60,7 @@ class EntryView:
     quote: int | None = None
     false: int | None = None
     script: str = ""
+    said: int | None = None
 
     @property
     def slug(self) -> str:
@@ -76,7 +77,7 @@ class EntryView:
         """The places in the manuscript of all its texts."""
         every = (
             *(self.says, self.quote, self.formula, self.assumptions),
-            *(self.how, self.corrected, self.note, self.false),
+            *(self.how, self.corrected, self.note, self.false, self.said),
         )
         return [number for number in every if number is not None]
 
@@ -121,7 +122,12 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
         false=keep(f"“{found.false}.”", inline=True) if found.false else None,
         script=found.script,
+        said=words("; ".join(_said(*pair) for pair in found.said.items())),
     )
+
+
+def _said(phrase: str, line: str) -> str:
+    return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is assumed"
 
 
 def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:

@@ -10,6 +10,7 @@ from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters
 
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.motions import ball
+from atlas.proof.model import rodrigues
 
 
 def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
@@ -30,6 +31,11 @@ SAME_SENSE = [p for p in launches(41, 40, along=True) if p.alpha > 0 and p.m3 > 
 def motion(f: Floor, p: Any) -> Any:
     """Return the motion of a point on a floor."""
     return f.BallMotion(p.I0, p.alpha, (p.m2, p.m3))
+
+
+def about_z(angle: Any) -> Any:
+    """Return the turn about e3 by an angle."""
+    return rodrigues(sympy.Matrix([0, 0, 1]), sympy.cos(angle), sympy.sin(angle))
 
 
 def constants(say: Ledger, p: Any) -> dict[str, Any]:
@@ -71,7 +77,7 @@ TIES = (
     of_motion(
         "BallMotion.k_hat",
         "text-ball-parallel",
-        lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "k3")],
+        lambda say, _: say("text-ball-parallel", "axis")[1:],
         SAME_SENSE,
     ),
     *matrices("BallMotion", MATRIX, motion, rotation, POINTS),
@@ -81,7 +87,7 @@ TIES = (
     of_motion(
         "BallMotion.rotation",
         "theorem-ball-rest",
-        lambda say, p: say("theorem-ball-rest", "R", **letters(p, "alpha t")),
+        lambda say, p: say("theorem-ball-rest", "R", about_z=about_z, **letters(p, "alpha t")),
         REST,
         size=unit,
     ),

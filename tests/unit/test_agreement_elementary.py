@@ -25,7 +25,7 @@ from agreement import (
 
 from atlas.core.motions import elementary as kernel
 from atlas.formulas import elementary as formulas
-from atlas.proof.ball import rodrigues
+from atlas.proof.model import rodrigues
 
 POINTS = bodies(76, 8)
 REST = bodies(90, 1, omega=(0.0, 0.0, 0.0))
@@ -94,11 +94,13 @@ def two_turns(say: Ledger, axis: Any, k: Any, phi: Any, t: Any) -> Any:
 
 def lost_constants(say: Ledger, p: Any) -> dict[str, Any]:
     """Return k and phi where (71) has no value: on the ball's extra line, and on that of a transverse field."""
-    if p.B3 == 0:
-        phi = say("theorem-equatorial-field", "phi", omega3=p.omega3)
-        return {"k": say("theorem-equatorial-field", "k", B2=p.B2, **unit_field(p)), "phi": phi}
     b = sympy.sqrt(sympy.Rational(p.B2) ** 2 + sympy.Rational(p.B3) ** 2)
-    return {"k": say("theorem-ball-line", "k", b=b), "phi": say("theorem-ball-line", "phi", omega3=p.omega3, B3=p.B3)}
+    name, axis = ("theorem-equatorial-field", "about_y") if p.B3 == 0 else ("theorem-ball-line", "about_B")
+    given = {**letters(p, "omega3 B2 B3"), "b": b, "t": sympy.Integer(1)}
+    sense = sympy.sign(sympy.Rational(p.B2)) if p.B3 == 0 else 1  # of the field beside e2
+    turns = {axis: lambda angle: angle * sense, "about_z": lambda _: sympy.Integer(1)}
+    spins = {axis: lambda _: sympy.Integer(1), "about_z": lambda angle: angle}
+    return {"k": say(name, "R", **given, **turns), "phi": say(name, "R", **given, **spins)}
 
 
 def lost_rotation(say: Ledger, p: Any) -> Any:

@@ -62,7 +62,7 @@ def acceleration(say: Ledger, p: Any) -> Any:
 def acceleration_in_field(say: Ledger, p: Any) -> Any:
     """Return dOmega/dt of (16), in B' = mu B/(2c)."""
     both = body(say, p)
-    return both["I"].inv() * say("(16)", "IdOmega", mu=2, c=1, R=p.R, Bf=p.B, Omega=p.Omega, **both)
+    return both["I"].inv() * say("(16)", "IdOmega", mu=2, light=1, R=p.R, Bf=p.B, Omega=p.Omega, **both)
 
 
 def inverse(matrix: Any) -> Any:
@@ -108,7 +108,7 @@ def of_points(say: Ledger, p: Any) -> Any:
     """Return (8) of three masses, counted from their centre."""
     m, x = exact(p.masses), exact(p.places)
     centre = (m.T * x) / sum(m)
-    return say("(8)", "g[i,j]", m=m, x=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
+    return say("(8)", "g[i,j]", at0=lambda x: x, m=m, x=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
 
 
 def shell_ratio(f: Floor, p: Any) -> Any:
@@ -188,7 +188,7 @@ EQUATIONS = (
         "euler_poisson.body_momentum_rate",
         "(18) text-inertia-tensor",
         lambda f, p: f.euler_poisson.body_momentum_rate(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.M),
-        lambda say, p: say("(18)", "dM", mu=2, c=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
+        lambda say, p: say("(18)", "dM", mu=2, light=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
         size=lambda _true, p: (
             (norm(p.M) + norm(p.inertia) * norm(p.R) * norm(p.B))
             * norm(np.linalg.inv(p.inertia))
@@ -201,7 +201,7 @@ EQUATIONS = (
         "euler_poisson.momentum_rate",
         "(17) text-inertia-tensor",
         lambda f, p: f.euler_poisson.momentum_rate(p.inertia, p.B, p.R, p.m),
-        lambda say, p: say("(17)", "dm", mu=2, c=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
+        lambda say, p: say("(17)", "dm", mu=2, light=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
         size=lambda _true, p: norm(p.R) ** 4 * norm(p.B) * norm(p.m) * np.linalg.cond(p.inertia),
         ulps=16,
     ),
@@ -294,14 +294,14 @@ MATTER = (
         lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
         lambda say, p: [
             *say("(32)", "Bp", mu=p.mu, c=1, Bf=p.B),
-            say("(27)", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
+            say("(27)", "alpha", mu=p.mu, Bf=[0, 0, p.c], c=29_979_245_800),
         ],
     ),
     in_core(
         "units.cyclotron_frequency",
         "(97)",
         lambda f, p: f.units.cyclotron_frequency(p.mu, p.c),
-        lambda say, p: say("(97)", "omega", mu=p.mu, b=p.c, c=1),
+        lambda say, p: say("(97)", "omega", mu=p.mu, Bf=[0, 0, p.c], c=1),
     ),
     in_core(
         "units.charge_to_mass",

@@ -61,24 +61,22 @@ def asymptotes(say: Ledger, p: Any) -> list[Any]:
 def stability(say: Ledger, p: Any) -> Any:
     """Return minus the slope of the cubic."""
     B2, B3, omega2 = (sympy.Rational(x) for x in (p.B2, p.B3, p.omega2))
-    return say("theorem-stability", "minus_slope", I=p.I, B2=B2, tau=B3 / B2, x=(omega2 + B2) / B2)
+    return say("theorem-stability", "nun2", I=p.I, B2=B2, tau=B3 / B2, x=(omega2 + B2) / B2)
 
 
 def least(say: Ledger, p: Any) -> Any:
     """Return the least of minus the slope, at a zero of its derivative by x."""
     B2, B3, I = (sympy.Rational(value) for value in (p.B2, p.B3, p.I))
     x = sympy.Symbol("x", positive=True)
-    curve = say("theorem-stability", "minus_slope", I=I, B2=B2, tau=B3 / B2, x=x)
+    curve = say("theorem-stability", "nun2", I=I, B2=B2, tau=B3 / B2, x=x)
     (place,) = (root for root in sympy.real_roots(sympy.numer(sympy.together(sympy.diff(curve, x)))) if root > 0)
     return curve.subs(x, place)
 
 
 def band(say: Ledger, p: Any) -> list[Any]:
-    """Return y-, y+, with the root that 8 tau^2 = 1 - root^2 says."""
-    root = sympy.Symbol("root", positive=True)
+    """Return y-, y+."""
     t2 = (sympy.Rational(p.B3) / sympy.Rational(p.B2)) ** 2
-    (found,) = sympy.solve(say("theorem-band", "8*t2", root=root) - 8 * t2, root)
-    return [say("theorem-band", name, I=p.I, t2=t2, root=found) for name in ("ym", "yp")]
+    return [say("theorem-band", name, I=p.I, t2=t2) for name in ("ym", "yp")]
 
 
 def curve(f: Floor, p: Any) -> Any:

@@ -61,7 +61,7 @@ def stiffness(say: Ledger, p: Any) -> Any:
 
 def quartic(say: Ledger, p: Any, u: Any, conserved: dict[str, Any]) -> Any:
     """Return the first integral at u."""
-    return say("theorem-quartic", "Q", I=p.I, u=u, **conserved)
+    return say("theorem-quartic", "Q(u)", I=p.I, u=u, **conserved)
 
 
 def powers(Q: Any, u: Any) -> list[Any]:
@@ -179,7 +179,7 @@ TIES = (
         "pseudo_oscillator.quartic",
         "theorem-quartic",
         lambda f, p: f.pseudo_oscillator.quartic(p.body, conserved(p)),
-        lambda say, p: powers(say("theorem-quartic", "Q", u=sympy.Symbol("u"), **same(p)), sympy.Symbol("u")),
+        lambda say, p: powers(say("theorem-quartic", "Q(u)", u=sympy.Symbol("u"), **same(p)), sympy.Symbol("u")),
         size=power(4),
         ulps=16,
     ),

@@ -72,19 +72,19 @@ def split(p: Any) -> dict[str, Any]:
 def frame(say: Ledger, p: Any) -> Any:
     """Return e1, e2, e3 of figure Magn: text-drift-direction gives e1."""
     s = split(p)
-    e1 = say("text-drift-direction", "E2*b*e1", Eperp=s["Eperp"], Bf=s["Bf"]) / (s["E2"] * s["b"])
+    e1 = say("text-drift-direction", "norm(Eperp)*norm(Bf)*e1", Eperp=s["Eperp"], Bf=s["Bf"]) / (s["E2"] * s["b"])
     return [e1, s["Eperp"] / s["E2"], s["Bf"] / s["b"]]
 
 
 def frequency(say: Ledger, p: Any) -> Any:
     """Return omega of (97), with the sign of the charge."""
-    return say("(97)", "omega", mu=p.mu, b=split(p)["b"], c=p.c)
+    return say("(97)", "omega", mu=p.mu, Bf=split(p)["Bf"], c=p.c)
 
 
 def drift(say: Ledger, p: Any) -> Any:
     """Return c [E, B]/B^2."""
     s = split(p)
-    return say("text-drift", "drift", c=p.c, **{name: s[name] for name in ("Eperp", "Bf", "b")})
+    return say("text-drift", "drift", c=p.c, E=s["E"], Bf=s["Bf"])
 
 
 def constants(say: Ledger, p: Any) -> Any:
@@ -100,9 +100,7 @@ def across(say: Ledger, p: Any, t: Any, a: Any, omega0: Any) -> Any:
     s = split(p)
     e1, e2, _ = frame(say, p)
     given = {"Cperp": constants(say, p)[1], "omega": frequency(say, p), "e1": e1, "e2": e2, "mu": p.mu, "c": p.c}
-    return say(
-        "(98)", "yperp", a=a, omega0=omega0, t=t, **given, **{name: s[name] for name in ("Bf", "Eperp", "b", "E2")}
-    )
+    return say("(98)", "yperp", a=a, omega0=omega0, t=t, **given, Bf=s["Bf"], Eperp=s["Eperp"])
 
 
 def circle(say: Ledger, p: Any) -> tuple[Any, Any]:
@@ -140,7 +138,7 @@ def trochoid(say: Ledger, p: Any) -> Any:
     """Return y(t) of (99), and (93) from rest."""
     s = split(p)
     e1, e2, _ = frame(say, p)
-    yperp = say("(99)", "yperp", mu=p.mu, E2=s["E2"], omega=frequency(say, p), t=p.t, a=p.a, e1=e1, e2=e2)
+    yperp = say("(99)", "yperp", mu=p.mu, Eperp=s["Eperp"], omega=frequency(say, p), t=p.t, a=p.a, e1=e1, e2=e2)
     ypar = say("(93)", "ypar", ypar0=[0, 0, 0], Cpar=[0, 0, 0], t=p.t, mu=p.mu, Epar=s["Epar"])
     return say("(101)", "y", ypar=ypar, yperp=yperp)
 

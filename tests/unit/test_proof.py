@@ -144,7 +144,7 @@ def test_a_trial_that_cannot_fail_is_found_out() -> None:
     """That the masses balance says nothing of the electric field: with unequal charges the trial must say no."""
     electric = trial("text-electric-field")
     assert electric.false_part.outcome(sample_only=True).decision == "refuted"
-    vacuous = replace(electric, tried="0 = m[N]*(x[N] - x[N])")
+    vacuous = replace(electric, form=lambda _: "0 = m[N]*(dx[N] - dx[N])")
     assert vacuous.of_printed().decision == "proved"
     assert vacuous.false_part.outcome(sample_only=True).decision == "supported"
 
@@ -286,20 +286,22 @@ def _wrong(name: str, **changes: str) -> run.Verdict:
 @pytest.mark.parametrize(
     ("name", "right", "wrong"),
     [
-        ("(72)", "omega2 + 2*B2", "omega2 + 3*B2"),
-        ("(84)", "hB2*sin(k*t)]", "hB3*sin(k*t)]"),
-        ("(16)", "mu/c*cross(g", "mu/(2*c)*cross(g"),
-        ("(86)", "2*b + kB", "b + kB"),
-        ("(28)", "-k2*sin(gamma*t)*cos(alpha*t)", "k2*sin(gamma*t)*cos(alpha*t)"),
-        ("theorem-stability", "2*tau^2 - 1", "tau^2 - 1"),
-        ("text-ball-equivalent", "1/I0*T(R)", "1/I0*R"),
-        ("text-inertia-axes", "turned*R2 = I2*R2", "turned*R2 = I3*R2"),
+        ("(72)", "2B'_2", "3B'_2"),
+        ("(91)", "+", "-"),
+        ("(16)", r"\frac{\mu}{c}", r"\frac{\mu}{2c}"),
+        ("(86)", r"(2\lvert", r"(\lvert"),
+        ("(28)", r"-\hat{k}_2\sin\gamma t\cos", r"\hat{k}_2\sin\gamma t\cos"),
+        ("theorem-root", r"v^2\left[-", r"v^2\left[+"),
+        ("theorem-pair", r"-\boldsymbol", r"+\boldsymbol"),
+        ("theorem-stability", r"(2\tau^2-1)", r"(\tau^2-1)"),
+        ("text-ball-equivalent", "R^T", "R"),
+        ("text-inertia-axes", r"=I_i", r"=I_j"),
     ],
 )
 def test_a_broken_entry_turns_the_run_red(name: str, right: str, wrong: str) -> None:
     """A formula of the ledger that is changed is refuted, and that differs from what is recorded."""
-    assert right in trial(name).printed
-    found = _wrong(name, tried=trial(name).printed.replace(right, wrong, 1))
+    assert right in EQUATIONS[name].tex
+    found = _wrong(name, tex=EQUATIONS[name].tex.replace(right, wrong, 1))
     assert found.verdict == "refuted"
     assert [changed[0] for changed in recorded.differs([found], RECORDED)] == [name]
 
@@ -327,7 +329,7 @@ def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_sampling_proves_nothing() -> None:
     """What was only sampled is supported, with the count."""
     x = sympy.Symbol("x", real=True)
-    found = decide("x = x", Model({"x": x}), sample_only=True)
+    found = decide("x = 2*x - x", Model({"x": x}), sample_only=True)
     assert found.decision == "supported"
     assert "5 exact points" in found.method
 
@@ -348,7 +350,7 @@ def test_a_line_that_checks_nothing_is_not_proved() -> None:
     """Definitions alone, or one on which nothing that is checked depends, hold whatever they say."""
     letters = {"I": sympy.Symbol("I"), "x": sympy.Symbol("x")}
     assert decide("a2 = 17; a3 = 42", Model(letters), defines=("a2", "a3")).decision == "undecided"
-    found = decide("a2 = 17; x = x", Model(letters), defines=("a2",))
+    found = decide("a2 = 17; x = 2*x - x", Model(letters), defines=("a2",))
     assert found.decision == "undecided"
     assert "a2" in found.method
     assert decide("a2 = 17; x*a2 = 17*x", Model(letters), defines=("a2",)).decision == "proved"
@@ -375,8 +377,8 @@ def test_a_letter_that_is_compared_with_itself_is_refused() -> None:
     """A definition is not checked by the letter that it defines; it may be by a function of that."""
     x = sympy.Symbol("x", real=True)
     found = decide("a2 = 17 = a2", Model({"x": x}), defines=("a2",))
-    assert found.decision == "refuted"
-    assert "with itself" in found.counterexample["reason"]
+    assert found.decision == "undecided"
+    assert "itself" in found.method
     assert decide("a2 = x - 1 = abs(a2)", Model({"x": 1 + x**2}), defines=("a2",)).decision != "refuted"
 
 
@@ -393,14 +395,13 @@ def test_a_definition_may_be_used_through_another_letter() -> None:
 @pytest.mark.parametrize(
     ("name", "right", "wrong"),
     [
-        ("theorem-band", "within <= 0", "within > 0"),
-        ("theorem-band", "outside > 0", "outside < 0"),
-        ("theorem-points", "3*a3*Omega3^2", "2*a3*Omega3^2"),
-        ("(30)", "[0, 0, -1]", "[0, 0, 1]"),
+        ("theorem-band", "nun2 > 0", "nun2 < 0"),
+        ("theorem-steady", "M3*w - nu0", "M3*w + nu0"),
+        ("text-inertia-axes", "R*I*T(R)", "T(R)*I*R"),
     ],
 )
 def test_the_other_half_of_a_theorem_is_tried_too(name: str, right: str, wrong: str) -> None:
-    """The sign on both sides of the band's ends, the converse about a constant Omega3, what (28) reduces to."""
+    """The sign beyond the band's ends, the converse about steady precessions, the inertia tensor in the laboratory."""
     case = trial(name)
     assert [part.line.count(right) for part in case.also].count(1) == 1
     parts = tuple(replace(part, line=part.line.replace(right, wrong)) for part in case.also)

@@ -17,7 +17,7 @@ COUNT = 40
 @cache
 def sample() -> list[str]:
     """Return names of formulas that are proved quickly, so many of them."""
-    quick = [name for name in EQUATIONS if recorded.load()[name].seconds < 0.5 and not trial(name).tried]
+    quick = [name for name, found in recorded.load().items() if found.seconds < 0.5 and found.verdict == "proved"]
     return random.Random(1).sample(quick, COUNT)  # noqa: S311  a choice that is the same in every run
 
 
@@ -37,4 +37,4 @@ def test_changes_are_of_one_sign_number_letter_or_index() -> None:
     assert {what.split()[1] for what in found.values()} == {"sign", "number", "letter", "index", "function"}
     assert tex not in found
     assert r"\dot K_1=\Omega_3 K_2+2\sin\phi t" in found
-    assert r"\dot K_1=\Omega_4 K_2-2\sin\phi t" in found
+    assert r"\dot K_1=\Omega_2 K_2-2\sin\phi t" in found

@@ -13,7 +13,7 @@ def test_a_formula_of_the_ledger_gives_an_exact_number() -> None:
     """Floats are taken as exact, so that the result is a fraction."""
     assert value("(71)", "omega3", omega2=0.5, I=1.5, B2=1.0, B3=2.0) == sympy.Rational(4, 9)
     assert value("(72)", "phi", omega2=0.5, I=1.5, B2=1.0, B3=2.0) == sympy.Rational(-5, 9)
-    assert value("(27)", "alpha", mu=2, b=Fraction(1, 2), c=4) == sympy.Rational(1, 8)
+    assert value("(27)", "alpha", mu=2, Bf=[0, Fraction(1, 2), 0], c=4) == sympy.Rational(1, 8)
 
 
 def test_the_corrected_form_is_used() -> None:
@@ -25,7 +25,7 @@ def test_the_corrected_form_is_used() -> None:
 
 def test_vectors_are_sequences() -> None:
     """A vector in, a vector out."""
-    found = value("(21)", "dOmega", R=sympy.eye(3), Bf=[0, 0, 1], Omega=[1, 0, 0], mu=2, c=1)
+    found = value("(21)", "d(Omega)", R=sympy.eye(3), Bf=[0, 0, 1], Omega=[1, 0, 0], mu=2, c=1)
     assert list(found) == [0, -1, 0]
 
 
