@@ -237,3 +237,19 @@ def test_the_command_knows_the_families() -> None:
     assert set(fit.FAMILIES) == set(MODELS)
     assert set(fit.KINDS) == {*KINDS, "signal"}
     assert fit.LOSSES == LOSSES
+
+
+def test_other_families_are_found() -> None:
+    """A free body, and a heavy top in a known direction."""
+    rng = np.random.default_rng(3)
+    t = np.linspace(0, 20, 120)
+    noise = Rotation.from_rotvec(rng.normal(0, NOISE, (120, 3))).as_matrix()
+    free = atlas.fit(t, "free", sigma=NOISE, rotation=noise @ atlas.FreeMotion(1.4, (0.5, 0.3, 1.7)).rotation(t))
+    assert abs(free.params["ratio"].value - 1.4) < 5 * free.params["ratio"].stderr < 0.05
+    top = atlas.TopMotion((1.0, 0.6), (0.0, 0.0), direction=(0.6, 0.8), omega=(0.1, 0.2, 3.0), linear=2.0)
+    upright = Rotation.align_vectors([[0, 0, 1]], [[0, 0.6, 0.8]])[0].as_matrix()
+    known = {name: {"value": 0.0, "vary": False} for name in ("k2", "k3", "quadratic")}
+    found = atlas.fit(t, "top", sigma=NOISE, rotation=noise @ upright @ top.rotation(t), params=known)
+    for name, truth in {"I3": 0.6, "linear": 2.0, "omega3": 3.0}.items():
+        assert abs(found.params[name].value - truth) < 5 * found.params[name].stderr < 0.1, name
+    assert found.covariance.shape == (8, 8)

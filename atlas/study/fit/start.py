@@ -12,8 +12,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.chosen import motion as of_any
 from atlas.study.fit.data import LEAST, Data
-from atlas.study.fit.models import OMEGA, B, Model, attitude, state, vector
+from atlas.study.fit.models import OMEGA, B, Model, attitude, direction_of, state, vector
 
 TURN = 0.5
 """Turn, in radians or parts of the spread, over which neighbours are compared."""
@@ -23,6 +24,7 @@ LIMIT = 1.2
 
 STEPS, CORRECTIONS, DENSE, TRIALS, NEAR = 4, 3, 12, 15, 300
 APART, MOST = 0.4, 4
+RANDOM, TRIED, FOLLOWED = 2000, 30, 12
 
 Start = tuple[dict[str, float], float]
 """Parameters, and the time at which they hold."""
@@ -69,12 +71,12 @@ def _solved(A: FloatArray, b: FloatArray, rounds: int = 4) -> tuple[FloatArray, 
     """Return x with A x = b, (m, 3, n) and (m, 3), by least squares that outliers do not carry; and the misfit."""
     weights = np.ones(len(b))
     x: FloatArray = np.zeros(A.shape[-1])
-    for _ in range(rounds):
+    for _ in range(rounds if x.size else 0):
         rows = (A * weights[:, None, None]).reshape(-1, A.shape[-1])
         x = np.asarray(np.linalg.lstsq(rows, (b * weights[:, None]).ravel())[0])
         off = np.linalg.norm(A @ x - b, axis=-1)
         weights = 1 / np.sqrt(np.maximum(off, np.median(off) or 1.0))
-    return x, float(np.median(off))
+    return x, float(np.median(np.linalg.norm(A @ x - b, axis=-1)))
 
 
 def _hat(v: FloatArray) -> FloatArray:
@@ -91,8 +93,8 @@ class Neighbours:
         steps = [_log(R[k + 1] @ R[k].swapaxes(1, 2)) for k in (0, 1)]
         self.w = [steps[k] / self.gaps[k] for k in (0, 1)]
         middles = [Rotation.from_rotvec(steps[k] / 2).as_matrix() @ R[k] for k in (0, 1)]
-        weight = 1 / np.sqrt(1 / self.gaps[0] ** 2 + 1 / self.gaps[1] ** 2)
-        self.parts = [self._along([x[:, :, j] for x in middles], weight) for j in range(3)]
+        self.weight = 1 / np.sqrt(1 / self.gaps[0] ** 2 + 1 / self.gaps[1] ** 2)
+        self.parts = [self._along([x[:, :, j] for x in middles], self.weight) for j in range(3)]
         mean = (self.gaps[1] * self.w[0] + self.gaps[0] * self.w[1]) / (self.gaps[0] + self.gaps[1])
         self.omega = np.vecmat(mean, R[1])
         """Angular velocity at the middle time, in the body."""
@@ -165,6 +167,9 @@ def _from_attitudes(model: Model, data: Data, fixed: Mapping[str, float]) -> Ite
     """Yield starts out of attitudes by the equations between neighbours."""
     (l, i, r), _ = triples(data)
     near = Neighbours([data.t[x] for x in (l, i, r)], [data.values[x] for x in (l, i, r)])
+    if model.name == "top":
+        yield _top(near, model, data, fixed)
+        return
     known = np.zeros(3) if model.name == "free" else np.array([fixed.get(name, np.nan) for name in B])
     for best in _distinct(_solved_body(near, _bodies(model, fixed), known, np.zeros(3))):
         (_, _, I1, I3, field), omega = best, near.omega
@@ -177,6 +182,55 @@ def _from_attitudes(model: Model, data: Data, fixed: Mapping[str, float]) -> Ite
         which = _middle(data.t, near.t[1])
         values = {"ratio": I3, "I1": I1, "I3": I3, **dict(zip(B, field.tolist(), strict=True))}
         yield state(model, data.kind, values, near.R[1][which], omega[which]), float(near.t[1][which])
+
+
+def _top(near: Neighbours, model: Model, data: Data, fixed: Mapping[str, float]) -> Start:
+    """Return the start of a top in a field of known direction: its equations are linear in all that is unknown."""
+    n = direction_of({**model.fixed, **fixed})
+    (a1, M1), (a2, M2), (a3, M3) = near.parts
+    e3 = near.R[1][:, :, 2]
+    pull = np.cross(e3, n) * (near.gaps[0] + near.gaps[1]) / 2 * near.weight
+    columns = {
+        "I3": a3, "k2": (M1 + M2) @ n, "k3": M3 @ n, "linear": pull, "quadratic": pull * (e3 @ n)[:, None],
+    }  # fmt: skip
+    free = [name for name in columns if name not in fixed]
+    rest = -(a1 + a2) - sum((fixed[name] * columns[name] for name in columns if name in fixed), np.zeros(3))
+    x, _ = _solved(np.stack([columns[name] for name in free], -1), rest)
+    values = {**fixed, **dict(zip(free, x.tolist(), strict=True))}
+    which = _middle(data.t, near.t[1])
+    values["I3"] = min(max(values["I3"], 0.05), 1.95)
+    return state(model, data.kind, values, near.R[1][which], near.omega[which]), float(near.t[1][which])
+
+
+def _trials(model: Model, data: Data, _: Mapping[str, float]) -> Iterator[Start]:
+    """Yield the best of random motions of a symmetric body, by what they make of the densest times."""
+    where = _middle(data.t, data.t)
+    near = np.argsort(abs(data.t - data.t[where]), kind="stable")[:TRIED]
+    part, centre = data.part(near), float(data.t[where])
+    rate = triples(data)[1]
+    rng = np.random.default_rng(0)
+    size = (RANDOM, 1)
+    ratio, A = rng.uniform(0.3, 1.9, size), Rotation.random(RANDOM, random_state=1).as_matrix()
+    field, omega = (rng.normal(size=(RANDOM, 3)) * rate * rng.uniform(0.1, 1.5, size) for _ in range(2))
+    several = of_any(ratio, field[:, None], omega[:, None], A[:, None])
+    off = [np.linalg.norm(data.of(_Still(R), part.t) - part.values) for R in several.rotation(part.t - centre)]
+    for i in np.argsort(off)[:FOLLOWED]:
+        values = {"ratio": float(ratio[i, 0]), "I3": float(ratio[i, 0]), "I1": 1.0}
+        yield (
+            state(model, data.kind, {**values, **dict(zip(B, field[i].tolist(), strict=True))}, A[i], omega[i]),
+            centre,
+        )
+
+
+class _Still:
+    """Rotations that are known, in the place of a motion."""
+
+    def __init__(self, R: FloatArray) -> None:
+        self.R = R
+
+    def rotation(self, _: Any) -> FloatArray:
+        """Return them."""
+        return self.R
 
 
 def _beside(I1: float, I3: float, bodies: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -367,5 +421,4 @@ def starts(problem: Any) -> Iterator[Start]:
     ways = {
         "rotation": _from_attitudes, "axis": _from_axes, "angular_velocity": _from_rates, "field_in_body": _from_fields,
     }  # fmt: skip
-    if data.kind in ways:
-        yield from ways[data.kind](model, data, fixed)
+    yield from ways.get(data.kind, _trials)(model, data, fixed)
