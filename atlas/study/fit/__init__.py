@@ -62,7 +62,8 @@ def fit(
     not seen, and a3 is 0. No start is needed. `params` are `lmfit.Parameters`, or what `lmfit.create_params` takes,
     with values, bounds, expressions or ``vary=False`` for some of them: ``{"ratio": {"value": 1.5, "vary": False}}``.
 
-    For a signal the start is one of random motions, which may miss: its chi square tells. So it may for three moments.
+    For a signal the start is one of random motions, which may miss: its chi square tells. An elliptic motion needs a
+    value of z in `params`. A body with three moments is fitted by differences of motions, which takes minutes.
 
     `loss` "soft_l1", "huber", "cauchy" or "arctan" keeps outliers from carrying the fit off. Raises AtlasError for data
     of another shape, what is no number, no rotation or no parameter, fewer numbers than parameters, and where no motion
