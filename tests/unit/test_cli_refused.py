@@ -17,6 +17,7 @@ from atlas.errors import AtlasError
 BODY = "--ratio 1.5 --field 1 2"
 SQUARE = [(1, 0), (-1, 0), (0, 1), (0, -1)]
 FILES: dict[str, str | bytes] = {
+    "one.csv": "t,R11\n0,1\n",
     "plain.csv": "x,y,z,mass\n" + "".join(f"{x},{y},1,1\n" for x, y in SQUARE),
     "charged.csv": "x,y,z,mass,charge\n" + "".join(f"{x},{y},1,1,1\n" for x, y in SQUARE),
     "uneven.csv": "x,y,z,mass,charge\n" + "".join(f"{x},{y},1,1,{2 + x}\n" for x, y in SQUARE),
@@ -143,6 +144,8 @@ CASES = [
     ),
     ("figure cone --set field=0,1 --out {place}/new", "cone"),
     ("verify 72 --record", "name none"),
+    ("verify --script", "name one equation"),
+    ("fit {place}/one.csv --fix ratio", "is not NAME=VALUE"),
     ("check {place}/none.csv", "none.csv"),
     ("check {place}/sub", "sub"),
     ("check {place}/plain.csv {place}/charged.csv --ratio 1 --field 1 2 --omega2 1", "with --order"),
@@ -180,6 +183,7 @@ CASES = [
     ("report atlas --out {place}/lost", "lost' is a link to nothing"),
 ]  # fmt: skip
 ELSEWHERE = (
+    "{one.name}: {text}",  # of an entry without a script, which takes a trial
     "cannot be read: {error.strerror}",
     "ClickException(message)",
     "was changed since it was made",
