@@ -12,6 +12,7 @@ SAME = (
     (r"\lambda_{AB}[\mathbf{y}_A-\mathbf{y}_1]", "a dummy index: the multipliers are symmetric"),
     (r"q''(-\nu_0)", "q has no cubic term, so that its second derivative is even"),
     (r"e_\pm=-\nu_0\mp", "both roots stand in a product"),
+    (r"e_\mp =-\nu_0\pm", "both roots stand in a product"),
 )
 """What a change may put into a formula of the ledger and leave its mathematics as it is, and why."""
 
