@@ -40,6 +40,7 @@ for f in FAMILIES.values():
 BASES = EXAMPLES | {
     "hyperbola": ["--ratio 1.5 --field 1 2"],
     "check": ["FILE --ratio 1.5 --field 1 2 --omega2 0.7"],
+    "fit": ["FILE"],
     "figure": [""],
     "list": [""],
     "verify": ["999"],
