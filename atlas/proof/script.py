@@ -321,7 +321,8 @@ class _Block:
     def definition(self, name: str) -> str:
         """Return what a letter is defined to be, as it is read or, with a function of the model's own, evaluated."""
         try:
-            return self.code(self.definitions[name])
+            text = self.code(self.definitions[name])
+            return f"Integer({text})" if text.isdigit() else text
         except _NoFormulaError:
             return self.plain(self.model.letters[name])
 
