@@ -42,9 +42,11 @@ _METHODS = {"cross": "cross", "dot": "dot", "inv": "inv", "det": "det", "tr": "t
 _CALLED = {"eps": "LeviCivita", "delta": "KroneckerDelta", "ln": "log", "abs": "Abs"}
 _CALLED |= {name: name for name in ("sin", "cos", "tan", "atan", "diag")}
 _SYMPY = (
-    *("Abs", "Integer", "KroneckerDelta", "LeviCivita", "Matrix", "QQ", "Rational", "atan", "cancel", "cos", "denom"),
+    *("Abs", "Integer", "KroneckerDelta", "LeviCivita", "Matrix", "QQ", "Rational", "atan", "cancel", "cos", "cosh"),
     *(
+        "denom",
         "diag",
+        "exp",
         "expand",
         "eye",
         "factor",
@@ -53,12 +55,11 @@ _SYMPY = (
         "pi",
         "ring",
         "sin",
+        "sinh",
         "sqrt",
         "symbols",
-        "tan",
-        "together",
-        "zeros",
     ),
+    *("tan", "tanh", "together", "zeros"),
 )
 _OWN = {
     "at0",
@@ -81,13 +82,15 @@ def vanishes(x, meaning):
     """Whether a rational function of free parameters is 0: its numerator expands to nothing."""
     top = numer(together(numer(together(x)).xreplace(meaning)))
     letters = sorted(top.free_symbols, key=str)
-    return not (ring(letters, QQ)[0].from_expr(top) if letters else expand(top))
+    rational = letters and top.is_polynomial(*letters) and not top.has(sqrt(Integer(-1)))
+    return not (ring(letters, QQ)[0].from_expr(top) if rational else expand(top))
 ''',
     "positive": '''
 def positive(x, meaning):
-    """Whether a function of letters of known sign is positive: factor by factor, or term by term."""
-    x = factor(together(x.xreplace(meaning)))
-    return any(f.is_positive for f in (x, expand(numer(x)) / expand(denom(x))))
+    """Whether a function of letters of known sign is positive: as it stands, by factors, or term by term."""
+    x = x.xreplace(meaning)
+    y = factor(together(x))
+    return any(f.is_positive for f in (x, y, expand(numer(y)) / expand(denom(y))))
 ''',
     "partial": '''
 def partial(f, x):
@@ -248,6 +251,10 @@ class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
         return self.identifier(expr)
 
     _print_Dummy = _print_Symbol
+
+    def _print_ImaginaryUnit(self, expr: Value) -> str:
+        del expr
+        return "sqrt(Integer(-1))"  # I is the ratio of the moments
 
     def _print_Rational(self, expr: Value) -> str:
         return f"Rational({expr.p}, {expr.q})"
@@ -509,7 +516,7 @@ class _Block:
             return node
         value = self.model.letters.get(node.id, sympy.Symbol(node.id, real=True))
         if value is COMMON.get(node.id):
-            return ast.Name({"one": "eye(3)"}.get(node.id, node.id))
+            return ast.Name({"one": "eye(3)", "i": "sqrt(Integer(-1))"}.get(node.id, node.id))
         if callable(value) and not isinstance(value, sympy.Basic | sympy.MatrixBase):
             raise _NoFormulaError
         self.used[node.id] = value
