@@ -281,7 +281,7 @@ def _ranges_of_times(args: list[str]) -> list[str]:
 def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[str]) -> Iterator[str]:
     option, given = "", True
     for word in args:
-        if not option or word.startswith("--"):
+        if not option or word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha()):
             if not given:
                 yield option  # no value came: click says so
             option, given = (word, False) if word in many else ("", True)

@@ -1,5 +1,6 @@
 """What each entry point of the package loads: of the heavy libraries only what it needs, in any process it starts."""
 
+import math
 import os
 import subprocess
 import sys
@@ -89,6 +90,9 @@ CASES = [
     Case("list --json", "numpy"),
     Case(f"check true.csv {MOTION}", "flint msgspec numpy"),
     Case(f"check true.csv {MOTION} --json --figure error.svg", "flint msgspec matplotlib contourpy fontTools numpy"),
+    Case(
+        "fit turns.csv --sigma 0.01", "flint lmfit msgspec numpy scipy matplotlib pandas multiprocessing"
+    ),  # lmfit itself loads the last three
     Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
     Case(
         "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
@@ -104,6 +108,8 @@ CASES = [
     Case("data prose.toml", "msgspec numpy flint pylatexenc multiprocessing"),
 ]
 
+TURNS = "t,w,x,y,z\n" + "".join(f"{t},{math.cos(t / 2)},0,0,{math.sin(t / 2)}\n" for t in range(9))
+"""A turn about the third axis."""
 PROSE = """
 name = "prose"
 title = "A Report"
@@ -182,6 +188,7 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Room:
     """Prepare the files that the command lines read: a trajectory and a report."""
     room = Room(tmp_path_factory.mktemp("room"))
     (room.folder / "true.csv").write_text("t,R11\n0,1\n", encoding="utf-8")
+    (room.folder / "turns.csv").write_text(TURNS, encoding="utf-8")
     (room.folder / "prose.toml").write_text(PROSE, encoding="utf-8")
     return room
 

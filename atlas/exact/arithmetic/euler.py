@@ -76,7 +76,7 @@ def discriminant(c: Sequence[Any]) -> Any:
     Zero where a root is a double one; of the quartic it has the sign of 256 a0^6 times the product of the squared
     differences of the roots.
 
-        >>> discriminant([fmpq(2), fmpq(-3), fmpq(1)])
+        >>> discriminant([2, -3, 1])
         1
     """
     if len(c) == 5:
