@@ -6,6 +6,7 @@ line that it prints says what is proved or refuted; its exit status is 1 if that
 """
 
 import ast
+import math
 import re
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
@@ -415,6 +416,12 @@ class _Block:
         """Return both sides of a relation as rows of components; as they were found where no formula can be given."""
         tree = parse(relation.text)[0]
         free = sorted(self.reader.free(tree.left) | (names(tree.left) & set(self.reader.ranges)))
+        runs = math.prod(len(self.reader.ranges.get(name, (1, 2, 3))) for name in free)
+        values = [self.value(side, tuple(free)) for side in (tree.left, tree.comparators[0])]
+        if runs * max(len(value) if isinstance(value, sympy.MatrixBase) else 1 for value in values) > len(
+            relation.left
+        ):
+            free = [name for name in free if name not in self.reader.ranges]  # summed, in the middle of a chain
         try:
             left, right = (self.row(side, free, len(relation.left)) for side in (tree.left, tree.comparators[0]))
         except _NoFormulaError:
@@ -497,6 +504,8 @@ class _Block:
                 base, power = self.formula(node.left, bound), self.formula(node.right, bound)
                 if self.columns(node.left, bound) == 1:  # a vector has no other power than its square
                     return ast.Call(ast.Attribute(base, "dot"), [base], [])
+                if self.model.letters["inv"] is not COMMON["inv"] and self.columns(node.left, bound) > 1:
+                    return ast.Name(f"({self.plain(self.value(node, ()))})")  # the model's own inverse
                 return ast.BinOp(base, ast.Pow(), power)
             case ast.Call(func=ast.Name(id=name)):
                 return self.call(node, name, bound)
