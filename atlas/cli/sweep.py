@@ -110,6 +110,12 @@ def swept(
         body, pairs = _body(options), [_setting(text) for text in settings]
         _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
         family = _meant(family, {*body, *(name for name, _ in pairs)})
+        known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
+        if "I1" in body and "I1" not in known:
+            raise click.UsageError(
+                f"--inertia takes I2 and I3 in the family {family}; a body with three moments of inertia is the family "
+                "asymmetric, with --set I1=0.8 and so on, or motion, which finds it."
+            )
         wanted = Wanted(family, quantities, body | dict(pairs), listing, out, digits, rows)
     elif family or settings or listing or quantities or digits or rows or body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")

@@ -383,7 +383,7 @@ def test_three_moments_belong_to_a_family_of_their_own_in_a_sweep() -> None:
     """The error names it."""
     found = CliRunner().invoke(command, "sweep general --inertia 0.8 1 1.3 --set B2=1 --out x.csv".split())
     assert found.exit_code == 2
-    assert "the family asymmetric, with --set I1=0.8" in found.output
+    assert "the family asymmetric, with --set I1=0.8" in " ".join(found.output.split())
 
 
 def test_what_is_proved_is_the_largest_error_of_any_entry(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -270,8 +270,16 @@ def test_the_cells_of_radiation() -> None:
 def test_no_table_is_left_out() -> None:
     """Each table has a test of its cells above, or in another file."""
     tested = {"points", "quadric", "sheet", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
-    words = {"quantities", "targets"}  # tables of words: see test_guide and test_targets
+    words = {
+        "quantities",
+        "targets",
+        "roles",
+        "layers",
+        "blocks",
+        "report_keys",
+    }  # test_guide, test_targets, test_report_tables
     tested |= {"charges", "companions", "diamagnetism", "sizes", "radiation"}
     elsewhere = {"tops", "monodromy", "coats", "swings", "properties", "closed"}  # test_report_tables, test_page
     elsewhere |= {"elliptic", "periods", "asymmetric"}  # test_three_moments
+    elsewhere |= {"levitated", "lines", "inferred", "beyond_larmor"}  # test_laboratory_tables
     assert set(TABLES) - words == tested | elsewhere
