@@ -112,9 +112,12 @@ def swept(
         family = _meant(family, {*body, *(name for name, _ in pairs)})
         known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
         if "I1" in body and "I1" not in known:
+            components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
+            narrow = next((name for name in components if options[name] is not None), "")
             raise click.UsageError(
-                f"--inertia takes I2 and I3 in the family {family}; a body with three moments of inertia is the family "
-                "asymmetric, with --set I1=0.8 and so on, or motion, which finds it."
+                (f"--{narrow} takes 2 numbers, {components[narrow]}, " if narrow else "a tensor has no place ")
+                + f"in the family {family}; a body with three moments of inertia is the family asymmetric, with "
+                "--set I1=0.8 and so on, or motion, which finds it."
             )
         wanted = Wanted(family, quantities, body | dict(pairs), listing, out, digits, rows)
     elif family or settings or listing or quantities or digits or rows or body_parameters(options):

@@ -268,6 +268,7 @@ ENDS = {
     "general_motion": {"periods": (1e-3, 1e3)},
     "monodromy": {"points": (24, 200)},
     "phase_portrait": {"levels": (1, 40)},
+    "separatrix": {"decay": (0.1, 30.0)},
     "quadrics_of_tops": {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)},
     "tipping_disk": {"count": (2, 24)},
     "top_motion": {"periods": (1e-3, 1e3)},
