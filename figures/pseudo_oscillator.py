@@ -36,7 +36,7 @@ def scene(
     oscillator = PseudoOscillator(ratio, field, omega)
     motion = GeneralMotion(ratio, field, omega)
     low, high = motion.turning_points
-    if not np.isfinite(motion.period):
+    if high > low and not np.isfinite(motion.period):
         raise DomainError(f"From omega = {omega} the motion runs on a separatrix: it has no period to be drawn.")
     rest = high == low
     span = (high - low) or max(np.abs((*omega, *field))) or 1.0

@@ -90,8 +90,9 @@ def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) 
 class Leaving:
     """A motion by the departure of Omega3 from its start; that is B3 - b nu, (40), which keeps its digits for a needle.
 
-    `below` and `above` are its ends, `farthest` the larger of them, `speed` the rate at t = 0. The body in a field is
-    a top with the coupling b (I2, I3), nu the cosine between its axis and the field. DomainError for rounding alone.
+    `below` and `above` are its ends, `farthest` the larger of them, `speed` the rate at t = 0, `period` that of Omega3.
+    The body in a field is a top with the coupling b (I2, I3), nu the cosine between its axis and the field. DomainError
+    for rounding alone, and on a separatrix.
     """
 
     def __init__(self, oscillator: PseudoOscillator) -> None:
@@ -102,17 +103,12 @@ class Leaving:
         ends = [self.field[1] - self.b * nu for nu in self.top.turning_points]
         self.below, self.above = min(ends), max(ends)
         self.farthest, self.speed = max(self.above, -self.below), float(oscillator.omega1) * self.field[0]
-        if self.farthest < SEEN * self.b:
+        self.period = float(self.top.period)
+        if self.farthest < SEEN * self.b or not np.isfinite(self.period):
             raise DomainError(
-                f"From omega = {self.top.omega} Omega3 changes by less than {SEEN:g} of the field's size."
+                f"From omega = {self.top.omega} Omega3 has no period, or changes by less than {SEEN:g} of the field's "
+                "size."
             )
-
-    @property
-    def period(self) -> float:
-        """Period of the oscillation. Raises DomainError for a motion on a separatrix."""
-        if not np.isfinite(self.top.period):
-            raise DomainError(f"From omega = {self.top.omega} the motion runs on a separatrix: it has no period.")
-        return float(self.top.period)
 
     def departure(self, t: FloatArray) -> FloatArray:
         """Return points (t, Omega3 - omega3), shape (N, 2), at times (N,)."""

@@ -76,8 +76,10 @@ def scripts(path: Path = SCRIPTS) -> dict[str, str]:
 
 
 def save_scripts(written: Mapping[str, str], path: Path = SCRIPTS) -> None:
-    """Write the scripts of all entries."""
-    files.write(path, json.dumps(dict(written), indent=1, ensure_ascii=False) + "\n")
+    """Write scripts, over those of the same names that are there."""
+    there = scripts(path) | dict(written)
+    ordered = {name: there[name] for name in EQUATIONS if name in there}
+    files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
 def save(found: Iterable[Verdict], path: Path = VERDICTS) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from atlas import proof
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
 from atlas.proof import recorded, run
@@ -30,9 +31,11 @@ def test_the_command_keeps_what_it_found(monkeypatch: pytest.MonkeyPatch) -> Non
     kept, found = list[Any](), [*recorded.load().values()]
     monkeypatch.setattr(run, "verify", lambda *_labels, **_options: found)
     monkeypatch.setattr(recorded, "save", lambda *saved: kept.extend(saved))
+    monkeypatch.setattr(recorded, "save_scripts", lambda written: kept.append([*written]))
+    monkeypatch.setattr(proof, "script_of", lambda one: one.name)
     result = CliRunner().invoke(command, ["verify", "--record"], catch_exceptions=False)
     assert result.exit_code == 0
-    assert kept == [found]
+    assert kept == [found, [one.name for one in found]]
 
 
 def test_seconds_change_only_with_the_proof(tmp_path: Path) -> None:

@@ -255,6 +255,11 @@ class Moved(NamedTuple):
 def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
     """Return derivatives of a motion, or of an array of them, see `Motion.sensitivity`."""
     names = [names] if isinstance(names, str) else list(names)
+    if hasattr(motion, "winding"):
+        raise DomainError(
+            "A closed motion has p/q in the place of omega2: ask ElementaryMotion(ratio, field, omega2) for what "
+            "depends on it."
+        )
     known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
     each = range(int(np.prod(motion.shape)))
     ones = (known.get(i) or known.setdefault(i, One(motion, i)) for i in each)

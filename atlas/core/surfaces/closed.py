@@ -75,6 +75,7 @@ class ClosedMotion(ElementaryMotion):
         self.ratio, self.field, self.shape = kept_ratio(ratio, I3), (B2, B3), ()
         self.arguments = {"ratio": self.ratio, "field": self.field, "p": p, "q": q}
         self._closed = Closed(*inputs)
+        self._inputs = (I2, I3, B2, B3, self._closed.omega2, None)
         self._made = {0: self._closed}  # type: ignore[dict-item]  # it has all that one elementary motion has
 
     @property
