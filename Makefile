@@ -91,7 +91,7 @@ lint: $(VENV)/.test
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
-	@echo 'the tests: about 4 minutes on two cores'
+	@echo 'the tests: about 12 minutes on two cores'
 	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(JOBS) --dist worksteal -rs   # with reasons for what is skipped; without bytecode, each of their programs is compiled
 
 # The sdist and the wheel of a tag, from what the tag holds and nothing else.

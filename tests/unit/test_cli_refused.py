@@ -160,6 +160,7 @@ CASES = [
     ("sweep elementary --file {place}/bad.toml", "with --file only --out and --jobs"),
     ("sweep --quantity k --out {place}/out.csv", "name the family to sweep"),
     ("sweep elementary --quantity k --set ratio=1", "--out is missing"),
+    ("sweep general --inertia 0.8 1 1.3 --quantity k --out {place}/out.csv", "is the family asymmetric"),
     ("sweep --file {place}/none.csv", "none.csv"),
     ("sweep --file {place}/sub", "sub"),
     ("sweep --file {place}/bad.toml", "bad.toml: "),

@@ -37,7 +37,8 @@ def begin(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables:
         shutil.copy(ROOT / name, checkout / name)
     (checkout / "requirements.lock").write_text(lock, encoding="utf-8")
     (checkout / "random.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")
-    environment = os.environ | {"PATH": f"{first}{os.pathsep}{os.environ['PATH']}", **variables}
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    environment = own | {"PATH": f"{first}{os.pathsep}{os.environ['PATH']}", **variables}
     return subprocess.Popen(
         ["make", "setup"],  # noqa: S607  whichever make there is
         cwd=checkout,
