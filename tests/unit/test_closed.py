@@ -116,3 +116,12 @@ def test_next_to_an_excluded_number_no_digit_is_lost(ratio: float, field: tuple[
         true = (w * b / B2, w, B3 * w * (w + (2 - I) * B2) / (I * B2 * (w + B2)))
         for found, value in zip((motion.k, motion.omega2, motion.omega3), true, strict=True):
             assert found == float(value)
+
+
+def test_a_closed_motion_has_actions_and_no_derivatives() -> None:
+    """Its actions are those of the elementary motion; p/q is no number to differentiate by, which a line says."""
+    closed = atlas.Hyperbola(1.5, (1.0, 2.0)).closed(3, 2)
+    same = atlas.ElementaryMotion(1.5, (1.0, 2.0), closed.omega2)
+    assert np.asarray(closed.actions.values) == pytest.approx(np.asarray(same.actions.values), rel=1e-12)
+    with pytest.raises(atlas.DomainError, match="p/q in the place of omega2"):
+        closed.sensitivity(1.0, ["ratio"])

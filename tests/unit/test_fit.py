@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.study.fit.data import Data, of_arrays
+from atlas.study.fit.data import Data, _inverse_right, of_arrays
 from atlas.study.fit.models import MODELS, model_of
 from atlas.study.fit.problem import Problem
 
@@ -253,3 +253,12 @@ def test_other_families_are_found() -> None:
     for name, truth in {"I3": 0.6, "linear": 2.0, "omega3": 3.0}.items():
         assert abs(found.params[name].value - truth) < 5 * found.params[name].stderr < 0.1, name
     assert found.covariance.shape == (8, 8)
+
+
+def test_a_rotation_vector_follows_a_small_turn() -> None:
+    """The derivative of log(D exp(-[v]x)) in v is that of SciPy's rotation vectors, for differences of any size."""
+    rho, h = np.array([[0.9, -0.4, 0.7], [-1e-4, 2e-4, 3e-4]]), 1e-5
+    for one, J in zip(rho, _inverse_right(rho), strict=True):
+        D = Rotation.from_rotvec(one)
+        ends = [[(D * Rotation.from_rotvec(-s * h * e)).as_rotvec() for e in np.eye(3)] for s in (1, -1)]
+        assert np.abs((np.subtract(*ends) / (2 * h)).T + J).max() <= 1e-8

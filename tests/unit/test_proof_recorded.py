@@ -38,6 +38,14 @@ def test_the_command_keeps_what_it_found(monkeypatch: pytest.MonkeyPatch) -> Non
     assert kept == [found, [one.name for one in found]]
 
 
+def test_scripts_of_some_entries_keep_the_others(tmp_path: Path) -> None:
+    """What is recorded of one entry stays when another is recorded."""
+    path = tmp_path / "scripts.json"
+    recorded.save_scripts({"(72)": "one", "(48)": "two"}, path)
+    recorded.save_scripts({"(48)": "three"}, path)
+    assert recorded.scripts(path) == {"(48)": "three", "(72)": "one"}
+
+
 def test_seconds_change_only_with_the_proof(tmp_path: Path) -> None:
     """A second run of the same proofs leaves the file as it is."""
     path = tmp_path / "verdicts.json"
