@@ -19,6 +19,7 @@ from sympy.printing.str import StrPrinter
 from atlas.paper.plain import plain
 from atlas.proof.decide import (
     Outcome,
+    _defined,
     _parameters,
     _reached,
     _read,
@@ -575,17 +576,6 @@ class _Block:
         if name in {"sqrt", "norm"}:
             return ast.Call(ast.Name("sqrt"), [ast.Call(ast.Name("factor"), given, [])], [])
         return ast.Call(ast.Name(_CALLED[name]), given, [])
-
-
-def _defined(tree: ast.Compare, defines: Sequence[str]) -> str:
-    """Return the letter that a relation defines, which is put on its left; empty if it defines none."""
-    every = [tree.left, *tree.comparators]
-    if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
-        return ""
-    if getattr(tree.left, "id", None) not in defines and getattr(every[-1], "id", None) in defines:
-        tree.left, *tree.comparators = reversed(every)
-    name = getattr(tree.left, "id", "")
-    return name if name in defines else ""
 
 
 def _called(tree: ast.AST, defines: Sequence[str]) -> bool:
