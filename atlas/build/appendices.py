@@ -17,7 +17,9 @@ from atlas.paper import EQUATIONS
 from atlas.paper.citation import cited
 from atlas.places import folder
 from atlas.report.appendices import Appendices, Described, Finding
-from atlas.report.blocks import Errata, Ledger, Recorded, Reference
+from atlas.report.blocks.ledger import Errata, Ledger
+from atlas.report.blocks.reference import Reference
+from atlas.report.blocks.table import Recorded
 from atlas.report.definition import Report
 from atlas.report.digits import Number
 from atlas.report.tables.table import Column, Data

@@ -16,7 +16,7 @@ from atlas.families import FAMILIES
 from atlas.notebook.pictures import plot
 from atlas.paper.plain import plain
 from atlas.report.digits import Number
-from atlas.report.tables.layout import NONE
+from atlas.report.tables.elementary import NONE
 from atlas.report.tables.properties import SPACE, Thing, rows_of
 
 DIGITS = 10

@@ -1,8 +1,9 @@
-"""The bodies and fields of a report, from the form in which they are given to what the kernels take."""
+"""The bodies and fields of a report: the form in which they are given, and what the kernels take of them."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
+import msgspec
 import numpy as np
 
 from atlas.core.bodies.body import SHAPES, SymmetricBody
@@ -10,7 +11,43 @@ from atlas.core.bodies.field import Field as PhysicalField
 from atlas.core.bodies.field import LaboratoryFrame
 from atlas.core.bodies.units import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
-from atlas.report.given import BodiesAndFields, Body, Field
+from atlas.report.schema import Pair, StrictStruct, Vector
+
+
+class Body(StrictStruct, frozen=True):
+    """A body: its ratio I = I3/I2, or both moments, or a shape with its dimensions (metres and kilograms in SI)."""
+
+    title: str
+    ratio: float | None = None
+    inertia: Pair | None = None
+    shape: str | None = None
+    mass: float | None = None
+    radius: float | None = None
+    height: float | None = None
+    length: float | None = None
+    equatorial: float | None = None
+    polar: float | None = None
+    charge: float | None = None
+
+
+class Field(StrictStruct, frozen=True):
+    """A field: the components (B2, B3) of B' in 1/s, or B itself with the system of units that it is given in."""
+
+    title: str
+    prime: Pair | None = None
+    B: Vector | None = None
+    E: Vector = (0.0, 0.0, 0.0)
+    axis: Vector = (0.0, 0.0, 1.0)
+    charge_to_mass: float | None = None
+    system: Literal["SI", "Gaussian"] = "SI"
+
+
+class BodiesAndFields(StrictStruct, frozen=True):
+    """The bodies, fields and sets of parameters that the blocks call by name."""
+
+    bodies: dict[str, Body] = msgspec.field(default_factory=dict)
+    fields: dict[str, Field] = msgspec.field(default_factory=dict)
+    sets: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
 
 
 @dataclass(frozen=True)

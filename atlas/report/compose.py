@@ -10,13 +10,13 @@ from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
 from atlas.report.appendices import Appendices
 from atlas.report.bibliography import Bibliography
-from atlas.report.blocks import KINDS, Ledger, kind_of
+from atlas.report.blocks import KINDS, kind_of
 from atlas.report.blocks.composer import Composer
+from atlas.report.blocks.ledger import SECTIONS, Ledger
 from atlas.report.definition import Page, Report
 from atlas.report.document import THEOREMS, Document, PageView
 from atlas.report.picture import Picture
 from atlas.report.texts import citations
-from atlas.report.trial import SECTIONS
 from atlas.report.versions import parameters
 
 

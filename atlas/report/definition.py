@@ -5,7 +5,7 @@ from typing import Annotated
 import msgspec
 
 from atlas.report.blocks import Block
-from atlas.report.given import BodiesAndFields
+from atlas.report.body_and_field import BodiesAndFields
 from atlas.report.schema import Id, Pair, Slug, StrictStruct
 
 

@@ -9,7 +9,9 @@ from msgspec.structs import replace
 
 from atlas.errors import AtlasError, unknown
 from atlas.report import toml
-from atlas.report.blocks import Block, Figure, Listing, Recorded, Table
+from atlas.report.blocks import Block
+from atlas.report.blocks.figure import Figure
+from atlas.report.blocks.table import Listing, Recorded, Table
 from atlas.report.definition import Report
 from atlas.report.find import names
 from atlas.report.schema import SchemaError, convert

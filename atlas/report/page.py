@@ -12,9 +12,8 @@ from typing import Any
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
 from atlas.report import toml
-from atlas.report.body_and_field import body_and_field
+from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.digits import plain
-from atlas.report.given import Body, Field
 from atlas.report.schema import convert
 from atlas.report.tables import compute
 from atlas.report.tables.properties import Thing

@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 
 from atlas.errors import AtlasError
 from atlas.report import pandoc
-from atlas.report.mathml import mend_all
-from atlas.report.pandoc import FormulaError, Target, Tree, kept
+from atlas.report.pandoc import FormulaError, Target, Tree, kept, mend_all
 
 _CITED = re.compile(
     r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\(\d+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL

@@ -2,8 +2,8 @@
 
 import atlas
 from atlas import libraries
+from atlas.report.body_and_field import BodiesAndFields, Body, Field
 from atlas.report.digits import shown
-from atlas.report.given import BodiesAndFields, Body, Field
 
 
 def versions() -> dict[str, str]:

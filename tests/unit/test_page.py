@@ -26,8 +26,7 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.report import toml
-from atlas.report.body_and_field import body_and_field
-from atlas.report.given import Body, Field
+from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.page import Asked
 from atlas.report.single import single
 from atlas.report.tables import compute

@@ -9,9 +9,8 @@ import mpmath
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.report.body_and_field import body_and_field
+from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.digits import Number
-from atlas.report.given import Body, Field
 from atlas.report.tables import TABLES, compute
 from atlas.report.tables.table import Data, Request
 

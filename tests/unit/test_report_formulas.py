@@ -7,8 +7,7 @@ import pytest
 
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
-from atlas.report.mathml import _upright
-from atlas.report.pandoc import Target
+from atlas.report.pandoc import Target, _upright
 from atlas.report.texts import Link, Texts
 
 

@@ -21,8 +21,8 @@ from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
 from atlas.proof import recorded
 from atlas.proof.verdict import GRADES
-from atlas.report import trial
 from atlas.report.appendices import Appendices, Finding
+from atlas.report.blocks import ledger as trial
 from atlas.report.compose import compose
 from atlas.report.load import load
 from atlas.report.tables.table import Data

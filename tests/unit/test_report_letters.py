@@ -6,7 +6,7 @@ from collections import Counter
 import pytest
 
 from atlas.paper import EQUATIONS
-from atlas.report.blocks import Equation
+from atlas.report.blocks.equation import Equation
 from atlas.report.find import find
 from atlas.report.load import load
 

@@ -15,10 +15,9 @@ from fontTools.ttLib import TTFont
 
 from atlas.errors import AtlasError
 from atlas.report.blocks.table import POWER, Cell, ColumnView, TableView
-from atlas.report.body_and_field import body_and_field
+from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.digits import MINUS, THIN, Number, room
 from atlas.report.fonts import ALWAYS, FACES, ITALIC, source
-from atlas.report.given import Body, Field
 from atlas.report.load import load
 from atlas.report.tables import TABLES, compute
 from atlas.report.tables.table import Data, Request, column, scaled

@@ -8,50 +8,22 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from atlas.report.blocks import bibliography, equation, explorer, figure, ledger, prose, reference, table
-from atlas.report.blocks.bibliography import Bibliography
-from atlas.report.blocks.equation import Equation
-from atlas.report.blocks.explorer import Explorer
-from atlas.report.blocks.figure import Figure
-from atlas.report.blocks.ledger import Errata, Ledger
-from atlas.report.blocks.prose import Note, Notebook, Prose
-from atlas.report.blocks.reference import Reference
-from atlas.report.blocks.table import Listing, Recorded, Table
-
-__all__ = [
-    "KINDS",
-    "Bibliography",
-    "Block",
-    "Equation",
-    "Errata",
-    "Explorer",
-    "Figure",
-    "Kind",
-    "Ledger",
-    "Listing",
-    "Note",
-    "Notebook",
-    "Prose",
-    "Recorded",
-    "Reference",
-    "Table",
-    "kind_of",
-]
+from atlas.report.blocks import equation, explorer, figure, ledger, prose, reference, table
 
 Block: TypeAlias = (
-    Prose
-    | Note
-    | Notebook
-    | Equation
-    | Explorer
-    | Figure
-    | Table
-    | Listing
-    | Recorded
-    | Ledger
-    | Errata
-    | Reference
-    | Bibliography
+    prose.Prose
+    | prose.Note
+    | prose.Notebook
+    | equation.Equation
+    | explorer.Explorer
+    | figure.Figure
+    | table.Table
+    | table.Listing
+    | table.Recorded
+    | ledger.Ledger
+    | ledger.Errata
+    | reference.Reference
+    | reference.Bibliography
 )
 
 
@@ -69,19 +41,19 @@ class Kind:
 
 
 KINDS: Mapping[str, Kind] = {
-    "prose": Kind(Prose, prose.view_prose, "prose"),
-    "note": Kind(Note, prose.view_note, "note"),
-    "notebook": Kind(Notebook, prose.view_notebook, "prose"),
-    "equation": Kind(Equation, equation.view, "equation"),
-    "explorer": Kind(Explorer, explorer.view, "explorer"),
-    "figure": Kind(Figure, figure.view, "figure"),
-    "table": Kind(Table, table.view_computed, "table", table.outline),
-    "listing": Kind(Listing, table.view_listing, "table"),
-    "recorded": Kind(Recorded, table.view_recorded, "table", table.outline),
-    "ledger": Kind(Ledger, ledger.view_ledger, "ledger"),
-    "errata": Kind(Errata, ledger.view_errata, "errata"),
-    "reference": Kind(Reference, reference.view, "reference", reference.outline),
-    "bibliography": Kind(Bibliography, bibliography.view, "bibliography"),
+    "prose": Kind(prose.Prose, prose.view_prose, "prose"),
+    "note": Kind(prose.Note, prose.view_note, "note"),
+    "notebook": Kind(prose.Notebook, prose.view_notebook, "prose"),
+    "equation": Kind(equation.Equation, equation.view, "equation"),
+    "explorer": Kind(explorer.Explorer, explorer.view, "explorer"),
+    "figure": Kind(figure.Figure, figure.view, "figure"),
+    "table": Kind(table.Table, table.view_computed, "table", table.outline),
+    "listing": Kind(table.Listing, table.view_listing, "table"),
+    "recorded": Kind(table.Recorded, table.view_recorded, "table", table.outline),
+    "ledger": Kind(ledger.Ledger, ledger.view_ledger, "ledger"),
+    "errata": Kind(ledger.Errata, ledger.view_errata, "errata"),
+    "reference": Kind(reference.Reference, reference.view_reference, "reference", reference.outline),
+    "bibliography": Kind(reference.Bibliography, reference.view_bibliography, "bibliography"),
 }
 
 

@@ -1,6 +1,7 @@
 """What the blocks of a report share while they are gone through in order: counts, texts, names, uses."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 from atlas.errors import AtlasError
@@ -9,7 +10,16 @@ from atlas.paper.equation import slug
 from atlas.report.appendices import Appendices
 from atlas.report.picture import Picture
 from atlas.report.texts import citations
-from atlas.report.trial import Use
+
+
+@dataclass(frozen=True)
+class Use:
+    """A place of the report that cites an entry of the ledger: page, anchor, and what it is."""
+
+    page: str
+    file: str
+    anchor: str
+    words: str
 
 
 class Composer:

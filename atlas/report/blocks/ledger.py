@@ -1,12 +1,145 @@
 """The ledger of one section of the paper, and the errata: entries with what the trial found."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from atlas.paper import EQUATIONS
-from atlas.report.blocks.composer import Composer
+from atlas.paper.equation import Equation, slug
+from atlas.report.appendices import Finding
+from atlas.report.blocks.composer import Composer, Use
 from atlas.report.schema import StrictStruct
-from atlas.report.trial import EntryView, by_grade, entries
+
+SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
+GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
+"""The kinds of slips, in the order of the errata: those of `atlas.proof.verdict`, which this floor does not load."""
+_WORDS = {"relation", "left", "right", "reason"}
+
+
+@dataclass(frozen=True)
+class Counterexample:
+    """Values of the letters, the relation that they break and what its two sides are; or why it has no meaning."""
+
+    values: tuple[tuple[str, str], ...]
+    relation: str
+    left: str
+    right: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class EntryView:
+    """An entry of the ledger with its verdict; texts are places in the manuscript.
+
+    `uses` fills while the report is gone through.
+    """
+
+    name: str
+    number: str
+    kind: str
+    verdict: str
+    says: int
+    formula: int
+    assumptions: int | None
+    how: int
+    corrected: int | None
+    corrected_verdict: str
+    note: int | None
+    counterexample: Counterexample | None
+    modules: tuple[str, ...]
+    uses: list[Use]
+    grade: str = ""
+    slip: str = ""
+    quote: int | None = None
+    false: int | None = None
+    script: str = ""
+    said: int | None = None
+
+    @property
+    def slug(self) -> str:
+        """The name in links."""
+        return slug(self.name)
+
+    @property
+    def same(self) -> str:
+        """The entry that shares the slip, in links."""
+        return slug(self.slip)
+
+    @property
+    def texts(self) -> list[int]:
+        """The places in the manuscript of all its texts."""
+        every = (
+            *(self.says, self.quote, self.formula, self.assumptions),
+            *(self.how, self.corrected, self.note, self.false, self.said),
+        )
+        return [number for number in every if number is not None]
+
+
+def entries(
+    wanted: Callable[[Equation, Finding], bool],
+    findings: Mapping[str, Finding],
+    keep: Callable[..., int],
+    uses: Mapping[str, list[Use]],
+) -> tuple[EntryView, ...]:
+    """Return the entries that are wanted, in the paper's order; `keep` takes a text into the manuscript.
+
+    An entry that the trial has no finding on is undecided.
+    """
+    nothing = Finding("undecided", "not tried", "")
+    pairs = ((entry, findings.get(name, nothing)) for name, entry in EQUATIONS.items())
+    return tuple(_entry(entry, found, keep, uses[entry.name]) for entry, found in pairs if wanted(entry, found))
+
+
+def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
+    def words(markdown: str) -> int | None:
+        return keep(markdown, inline=True) if markdown else None
+
+    how = found.method if not found.follows else f"{found.method}, from {found.follows}"
+    return EntryView(
+        name=entry.name,
+        number=entry.name if entry.number is not None else "",
+        kind=entry.kind,
+        verdict=found.verdict,
+        says=keep(entry.says, inline=True),
+        formula=keep(_display(entry.tex)),
+        assumptions=words("; ".join(entry.assumptions)),
+        how=keep(how, inline=True),
+        corrected=keep(_display(found.corrected)) if found.corrected else None,
+        corrected_verdict=found.corrected_verdict,
+        note=words(found.note),
+        counterexample=_counterexample(found.counterexample) if found.counterexample else None,
+        modules=found.modules,
+        uses=uses,
+        grade=found.grade,
+        slip=found.slip,
+        quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
+        false=keep(f"“{found.false}.”", inline=True) if found.false else None,
+        script=found.script,
+        said=words("; ".join(_said(*pair) for pair in found.said.items())),
+    )
+
+
+def _said(phrase: str, line: str) -> str:
+    return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is assumed"
+
+
+def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:
+    """Return entries with a slip, the grave ones first; those that share a slip stand together."""
+    place = {entry.name: number for number, entry in enumerate(found)}
+
+    def order(entry: EntryView) -> tuple[int, int, int]:
+        own = place[entry.name]
+        return GRADES.index(entry.grade), place.get(entry.slip, own), own
+
+    return tuple(sorted(found, key=order))
+
+
+def _counterexample(found: Mapping[str, str]) -> Counterexample:
+    values = tuple((name, value) for name, value in found.items() if name not in _WORDS)
+    return Counterexample(values, *(found.get(name, "") for name in ("relation", "left", "right", "reason")))
+
+
+def _display(tex: str) -> str:
+    return f"$${tex.strip()}$$"
 
 
 class Ledger(StrictStruct, frozen=True, tag_field="kind", tag="ledger"):

@@ -1,4 +1,4 @@
-"""A reference of the package: its public names with their arguments, and what their docstrings say."""
+"""What a reader looks up: the works that are cited, and public names of the package with what their docstrings say."""
 
 import re
 from dataclasses import dataclass
@@ -7,6 +7,17 @@ from atlas.errors import unknown
 from atlas.report.appendices import Described
 from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
+
+
+class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliography"):
+    """The works that the report cites, by author and year; once in a report that names a BibTeX file."""
+
+
+def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
+    """Let citations of works lead to this page; the works are those of the document."""
+    composer.list_works()
+    return block
+
 
 _CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 _SIGN = re.compile(r"([!-/:-@\[-_{-~])")
@@ -40,7 +51,7 @@ class ReferenceView:
         return [one.text for entry in self.entries for one in (entry, *entry.members)]
 
 
-def view(block: Reference, composer: Composer) -> ReferenceView:
+def view_reference(block: Reference, composer: Composer) -> ReferenceView:
     """Take in the docstrings of the names that a block lists."""
     known = composer.recorded.reference
 

@@ -125,8 +125,8 @@ def blocks(request: Request) -> Data:
 
 def report_keys(request: Request) -> Data:
     """List the keys of a report file, of its pages, bodies and fields, from their records."""
+    from atlas.report.body_and_field import Body, Field
     from atlas.report.definition import Index, Page, Report, Thumbnail
-    from atlas.report.given import Body, Field
 
     request.take(StrictStruct)
     where = {

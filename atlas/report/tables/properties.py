@@ -10,7 +10,7 @@ from atlas.errors import AtlasError, DomainError, unknown
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
 from atlas.report.digits import MINUS, Number, plain
-from atlas.report.tables.layout import NONE
+from atlas.report.tables.elementary import NONE
 from atlas.report.tables.table import Column, Data, Request
 
 SPARE = 1 << 12
