@@ -4,7 +4,7 @@ import codecs
 import os
 import sys
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import Any
 
@@ -41,12 +41,39 @@ class FamilyCommand(LazyCommand):
         return command(str(self.name))
 
 
-GONE = {"general": "--omega W1 W2 W3", "asymmetric": "--inertia I1 I2 I3"}
-"""Commands that are part of `atlas motion`, with the option that asks for what they did."""
+GONE = {
+    "general": "--omega W1 W2 W3", "asymmetric": "--inertia I1 I2 I3", "free": "--field 0 0 --omega W1 W2 W3",
+    "elementary": "--omega2 W2",
+}  # fmt: skip
+"""Kinds of motion that are part of `atlas motion`, with the option that asks for them."""
+
+VECTORS = {f"--{p.name}" for family in FAMILIES.values() for p in family.parameters if len(p.names) > 1} | {
+    f"--{name}" for name in ("magnetic", "tensor", "attitude", "grid", "charged")
+}
+"""Options of several numbers, which may be one word with commas, too."""
+
+
+def apart(args: Sequence[str]) -> Iterator[str]:
+    """Yield arguments, the components of a vector one by one, from --field 1,2 or --field=1,2 or --field "(1, 2)"."""
+    words, after = list(args), ""
+    while words:
+        word = words.pop(0)
+        option, equals, value = word.partition("=")
+        if option in VECTORS and equals:
+            words[:0] = [option, value]
+        elif after in VECTORS and "," in word:
+            yield from (one.strip() for one in word.strip("()[]").split(","))
+        else:
+            yield word
+        after = "" if equals else word
 
 
 class Atlas(click.Group):
     """The group of all commands."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read vectors in each of their spellings."""
+        return super().parse_args(ctx, list(apart(args)))
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
         """Find the command; say where one is that has gone. `help NAME` is the help of a command, or of all."""
@@ -59,6 +86,8 @@ class Atlas(click.Group):
             raise click.UsageError(
                 f"atlas {args[0]} is part of atlas motion, with {GONE[args[0]]} and the same options."
             )
+        if (family := FAMILIES.get(args[0])) and family.command and family.command.name != args[0]:
+            raise click.UsageError(f"atlas {args[0]} is atlas {family.command.name}.")
         return super().resolve_command(ctx, args)
 
     def invoke(self, context: click.Context) -> Any:

@@ -143,6 +143,8 @@ def family_of(args: Sequence[str]) -> str:
             "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
         )
     if given & {"--omega2", "--omega3"}:
+        if "--omega2" not in given:
+            raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
         return "elementary"
     oblique = any(are_three(args, option) for option in ("--inertia", "--field", "--magnetic"))
     return "asymmetric" if oblique or given & {"--tensor", "--attitude"} else "general"

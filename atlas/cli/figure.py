@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option, style_option
+from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option, pair, style_option
 from atlas.cli.present import explained, show
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
@@ -22,13 +22,7 @@ class FigureCommand(Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Note the words that may be recipes: --help is obeyed before they are read."""
         ctx.obj = [word for word in args if not word.startswith("-")]
-        try:
-            return super().parse_args(ctx, args)
-        except click.NoSuchOption as error:
-            name = error.option_name.lstrip("-")
-            raise click.UsageError(
-                f"there is no option --{name}; a parameter of a figure is given by --set {name}=VALUE."
-            ) from error
+        return super().parse_args(ctx, args)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options, and before them the parameters of each recipe."""
@@ -180,11 +174,9 @@ def warned(figures: "list[Files]", renderer: str) -> int:
 def setting(text: str) -> tuple[str, Any]:
     """Read KEY=VALUE: a number such as 1.5, 3/2 or 1e-3, a list of numbers a,b,c, true or false, or a word.
 
-    Raises click.UsageError when there is no "=".
+    Raises click.UsageError when there is no "=", or several.
     """
-    key, equals, value = text.partition("=")
-    if not equals or not key:
-        raise click.UsageError(f"--set takes KEY=VALUE, not {text!r}.")
+    key, value = pair(text, "KEY=VALUE")
     if "," in value or value.startswith("["):
         return key, tuple(_word(item.strip()) for item in value.strip("[]()").split(",") if item.strip())
     return key, _word(value)

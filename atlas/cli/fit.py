@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import REAL, Command, Place, examples
+from atlas.cli.options import REAL, Command, Many, Place, examples
 from atlas.cli.present import dump
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
@@ -27,13 +27,13 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 @click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions.")
 @click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, where there are several kinds.")
 @click.option("--sigma", type=REAL, help="Standard error of each number, of attitudes and axes in radians.")
-@click.option("--fix", multiple=True, metavar="NAME=VALUE", help="A parameter that is known; may be repeated.")
-@click.option("--start", multiple=True, metavar="NAME=VALUE", help="Where a parameter is sought first.")
+@click.option("--fix", cls=Many, metavar="NAME=VALUE [...]", help="Parameters that are known.")
+@click.option("--start", cls=Many, metavar="NAME=VALUE [...]", help="Where a parameter is sought first.")
 @click.option("--epoch", type=REAL, default="0", show_default=True, help="Time at which the parameters hold.")
 @click.option(
     "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
 )
-@click.option("--predict", type=REAL, multiple=True, metavar="T", help="Predict what was measured; may be repeated.")
+@click.option("--predict", cls=Many, type=REAL, metavar="T [T ...]", help="Predict what was measured.")
 @click.option("--horizon", type=REAL, metavar="ERROR", help="Until when a prediction is that good.")
 @click.option(
     "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw data, curve, residuals: svg, pdf, png."

@@ -36,6 +36,13 @@ NUMBER = re.compile(
 )
 """Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
 
+OTHERS = {
+    "B": "B is --magnetic, and B' = mu B/(2c) is --field", "E": "it is --electric", "I": "I = I3/I2 is --ratio",
+    "moments": "they are --inertia", "quaternion": "R(0) is --attitude X Y Z W",
+    "dt": "times by a step are --grid START STEP COUNT, or --times START:STOP:COUNT",
+}  # fmt: skip
+"""Other names of options."""
+
 LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/()-]*")
 """What was meant as a number, be it one or not."""
 
@@ -59,6 +66,12 @@ class Typed(float):
         number = super().__new__(cls, value)
         number.text = text
         return number
+
+    def moved(self, value: float, **about: Any) -> Self:
+        """Return another value, with what else is known of this one."""
+        new = float.__new__(type(self), value)
+        vars(new).update(vars(self) | about)
+        return new
 
     def exactly(self) -> "Fraction":
         """Return the number that was typed, not the double nearest to it."""
@@ -115,7 +128,8 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
                 self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
             if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
                 self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
-            self.fail(f"{text!r} is not a finite number; write 1.5, 3/2 or 1e-3.", param, ctx)
+            ranges = ", or a range START:STOP:COUNT" * isinstance(param, Many)
+            self.fail(f"{text!r} is not a finite number; write 1.5, 3/2 or 1e-3{ranges}.", param, ctx)
         if not math.isfinite(number):
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
         return number
@@ -167,8 +181,10 @@ class Command(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
+        inclined: dict[str, Inclined] = {}
         if "--angle" in args:
-            args = _inclined(args)
+            args, option, field = _inclined(args, ctx)
+            inclined = {option.removeprefix("--"): field} if any(x.sigma for x in field.parts) else {}
         several = [param for param in self.params if isinstance(param, Many)]
         many = {name for param in several for name in param.opts}
         numbers = {name for param in several if param.type is REAL for name in param.opts}
@@ -181,31 +197,66 @@ class Command(click.Command):
                 "it is the family asymmetric, with --set I1=0.8 and so on."
             )
         try:
-            return super().parse_args(ctx, list(_spread(args, many, numbers, words)))
+            rest = super().parse_args(ctx, list(_spread(args, many, numbers, words)))
         except click.UsageError as error:
+            if meant := _meant(error, "settings" in {param.name for param in self.params}):
+                raise click.UsageError(meant, ctx) from error
             hint = "" if isinstance(error, click.MissingParameter) else _miscounted(args, self.params)
             if hint:
                 raise click.UsageError(f"{error.format_message().rstrip('.')}: {hint}", ctx) from error
             raise
+        ctx.params |= inclined
+        return rest
 
 
-def _inclined(args: list[str]) -> list[str]:
-    """Return arguments with a field of one number and its angle to the axis, --angle, as its two components."""
+class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
+    """A field of one strength at one angle to the axis, its `parts`, as two components."""
+
+    parts: tuple[Typed, ...]
+
+    def __new__(cls, parts: Sequence[Typed]) -> Self:
+        """Take the components across and along the axis."""
+        strength, angle = parts
+        found = super().__new__(
+            cls, (strength.moved(strength * x, sigma=0.0) for x in (math.sin(angle), math.cos(angle)))
+        )
+        found.parts = tuple(parts)
+        return found
+
+
+def _inclined(args: list[str], ctx: click.Context) -> tuple[list[str], str, Inclined]:
+    """Return arguments with a field of one number and its angle to the axis, --angle, as its two components.
+
+    Return its option and the field with it.
+    """
     at = args.index("--angle")
     option = next((one for one in ("--magnetic", "--field") if one in args), "")
     if at + 1 == len(args) or not option:
         raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
-    angle = REAL.convert(args[at + 1], click.Option(["--angle"]), None)
-    args = args[:at] + args[at + 2 :]
+    typed, args = args[at + 1], args[:at] + args[at + 2 :]
     strength = args.index(option) + 1
     following = list(takewhile(LIKE_A_NUMBER.fullmatch, args[strength:]))
     if len(following) != 1:
         raise click.UsageError(f"with --angle {option} is one number, the strength of the field, not {len(following)}.")
-    if "(" in following[0]:
-        raise click.UsageError("a field by its --angle has no uncertainty here: give its two components instead.")
-    size, unit = split(following[0]) or (following[0], "")
-    parts = [f"{float(Typed(size)) * x!r}{unit}" for x in (math.sin(angle), math.cos(angle))]
-    return [*args[:strength], *parts, *args[strength + 1 :]]
+    sides = (("--angle", typed), (option, following[0]))
+    angle, size = (REAL.convert(word, click.Option([name]), ctx) for name, word in sides)
+    whole = UNCERTAIN.fullmatch(following[0])
+    number, unit = split(text := whole[1] + whole[5] if whole else following[0]) or (text, "")
+    parts = [f"{float(Typed(number)) * x!r}{unit}" for x in (math.sin(angle), math.cos(angle))]
+    return [*args[:strength], *parts, *args[strength + 1 :]], option, Inclined((size, angle))
+
+
+def _meant(error: click.UsageError, has_parameters: bool) -> str:
+    """Say what was meant by an option that there is not, or a parameter without --set; nothing if it is not known."""
+    if isinstance(error, click.NoSuchOption):
+        name = error.option_name.lstrip("-")
+        if has_parameters:
+            return f"there is no option --{name}; a parameter is given by --set {name}=VALUE."
+        return f"there is no option --{name}: {OTHERS[name]}." if name in OTHERS else ""
+    if has_parameters and "unexpected extra argument" in error.format_message():
+        said = error.format_message().rstrip(".")
+        return f"{said}: a parameter is one word, --set KEY=VALUE, and so are values, KEY=START:STOP:COUNT."
+    return ""
 
 
 def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
@@ -281,6 +332,9 @@ def _ranges_of_times(args: list[str]) -> list[str]:
 def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[str]) -> Iterator[str]:
     option, given = "", True
     for word in args:
+        name, equals, value = word.partition("=")
+        if equals and name in many:
+            option, given, word = name, True, value  # noqa: PLW2901  --times=0,1 is --times 0,1
         if not option or word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha()):
             if not given:
                 yield option  # no value came: click says so
@@ -293,6 +347,16 @@ def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[s
             given = True
     if not given:
         yield option
+
+
+def pair(text: str, takes: str) -> tuple[str, str]:
+    """Return key and value of a parameter. Raises click.UsageError for another text, and for several in one word."""
+    key, equals, value = text.partition("=")
+    if not (key and equals and value):
+        raise click.UsageError(f"--set takes {takes}, not {text!r}.")
+    if "=" in value:
+        raise click.UsageError(f"several parameters are several words, KEY=VALUE KEY=VALUE, not {text!r}.")
+    return key, value
 
 
 def examples(*commands: str) -> str:

@@ -25,7 +25,7 @@ from atlas.cli.body import (
 )
 from atlas.cli.check import start_option
 from atlas.cli.family import in_principal_axes, motion_in_given_axes, start_of
-from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, stack
+from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, pair, stack
 from atlas.cli.points import columns_of
 from atlas.cli.progress import bar
 from atlas.families import FAMILIES
@@ -271,9 +271,7 @@ def _once(names: Sequence[str], where: str) -> None:
 
 def _setting(text: str) -> tuple[str, Any]:
     """Read NAME=VALUES."""
-    name, equals, values = text.partition("=")
-    if not (name and equals and values):
-        raise click.UsageError(f"--set takes NAME=VALUES, as in ratio=0.5:2:100, not {text!r}.")
+    name, values = pair(text, "NAME=VALUES, as in ratio=0.5:2:100")
     return name.strip(), _values(name, values)
 
 

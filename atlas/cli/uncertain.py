@@ -50,8 +50,13 @@ class Spread:
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
     """Return the numbers that have an uncertainty, each with the name of its option and its place in it."""
-    values = ((name, value if isinstance(value, tuple) else (value,)) for name, value in options.items())
+    values = ((name, _parts(value)) for name, value in options.items())
     return [(name, i, x) for name, several in values for i, x in enumerate(several) if getattr(x, "sigma", 0.0)]
+
+
+def _parts(value: Any) -> tuple[Any, ...]:
+    """Return the numbers that were typed for an option."""
+    return getattr(value, "parts", value if isinstance(value, tuple) else (value,))
 
 
 def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> Spread:
@@ -108,10 +113,8 @@ def _moved(options: dict[str, Any], by: Mapping[tuple[str, int, Typed], float]) 
     """Return the options with numbers moved by parts of their standard deviations."""
     moved = dict(options)
     for (name, i, x), part in by.items():
-        new = float.__new__(type(x), x + part * x.sigma)
-        vars(new).update(vars(x))
-        several = moved[name]
-        moved[name] = (*several[:i], new, *several[i + 1 :]) if isinstance(several, tuple) else new
+        new, several = x.moved(x + part * x.sigma), _parts(before := moved[name])
+        moved[name] = type(before)((*several[:i], new, *several[i + 1 :])) if isinstance(before, tuple) else new
     return moved
 
 

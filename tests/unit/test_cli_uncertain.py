@@ -61,6 +61,16 @@ def test_a_charge_and_a_radius_carry_theirs_to_the_larmor_frequency() -> None:
     assert "by derivatives" in out
 
 
+def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
+    """A precession's k = omega2/sin(angle), (79), has that of the angle alone, Larmor's frequency that of strength."""
+    found = numbers("motion --ratio 1.3 --magnetic 0.8(1)T --angle 30(2)deg --mu 1C/kg --omega2 0.3")
+    slope = 0.3 * math.cos(math.pi / 6) / math.sin(math.pi / 6) ** 2
+    assert found["k"] == pytest.approx(0.6)
+    assert found["sigma"]["k"] == pytest.approx(slope * math.pi / 90, rel=1e-2)
+    assert found["larmor"] == pytest.approx(0.4)
+    assert found["sigma"]["larmor"] == pytest.approx(0.05)
+
+
 def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
     """At its largest value the angle of the quadric does not depend on the ratio to first order: that is said."""
     status, out = run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")
@@ -77,7 +87,6 @@ def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
         ("sweep elementary --ratio 1.3(1) --field 1 2 --set omega2=1 --quantity k --out k.csv", "nothing follows"),
         ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --times 1(1)", "nothing follows"),
         ("motion --ratio 1.3(1) --field 1 2 --omega2 0.3 --digits 20", "without an uncertainty"),
-        ("motion --ratio 1.3(1) --field 2(1) --angle 30deg --omega2 0.3", "two components"),
     ],
 )
 def test_where_an_uncertainty_has_no_effect_it_is_refused(words: str, says: str) -> None:
