@@ -61,7 +61,9 @@ def rows(shown: Shown) -> Sequence[Row]:
 
 
 def body(shown: SymmetricBody) -> str:
-    """Return the moments of a body and a small picture of a cylinder that has them."""
+    """Return the moments of a body and a small picture of a cylinder that has them; of an array, what it holds."""
+    if hasattr(shown.I2, "shape"):
+        return f"<pre>{escape(repr(shown))}</pre>"
     lines = [("I<sub>2</sub>, across the axis", shown.I2), ("I<sub>3</sub>, along it", shown.I3)]
     lines.append(("I = I<sub>3</sub>/I<sub>2</sub>", shown.ratio))
     table = "".join(f"<tr><td>{says}</td><td>{value:.10g}</td></tr>" for says, value in lines)

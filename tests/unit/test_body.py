@@ -1,5 +1,6 @@
 import inspect
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,6 +9,16 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from atlas import (
+    ElementaryMotion,
+    FreeMotion,
+    GeneralMotion,
+    Hyperbola,
+    Quadric,
+    TopMotion,
+    clebsch,
+    motion,
+)
 from atlas.core.bodies.body import (
     SHAPES,
     SymmetricBody,
@@ -223,6 +234,28 @@ def test_a_ratio_above_two_is_told_why() -> None:
 
 
 @pytest.mark.parametrize(
+    "of",
+    [
+        lambda body: np.stack(body.mass_matrix, -1),
+        lambda body: ElementaryMotion(body, (1.0, 2.0), 0.7).rotation(3.0),
+        lambda body: GeneralMotion(body, (1.0, 2.0), (0.3, 0.7, 0.2)).rotation(3.0),
+        lambda body: FreeMotion(body, (0.3, 0.7, 0.2)).k,
+        lambda body: motion(body, (0.3, 1.0, 2.0), (0.3, 0.7, 0.2)).angular_velocity(3.0),
+        lambda body: Quadric(body, (1.0, 2.0)).beta,
+        lambda body: Hyperbola(body, (1.0, 2.0)).omega3(0.7),
+        lambda body: TopMotion((body.I2, body.I3), (0.1, 0.2), (0.6, 0.8), (0, 0, 3)).rotation(1.0),
+    ],
+)
+def test_an_array_of_bodies_is_its_bodies(of: Callable[[SymmetricBody], Any]) -> None:
+    """What is computed of an array, made from arrays of masses and sizes, is what each body has, within 4e-15."""
+    mass, radius = np.array([[1.0], [2.0]]), np.array([1.0, 1.2, 1.4])
+    bodies = SymmetricBody.cylindrical_shell(mass, radius, 0.8)
+    each = [[SymmetricBody.cylindrical_shell(m, r, 0.8) for r in radius.tolist()] for m in mass[:, 0].tolist()]
+    assert of(bodies) == pytest.approx(np.array([[of(one) for one in row] for row in each]), rel=4e-15, abs=4e-15)
+    assert bodies == SymmetricBody(bodies.I2, bodies.I3) != each[0][0]
+
+
+@pytest.mark.parametrize(
     "make",
     [
         lambda: moments("1.5"),
@@ -230,7 +263,12 @@ def test_a_ratio_above_two_is_told_why() -> None:
         lambda: moments(True),
         lambda: moments(1j),
         lambda: moments([1, [2]]),
-        lambda: SymmetricBody([1, 2], 1),
+        lambda: SymmetricBody([1, 2], [1, 1, 1]),
+        lambda: SymmetricBody([1, 2], 3),
+        lambda: SymmetricBody.cylindrical_shell([1, 2], [1, 2, 3], 1),
+        lambda: SymmetricBody.ring([1, 2], [1, 0]),
+        lambda: GeneralMotion.in_laboratory(SymmetricBody([1, 2], 1), (0, 0, 1), np.eye(3), (1, 2, 3)),
+        lambda: clebsch(SymmetricBody([1, 2], 1), (0, 0, 1), (1, 2, 3)),
         lambda: SymmetricBody(0, 0),
         lambda: SymmetricBody(1, -1),
         lambda: SymmetricBody(np.nan, 1),

@@ -13,7 +13,7 @@ from atlas.core.bodies.inertia import (
     mass_matrix_from_inertia,
     mass_matrix_of_points,
 )
-from atlas.core.inputs import FloatArray, matrix, number, positive, real
+from atlas.core.inputs import FloatArray, common_shape, matrix, plain, real
 from atlas.core.quantities import INERTIA, LENGTH, MASS
 from atlas.core.shown import notebook
 from atlas.errors import AtlasError, DomainError
@@ -22,14 +22,14 @@ from atlas.formulas.domain import NO_SUCH_BODY, ROD, check_ratio, check_shape
 __all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
 
 
-def moments(ratio: Any) -> tuple[float, Any]:
-    """Return (I2, I3) of a body, or (1.0, I) for a number or an array of numbers I = I3/I2, (33).
+def moments(ratio: Any) -> tuple[Any, Any]:
+    """Return (I2, I3) of a body or of an array of bodies, or (1.0, I) for numbers I = I3/I2, (33).
 
     The inputs stay exact: a body is never rounded to its quotient. Domain: 0 < I3 <= 2 I2.
     Raises DomainError outside it, and for a thin rod (I3 = 0), whose turn about its own axis has no inertia.
     """
     if isinstance(ratio, SymmetricBody):
-        if ratio.I3 == 0:
+        if not np.all(ratio.I3):
             raise DomainError(ROD)
         return ratio.I2, ratio.I3
     I = real(ratio, "The ratio I = I3/I2")
@@ -44,30 +44,40 @@ def kept_ratio(ratio: Any, I3: Any) -> Any:
 
 @dataclass(frozen=True)
 class SymmetricBody:
-    """A body with I1 = I2, as in (33): its moments of inertia I2 and I3 about the centre of mass.
+    """A body with I1 = I2, as in (33): its moments of inertia I2 and I3 about the centre of mass; or several.
 
-    `I2` > 0 across the symmetry axis, `I3` along it, 0 <= I3 <= 2 I2, in any one unit.
+    `I2` > 0 across the symmetry axis, `I3` along it, 0 <= I3 <= 2 I2, in any one unit; arrays broadcast, and so do the
+    mass and the dimensions of a shape. What takes a body takes an array of them as it takes one of ratios.
     `axes` (3, 3): its rows are the principal axes, the symmetry axis last, in the frame in which a mass matrix or
     point masses were given; the unit matrix otherwise. Raises DomainError for moments that no body has, AtlasError for
     what is no number.
     """
 
-    I2: float
-    I3: float
+    I2: Any
+    I3: Any
     axes: FloatArray = field(default_factory=lambda: np.eye(3), compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Check that such a body exists."""
-        I2, I3 = number(self.I2, "I2", INERTIA), number(self.I3, "I3", INERTIA)
-        if I2 <= 0:
-            raise DomainError(f"I2 must be positive, not {I2}: about an axis across it, every body has some inertia.")
-        if I3 < 0:
-            raise DomainError(f"I3 must not be negative, but is {I3}.")
-        if I3 > 2 * I2:
-            raise DomainError(f"No body has I2 = {I2}, I3 = {I3}: I3 is at most 2 I2, {NO_SUCH_BODY}.")
-        object.__setattr__(self, "I2", I2)
-        object.__setattr__(self, "I3", I3)
+        """Check that such bodies exist."""
+        I2, I3 = real(self.I2, "I2", INERTIA), real(self.I3, "I3", INERTIA)
+        common_shape(I2.shape, I3.shape)
+        I2, I3 = np.broadcast_arrays(I2, I3)
+        for across, along in np.stack([I2, I3], -1).reshape(-1, 2)[((I2 <= 0) | (I3 < 0) | (I3 > 2 * I2)).ravel()][:1]:
+            if across <= 0:
+                says = "about an axis across it, every body has some inertia"
+                raise DomainError(f"I2 must be positive, not {across}: {says}.")
+            if along < 0:
+                raise DomainError(f"I3 must not be negative, but is {along}.")
+            raise DomainError(f"No body has I2 = {across}, I3 = {along}: I3 is at most 2 I2, {NO_SUCH_BODY}.")
+        object.__setattr__(self, "I2", plain(I2))
+        object.__setattr__(self, "I3", plain(I3))
         object.__setattr__(self, "axes", matrix(self.axes, "The axes"))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all moments are the same."""
+        if not isinstance(other, SymmetricBody):
+            return NotImplemented
+        return np.array_equal(self.I2, other.I2) and np.array_equal(self.I3, other.I3)
 
     def _repr_html_(self) -> str:
         """Return its moments and a small picture, for a notebook."""
@@ -75,93 +85,94 @@ class SymmetricBody:
         return found
 
     @property
-    def ratio(self) -> float:
+    def ratio(self) -> Any:
         """I = I3/I2, (33), rounded to a float; the kernels take I2 and I3 themselves."""
         return self.I3 / self.I2
 
     @property
-    def inertia(self) -> tuple[float, float, float]:
+    def inertia(self) -> tuple[Any, Any, Any]:
         """Diagonal (I2, I2, I3) of the inertia tensor."""
         return self.I2, self.I2, self.I3
 
     @property
-    def mass_matrix(self) -> tuple[float, float, float]:
+    def mass_matrix(self) -> tuple[Any, Any, Any]:
         """Diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix (8)."""
         return self.I3 / 2, self.I3 / 2, self.I2 - self.I3 / 2
 
     @classmethod
-    def ring(cls, mass: float, radius: float) -> Self:
+    def ring(cls, mass: Any, radius: Any) -> Self:
         """Thin ring (a loop): I3 = m R^2 = 2 I2.
 
         Raises AtlasError unless all are positive numbers.
         """
-        across = positive(mass, "The mass", MASS) * _square(radius, "The radius") / 2
+        m, R2 = _sizes(mass, ("The radius", radius))
+        across = m * R2 / 2
         return cls(across, 2 * across)
 
     @classmethod
-    def disk(cls, mass: float, radius: float) -> Self:
+    def disk(cls, mass: Any, radius: Any) -> Self:
         """Thin disk: I3 = m R^2/2 = 2 I2.
 
         Raises AtlasError unless all are positive numbers.
         """
-        across = positive(mass, "The mass", MASS) * _square(radius, "The radius") / 4
+        m, R2 = _sizes(mass, ("The radius", radius))
+        across = m * R2 / 4
         return cls(across, 2 * across)
 
     @classmethod
-    def cylindrical_shell(cls, mass: float, radius: float, height: float) -> Self:
+    def cylindrical_shell(cls, mass: Any, radius: Any, height: Any) -> Self:
         """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6).
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = _cylinder(mass, radius, height)
+        m, R2, h2 = _sizes(mass, ("The radius", radius), ("The height", height))
         return cls(m * (R2 / 2 + h2 / 12), m * R2)
 
     @classmethod
-    def solid_cylinder(cls, mass: float, radius: float, height: float) -> Self:
+    def solid_cylinder(cls, mass: Any, radius: Any, height: Any) -> Self:
         """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3).
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = _cylinder(mass, radius, height)
+        m, R2, h2 = _sizes(mass, ("The radius", radius), ("The height", height))
         return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
 
     @classmethod
-    def thin_rod(cls, mass: float, length: float) -> Self:
+    def thin_rod(cls, mass: Any, length: Any) -> Self:
         """Rod without thickness: I2 = m l^2/12, I3 = 0. A body, but `moments` refuses it.
 
         Raises AtlasError unless all are positive numbers.
         """
-        return cls(positive(mass, "The mass", MASS) * _square(length, "The length") / 12, 0.0)
+        m, l2 = _sizes(mass, ("The length", length))
+        return cls(m * l2 / 12, 0.0)
 
     @classmethod
-    def sphere(cls, mass: float, radius: float) -> Self:
+    def sphere(cls, mass: Any, radius: Any) -> Self:
         """Solid ball: I2 = I3 = 2 m R^2/5.
 
         Raises AtlasError unless all are positive numbers.
         """
-        moment = 2 * positive(mass, "The mass", MASS) * _square(radius, "The radius") / 5
+        m, R2 = _sizes(mass, ("The radius", radius))
+        moment = 2 * m * R2 / 5
         return cls(moment, moment)
 
     @classmethod
-    def spherical_shell(cls, mass: float, radius: float) -> Self:
+    def spherical_shell(cls, mass: Any, radius: Any) -> Self:
         """Hollow sphere: I2 = I3 = 2 m R^2/3.
 
         Raises AtlasError unless all are positive numbers.
         """
-        moment = 2 * positive(mass, "The mass", MASS) * _square(radius, "The radius") / 3
+        m, R2 = _sizes(mass, ("The radius", radius))
+        moment = 2 * m * R2 / 3
         return cls(moment, moment)
 
     @classmethod
-    def spheroid(cls, mass: float, equatorial: float, polar: float) -> Self:
+    def spheroid(cls, mass: Any, equatorial: Any, polar: Any) -> Self:
         """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5, `equatorial` a and `polar` c.
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, a2, c2 = (
-            positive(mass, "The mass", MASS),
-            _square(equatorial, "The equatorial radius"),
-            _square(polar, "The polar radius", zero=True),
-        )
+        m, a2, c2 = _sizes(mass, ("The equatorial radius", equatorial), ("The polar radius", polar))
         return cls(m * (a2 / 5 + c2 / 5), 2 * m * (a2 / 5))
 
     @classmethod
@@ -228,16 +239,21 @@ def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
     return SHAPES[name][0](**dimensions)
 
 
-def _square(length: Any, name: str, *, zero: bool = False) -> float:
-    """Return the square of a length that must be positive (or may be zero)."""
-    given = number(length, name, LENGTH)
-    return 0.0 if zero and given == 0 else positive(given, name) * given
+FLAT = ("The height", "The polar radius")
+"""Lengths that may be zero."""
 
 
-def _cylinder(mass: Any, radius: Any, height: Any) -> tuple[float, float, float]:
-    """Return the mass and the squares of the radius and the height, which may be zero."""
-    squares = _square(radius, "The radius"), _square(height, "The height", zero=True)
-    return positive(mass, "The mass", MASS), *squares
+def _sizes(mass: Any, *lengths: tuple[str, Any]) -> list[Any]:
+    """Return a mass and the squares of lengths, numbers or arrays. Raises AtlasError unless they are positive."""
+    named = [("The mass", mass, MASS), *((name, length, LENGTH) for name, length in lengths)]
+    given = [real(value, name, unit) for name, value, unit in named]
+    for (name, _, _), value in zip(named, given, strict=True):
+        for wrong in value[(value < 0) if name in FLAT else (value <= 0)].flat[:1]:
+            raise DomainError(f"{name} must be positive, not {wrong}.")
+    common_shape(*(value.shape for value in given))
+    m, *rest = map(plain, given)
+    with np.errstate(over="ignore"):  # what is too large is refused as a moment
+        return [m, *(length * length for length in rest)]
 
 
 def _frame(axis: FloatArray) -> FloatArray:

@@ -34,9 +34,9 @@ class Body(NamedTuple):
 def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned:
     """Motion of a charged body of any shape from any start: of the class that fits, in the axes that are given.
 
-    `inertia` is a ratio I3/I2, an array of them, or a SymmetricBody, with its axis along e3 or as its `axes` say; three
-    principal moments (I1, I2, I3) along the axes of the body; or a tensor (3, 3) in these axes, whose principal axes
-    are found; arrays of tensors (..., 3, 3). `field` (..., 3) is the vector B' = mu B/(2c) in the laboratory, or a
+    `inertia` is a ratio I3/I2 or a SymmetricBody, or an array of them, with its axis along e3 or as its `axes` say;
+    three principal moments (I1, I2, I3) along the axes of the body; or a tensor (3, 3) in these axes, whose principal
+    axes are found; arrays of tensors (..., 3, 3). `field` (..., 3) is the vector B' = mu B/(2c) in the laboratory, or a
     `Field`; `omega` (..., 3) the angular velocity at t = 0 along the axes of the body; both in one unit 1/time. For
     arrays of moments, and of components, give tuples of three arrays. `attitude` (..., 3, 3), or a Rotation of SciPy's,
     is R(0), with the axes of the body as columns; the unit matrix otherwise. All broadcast.
@@ -74,7 +74,7 @@ def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) 
     order = (third[..., None] + np.array([1, 2, 3])) % 3
     axes = np.take_along_axis(np.broadcast_to(body.axes, (*I.shape, 3)), order[..., None], axis=-2)
     I2, I3 = (plain(np.take_along_axis(I, order[..., i : i + 1], axis=-1)[..., 0]) for i in (0, 2))
-    symmetric = I3 if np.all(I2 == 1) else SymmetricBody(I2, I3) if not np.ndim(I2) else I3 / I2
+    symmetric = I3 if np.all(I2 == 1) else SymmetricBody(I2, I3)
     if not K.any():
         return FreeMotion(symmetric, _parts(np.matvec(axes, w))), axes
     turn, field, omega = _in_plane(axes, K, w)

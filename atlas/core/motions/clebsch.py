@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.double_double import over
-from atlas.core.bodies.body import SymmetricBody, moments
+from atlas.core.bodies.body import SymmetricBody
 from atlas.core.bodies.inertia import inertia_tensor
+from atlas.core.bodies.symmetric_top import moments_of_one
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.formulas import integrals as formulas
 
@@ -58,7 +59,7 @@ def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
 def body_tensor(inertia: Any) -> FloatArray:
     """Return the inertia tensor (3, 3), checked, of itself, principal moments (3,), a SymmetricBody or a ratio."""
     if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
-        I2, I3 = moments(inertia)
+        I2, I3 = moments_of_one(inertia)
         inertia = (I2, I2, I3)
     return inertia_tensor(inertia)
 

@@ -7,6 +7,7 @@ from flint import fmpq
 
 from atlas.core.arithmetic.double_double import over
 from atlas.core.bodies.body import SymmetricBody, kept_ratio, moments
+from atlas.core.bodies.symmetric_top import moments_of_one
 from atlas.core.inputs import FloatArray, components, finite, kept, plain, real, vector
 from atlas.core.motions.integrals import integrals, shape_factors
 from atlas.core.motions.nutating import SymmetricMotion
@@ -90,7 +91,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         laboratory, `angular_velocity` and `field_in_body` are in the body, `angular_momentum` in the laboratory.
         Raises DomainError if the attitude is no rotation to 1e-9. AtlasError is raised for what is no number.
         """
-        I2, I3 = moments(ratio)
+        I2, I3 = moments_of_one(ratio)
         attitude = real(attitude, "The attitude")
         start = exact_attitude(attitude)
         field, angular_velocity = vector(field, "The field", RATE), vector(angular_velocity, "omega", RATE)
@@ -98,7 +99,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         motion = cls.__new__(cls)
         motion.ratio, motion.shape = kept_ratio(ratio, I3), ()
         motion.made_by = "GeneralMotion.in_laboratory"
-        body = ratio_of(SymmetricBody(I2, float(I3)))
+        body = ratio_of(SymmetricBody(I2, I3))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
         motion._made = {0: SingleGeneral(Balls.at_state(body, w, B), matrix)}  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
