@@ -8,7 +8,7 @@ import click
 from atlas import files
 from atlas.cli.figure import FigureCommand, setting
 from atlas.cli.options import Many, examples, out_option, style_option
-from atlas.cli.progress import bar
+from atlas.cli.present import bar
 
 
 @click.command(

@@ -18,12 +18,18 @@ LONG = 400
 """Characters of a word that an error repeats whole."""
 
 
+BESIDE = {"data": "report", "tex": "report"}
+"""Commands that stand in the file of another one."""
+
+
 class LazyCommand(click.Command):
     """A command that is loaded when it is called: until then its name and one line of help are known."""
 
     def loaded(self) -> click.Command:
         """Load the command."""
-        command: click.Command = import_module(f"atlas.cli.{self.name}").command
+        name = str(self.name)
+        module = import_module(f"atlas.cli.{BESIDE.get(name, name)}")
+        command: click.Command = getattr(module, name if name in BESIDE else "command")
         return command
 
     def make_context(self, *arguments: Any, **more: Any) -> click.Context:

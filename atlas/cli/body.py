@@ -125,6 +125,9 @@ attitude_option: Callable[[F], F] = click.option(
     metavar="X Y Z W",
     help="R(0) as a quaternion, its scalar last; the field is then along the axes of the laboratory.",
 )
+start_option: Callable[[F], F] = click.option(
+    "--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Angular velocity at t = 0, of any motion."
+)
 spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial angular velocity about e3 alone.")
 
 
@@ -344,3 +347,11 @@ def exact_field(options: dict[str, Any]) -> Any:
     if options["decimal"] and options["field"] is None:
         raise click.UsageError("--decimal goes with --field, not with --magnetic.")
     return exactly(chosen_field(options), options)
+
+
+def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
+    """Return the initial angular velocity, of --omega or --spin; None where it is not needed and neither is given."""
+    omega, spin = options["omega"], options["spin"]
+    if (needed or spin is not None) and (omega is None) == (spin is None):
+        raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")
+    return omega if spin is None else (0.0, 0.0, spin)

@@ -6,19 +6,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.body import (
-    BODY,
-    any_body_options,
-    attitude_option,
-    body_options,
-    chosen_body,
-    chosen_field,
-    chosen_moments,
-    field_options,
-    given_tensor,
-    spin_option,
-    tensor_option,
-)
+from atlas.cli import body
 from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.present import dump
 
@@ -31,9 +19,6 @@ file_argument: Callable[[Any], Any] = click.argument(
     metavar="FILE.csv...",
     nargs=-1,
     required=True,
-)
-start_option: Callable[[Any], Any] = click.option(
-    "--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Angular velocity at t = 0, of any motion."
 )
 graded_options: Callable[[Any], Any] = stack(
     click.option(
@@ -59,20 +44,20 @@ graded_options: Callable[[Any], Any] = stack(
     ),
 )
 @file_argument
-@any_body_options
-@tensor_option
-@attitude_option
-@start_option
-@spin_option
+@body.any_body_options
+@body.tensor_option
+@body.attitude_option
+@body.start_option
+@body.spin_option
 @graded_options
 def three_moments(files: tuple[Path, ...], **options: Any) -> int:
     """Grade against the motion of a body with three moments of inertia."""
     field = any(options[name] is not None for name in ("field", "magnetic"))
-    J = given_tensor(options)
-    inertia = chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
-    given = {"inertia": inertia, "omega": start_of(options)}
+    J = body.given_tensor(options)
+    inertia = body.chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
+    given = {"inertia": inertia, "omega": body.start_of(options, needed=False)}
     given["attitude"] = options["attitude"]
-    return _graded(files, options, given | ({"field": chosen_field(options)} if field else {}))
+    return _graded(files, options, given | ({"field": body.chosen_field(options)} if field else {}))
 
 
 @click.command(
@@ -89,10 +74,10 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
     ),
 )
 @file_argument
-@body_options
-@field_options
-@start_option
-@spin_option
+@body.body_options
+@body.field_options
+@body.start_option
+@body.spin_option
 @click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion.")
 @click.option("--omega3", type=REAL, help="Third component, where (71) leaves it free.")
 @click.option(
@@ -120,22 +105,14 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.
     """
-    body = any(options[name] is not None for name in BODY)
     field = any(options[name] is not None for name in ("field", "magnetic"))
     given = {name: options[name] for name in ("inertia", "omega2", "omega3", *OF_TOPS)}
-    given["omega"] = start_of(options)
-    if body and options["inertia"] is None:
-        given["ratio"] = chosen_body(options)
+    given["omega"] = body.start_of(options, needed=False)
+    if options["inertia"] is None and any(options[name] is not None for name in body.BODY):
+        given["ratio"] = body.chosen_body(options)
     if field:
-        given["field"] = chosen_field(options)
+        given["field"] = body.chosen_field(options)
     return _graded(files, options, given)
-
-
-def start_of(options: dict[str, Any]) -> Any:
-    """Return the angular velocity at t = 0 of --omega or --spin, None where there is none."""
-    if options["omega"] is not None and options["spin"] is not None:
-        raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")
-    return options["omega"] if options["spin"] is None else (0.0, 0.0, options["spin"])
 
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], given: dict[str, Any]) -> int:

@@ -9,29 +9,7 @@ from typing import Any, NamedTuple
 
 import click
 
-from atlas.cli.answers import IN_DOUBLES, TABLE_DIGITS, along, answer, certificate, in_threes, samples, written
-from atlas.cli.body import (
-    any_body_options,
-    attitude_option,
-    body_options,
-    body_parameters,
-    charge_to_mass_of,
-    chosen_body,
-    chosen_field,
-    chosen_moments,
-    curve_option,
-    exact_body,
-    exact_field,
-    exact_moments,
-    field_options,
-    given_attitude,
-    given_tensor,
-    measured,
-    spin_option,
-    system_of,
-    tensor_option,
-    units_of,
-)
+from atlas.cli import body
 from atlas.cli.options import (
     REAL,
     Command,
@@ -43,9 +21,21 @@ from atlas.cli.options import (
     stack,
     times_options,
 )
-from atlas.cli.present import Line, Printout, dump, show
+from atlas.cli.present import (
+    IN_DOUBLES,
+    TABLE_DIGITS,
+    Line,
+    Printout,
+    along,
+    answer,
+    certificate,
+    dump,
+    in_threes,
+    samples,
+    show,
+)
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
-from atlas.cli.uncertain import spread, uncertain
+from atlas.cli.uncertain import mapped, spread, uncertain
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
@@ -262,7 +252,7 @@ def _with_sigma(
         if given is not options:  # a proof that is a sentence is said once
             of = replace(of, quantities=tuple(q for q in of.quantities if q.tabled or not q.slow))
         found |= _found(of, made, times, columns, exact=False)
-        return found | ({"larmor": hypot(*chosen_field(given))} if given.get("magnetic") is not None else {})
+        return found | ({"larmor": hypot(*body.chosen_field(given))} if given.get("magnetic") is not None else {})
 
     found = spread(answered, options)
     if options["as_json"]:
@@ -274,20 +264,20 @@ def _with_sigma(
         hertz = [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
         known = [line for line in printout.lines if not line.symbol.endswith("/2 pi") and line.symbol != "larmor"]
         larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
-        lines = [*known, *larmor, *(hertz if units_of(options) else [])]
+        lines = [*known, *larmor, *(hertz if body.units_of(options) else [])]
         show(replace(printout, lines=lines, notes=[*filter(None, printout.notes), *found.notes]))
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     """Return the parameters as they were given."""
     names = [p.name for p in family.parameters]
-    found = body_parameters(options) if in_field(family) else {}
+    found = body.body_parameters(options) if in_field(family) else {}
     found |= {p.name: options[p.name] for p in family.parameters if p.option and options[p.name] is not None}
     found |= {"spin": options["spin"]} if options.get("spin") is not None else {}
     found = parameters_of_top(names, options) if family.name == "top" and given_otherwise(options) else found
     if "c" in names:
         found |= {name: options[name] for name in CHARGE if options[name] is not None}
-        found["units"] = system_of(options)
+        found["units"] = body.system_of(options)
     return found
 
 
@@ -296,13 +286,13 @@ def motion_in_given_axes(options: dict[str, Any]) -> Any:
 
     It is in doubles: a certified twin has principal axes, and R(0) = 1.
     """
-    tensor, attitude = given_tensor(options), given_attitude(options)
+    tensor, attitude = body.given_tensor(options), body.given_attitude(options)
     if tensor is None and attitude is None:
         return None
     from atlas.core.motions.chosen import motion
 
-    body = chosen_moments(options) if tensor is None else tensor
-    return motion(body, chosen_field(options), start_of(options), attitude)
+    J = body.chosen_moments(options) if tensor is None else tensor
+    return motion(J, body.chosen_field(options), body.start_of(options), attitude)
 
 
 class Principal(NamedTuple):
@@ -347,7 +337,7 @@ def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], 
     from atlas.core.motions.chosen import body_of
 
     if options["digits"] is not None or options["decimal"]:
-        own = in_principal_axes(made, "rad/s" if units_of(options) else "")
+        own = in_principal_axes(made, "rad/s" if body.units_of(options) else "")
         raise click.UsageError(
             "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are "
             f"along {own.axes}, and in them it is atlas {own.command} {' '.join(own.options)}"
@@ -358,10 +348,12 @@ def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], 
     found, lines = {"family": family.name} | _found(family, made, times, columns, exact=False), _spectrum(made, options)
     if options["as_json"]:
         known = body_of(made.arguments["inertia"])
-        body = {"principal_moments": known.moments, "principal_axes": known.axes}
-        dump({"parameters": parameters, **body, **found, **_recorded(lines)})
+        principal = {"principal_moments": known.moments, "principal_axes": known.axes}
+        dump({"parameters": parameters, **principal, **found, **_recorded(lines)})
     elif family.command:
-        show(_printout(family, family.command, written(found), options, IN_DOUBLES))
+        show(
+            _printout(family, family.command, mapped(found, lambda x, _: f"{x:.{TABLE_DIGITS}g}"), options, IN_DOUBLES)
+        )
         _show_lines(family, options, made)
 
 
@@ -409,16 +401,16 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
     """Return the options that say which object of a family it is."""
     names, ways = [p.name for p in family.parameters], family.name == "top"
     return [
-        *([body_options] if "ratio" in names else []),
-        *([field_options] if in_plane(family) else []),
-        *([any_body_options] if of_any_body(family) else []),
+        *([body.body_options] if "ratio" in names else []),
+        *([body.field_options] if in_plane(family) else []),
+        *([body.any_body_options] if of_any_body(family) else []),
         *(
             _option(p, needed=p.needed and p.name not in OTHERWISE.get(family.name, ()))
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
-        *([spin_option] if family.name in STARTED else []),
-        *([tensor_option, attitude_option, curve_option] if family.name == "asymmetric" else []),
+        *([body.spin_option] if family.name in STARTED else []),
+        *([body.tensor_option, body.attitude_option, body.curve_option] if family.name == "asymmetric" else []),
         *([top_options] if ways else []),
         *([charge_options, units_option] if "c" in names else []),
     ]
@@ -461,32 +453,25 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
         needs_no_way(options)
     for p in family.parameters:
         if p.name == "ratio":
-            yield (exact_body if exact else chosen_body)(options)
+            yield (body.exact_body if exact else body.chosen_body)(options)
         elif p.name == "inertia" and of_any_body(family):
-            yield (exact_moments if exact else chosen_moments)(options)
+            yield (body.exact_moments if exact else body.chosen_moments)(options)
         elif p.name == "field" and (not p.option or of_any_body(family)):
-            yield (exact_field if exact else chosen_field)(options)
+            yield (body.exact_field if exact else body.chosen_field)(options)
         elif p.name == "omega" and "spin" in options:
-            yield exactly(start_of(options), options) if exact else start_of(options)
+            yield exactly(body.start_of(options), options) if exact else body.start_of(options)
         elif p.name == "mu":
             yield _charge_to_mass(options, exact=exact)
         elif p.name == "c":
-            yield _speed_of_light(system_of(options))
+            yield _speed_of_light(body.system_of(options))
         else:
             value = options[p.name]
             yield exactly(value, options) if exact and value is not None else value
 
 
-def start_of(options: dict[str, Any]) -> Any:
-    """Return the initial angular velocity, of --omega or --spin."""
-    if (options["omega"] is None) == (options["spin"] is None):
-        raise click.UsageError("the start is one of --omega W1 W2 W3 and --spin W3.")
-    return options["omega"] or (0.0, 0.0, options["spin"])
-
-
 def _charge_to_mass(options: dict[str, Any], *, exact: bool) -> Any:
     """Return mu of a point charge, as it was typed or from its charge and mass."""
-    mu = charge_to_mass_of(options, "A point charge")
+    mu = body.charge_to_mass_of(options, "A point charge")
     if not exact:
         return mu
     if options["mu"] is not None:
@@ -571,9 +556,14 @@ def _printout(
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
     lines += _in_hertz(shown, texts, options) if units else []
     rows = in_threes(texts.get("samples", []))
-    heading = [name for s in family.sampled if s.printed and not s.uncertified for name in _heading(s, units)]
+    heading = [
+        head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
+        for s in family.sampled
+        if s.printed and not s.uncertified
+        for head in s.heading
+    ]
     worth = worth.replace("printed", "printed, but of rounded lines,") if units else worth
-    turns = [f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text]
+    turns = [f"{x.text} is {x:.10g} rad/s." for _, x in body.measured(options) if "Hz" in x.text]
     notes = [*turns, *dict.fromkeys(texts.get("missing", {}).values()), worth]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
@@ -585,8 +575,8 @@ def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
     if family.name == "top":
         return top_units(options)
     if any(p.name == "c" for p in family.parameters):
-        return UNITS[system_of(options)]
-    return units_of(options) if in_field(family) else {}
+        return UNITS[body.system_of(options)]
+    return body.units_of(options) if in_field(family) else {}
 
 
 def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterator[Line]:
@@ -603,7 +593,7 @@ def _in_hertz(shown: Sequence[Quantity], texts: dict[str, Any], options: dict[st
     """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits."""
     rates = {q.name: float(texts[q.name]) for q in shown if q.unit == RATE and _is_number(texts[q.name])}
     if options.get("magnetic") is not None and "direction" not in options:
-        larmor = hypot(*chosen_field(options))
+        larmor = hypot(*body.chosen_field(options))
         yield Line("larmor", "Larmor frequency |B'|, rounded", f"{larmor:.6g}", "1/s", "(27)")
         rates["larmor"] = larmor
     for name, rate in rates.items():
@@ -616,7 +606,3 @@ def _is_number(text: Any) -> bool:
         return isinstance(text, str) and isfinite(float(text))
     except ValueError:
         return False
-
-
-def _heading(s: Sampled, units: dict[str, str]) -> list[str]:
-    return [head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]") for head in s.heading]

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option, pair, style_option
-from atlas.cli.present import explained, show
-from atlas.cli.progress import bar
+from atlas.cli.present import bar, explained, show
 from atlas.errors import AtlasError
 from atlas.targets import TARGETS, find
 

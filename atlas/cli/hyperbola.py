@@ -4,7 +4,6 @@ from typing import Any
 
 import click
 
-from atlas.cli.answers import along, answer, certificate
 from atlas.cli.body import (
     body_options,
     body_parameters,
@@ -16,7 +15,7 @@ from atlas.cli.body import (
     units_of,
 )
 from atlas.cli.options import REAL, Command, Many, exactly, examples, output_options
-from atlas.cli.present import Line, Printout, show
+from atlas.cli.present import Line, Printout, along, answer, certificate, show
 
 CROSS = "With B3 = 0 the curve is this line and another, omega2 = -B2, on which omega3 is free."
 COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from atlas import files
+from atlas.cli import body
 from atlas.cli.app import GONE
-from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, mass_of, system_of, units_of
 from atlas.cli.family import (
     family_of,
     in_field,
@@ -21,7 +21,7 @@ from atlas.cli.family import (
 )
 from atlas.cli.options import Command, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
-from atlas.cli.progress import bar
+from atlas.cli.present import bar
 from atlas.cli.report import status_of
 from atlas.cli.top import top_units
 from atlas.errors import AtlasError
@@ -87,7 +87,7 @@ def along_principal_axes(args: list[str], parent: click.Context) -> list[str]:
         made = motion_in_given_axes(options)
         if made is None:
             return []
-        found = in_principal_axes(made, "rad/s" if units_of(options) else "")
+        found = in_principal_axes(made, "rad/s" if body.units_of(options) else "")
         own = {one.name: one.opts[0] for one in context.command.params if one.name in OWN}
         rest = [
             word
@@ -170,7 +170,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     values |= {"c": found["c"]} if "c" in found else {}
     records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}
     if in_field(family):
-        records = {"time": units_of(options).get("time", "time")}
+        records = {"time": body.units_of(options).get("time", "time")}
     if "ratio" in found:
         records["body"] = _body(options)
     if in_plane(family):
@@ -191,12 +191,12 @@ def _plain(value: Any) -> Any:
 
 def _body(options: dict[str, Any]) -> dict[str, Any]:
     """Return the body as a report file has it."""
-    given = {name: _plain(value) for name, value in body_parameters(options).items() if _of_body(name, value)}
+    given = {name: _plain(value) for name, value in body.body_parameters(options).items() if _of_body(name, value)}
     if options["points"] is not None:
         found = points(options["points"])
         given |= {"inertia": [found.body.I2, found.body.I3]}
     if given.pop("density", None) is not None:
-        given["mass"] = float(mass_of(options))
+        given["mass"] = float(body.mass_of(options))
     if options["shape"] is not None:
         given = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | given
     title = options["shape"].replace("-", " ").replace("_", " ") if options["shape"] else "body"
@@ -209,13 +209,15 @@ def _of_body(name: str, value: Any) -> bool:
 
 def _field(options: dict[str, Any]) -> dict[str, Any]:
     """Return the field as a report file has it: as B where its axes are those of the report, else as B'."""
-    B2, B3 = chosen_field(options)
-    if not units_of(options) or B2 < 0:
+    B2, B3 = body.chosen_field(options)
+    if not body.units_of(options) or B2 < 0:
         shown = ", ".join(_texts(options["field"] or (B2, B3)))
         return {"title": f"field ({shown})", "prime": [float(B2), float(B3)]}
-    system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[system_of(options)], options["magnetic"]
+    system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
     given = (
-        {} if options["mu"] is None and options["points"] is None else {"charge_to_mass": charge_to_mass_of(options)}
+        {}
+        if options["mu"] is None and options["points"] is None
+        else {"charge_to_mass": body.charge_to_mass_of(options)}
     )
     unit = {"SI": "T", "Gaussian": "G"}[system]
     return {

@@ -1,10 +1,13 @@
-"""Numbers on standard output: a readable table or JSON, never both."""
+"""Numbers on standard output, a readable table or JSON, never both; and on standard error how far a long work is."""
 
 import json
 import math
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from itertools import chain
+from time import monotonic
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -113,3 +116,124 @@ def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
     if isinstance(value, Iterable):
         return [plain(item, f"{place}[{index}]", reasons) for index, item in enumerate(value)]
     raise TypeError(f"no JSON for {type(value).__name__}")
+
+
+TABLE_DIGITS = 10
+"""Significant digits of a table when --digits does not say otherwise."""
+
+
+def answer(
+    options: dict[str, Any],
+    parameters: dict[str, Any],
+    floats: Callable[[], dict[str, Any]],
+    balls: Callable[[], dict[str, Any]],
+    spare: int = 1 << 16,
+) -> dict[str, Any] | None:
+    """Print the JSON that was asked for and return None, or return the quantities as certified texts for a table.
+
+    ``floats`` computes the quantities with the kernels, ``balls`` with proven radii; they have the same keys.
+    ``spare`` goes to `certified`.
+    """
+    if options["as_json"] and options["digits"] is None:
+        if options["decimal"]:
+            raise click.UsageError("--decimal needs --digits: floats in JSON are made from doubles.")
+        dump({"parameters": parameters, **floats()})
+        return None
+    from atlas.exact.digits import certified
+
+    texts: dict[str, Any] = certified(balls, options["digits"] or TABLE_DIGITS, spare=spare)
+    if not options["as_json"]:
+        return texts
+    taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
+    dump({"parameters": parameters, "certified_digits": options["digits"], "inputs": taken, **texts})
+    return None
+
+
+def certificate(options: dict[str, Any]) -> str:
+    """Return the sentence under a table that says what its digits are worth."""
+    taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
+    return f"All digits printed are proven; inputs: {taken}."
+
+
+IN_DOUBLES = "Computed in doubles: no digit is proven in axes that are not principal ones, or from another attitude."
+
+
+def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
+    """Evaluate a method of a kernel at all times at once."""
+    import numpy as np
+
+    return method(np.array([float(t) for t in times]))
+
+
+def samples(times: Sequence[float], **columns: Any) -> list[dict[str, Any]]:
+    """Return a record for each time, of ``t`` and of each quantity under its name."""
+    return [dict(zip(("t", *columns), row, strict=True)) for row in zip(times, *columns.values(), strict=True)]
+
+
+def in_threes(records: Sequence[dict[str, Any]]) -> list[list[str]]:
+    """Return three rows of a table for each record of texts: the rows of its matrix, the components of its vectors."""
+    rows = []
+    for t, *values in (record.values() for record in records):
+        for i in range(3):
+            parts = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
+            rows.append([f"{float(t)!r}" if i == 0 else "", *chain(*parts)])
+    return rows
+
+
+Progress = Callable[[int, int, str], None]
+
+
+@contextmanager
+def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
+    """Give a function to call with what is done, of how many, and what comes next.
+
+    The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
+    terminal nothing is shown, or a line `every` so many seconds, for the log of a batch job.
+    """
+    if not sys.stderr.isatty():
+        yield _lines(title, every) if every else lambda _done, _total, _what: None
+        return
+    with ExitStack() as stack:
+        shown: list[Progress] = []
+
+        def tell(done: int, total: int, what: str) -> None:
+            if not shown:
+                shown.append(stack.enter_context(_display(title)))
+            shown[0](done, total, what)
+
+        yield tell
+
+
+def _lines(title: str, every: float) -> Progress:
+    """Return what writes a line `every` so many seconds, none at first."""
+    start = last = monotonic()
+
+    def tell(done: int, total: int, _: str) -> None:
+        nonlocal last
+        now = monotonic()
+        if now - last >= every:
+            last = now
+            done_of = f"{done} of {total} ({100 * done // max(total, 1)} %)"
+            since = f"{(now - start) / 60:.0f} min" if every >= 60 else f"{now - start:.0f} s"
+            click.echo(f"{title}: {done_of} after {since}", err=True)
+
+    return tell
+
+
+@contextmanager
+def _display(title: str) -> Iterator[Progress]:
+    """Show a bar."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Display
+
+    columns = (
+        TextColumn("[bold]{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[what]}"),
+    )
+    with Display(*columns, console=Console(stderr=True), transient=True) as display:
+        task = display.add_task(title, total=None, what="")
+        yield lambda done, total, what: display.update(task, completed=done, total=total, what=what)

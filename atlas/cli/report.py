@@ -1,4 +1,4 @@
-"""``atlas report``: HTML pages and a PDF from a report definition."""
+"""``atlas report|data|tex``: a report as HTML pages and a PDF, as data to cite, as LaTeX."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING
 import click
 
 from atlas.cli.options import Command, Many, examples, jobs_option, out_option, style_option
-from atlas.cli.present import Printout, explained, show
-from atlas.cli.progress import bar
+from atlas.cli.present import Printout, bar, explained, show
+from atlas.errors import AtlasError
+from atlas.libraries import of_sweeps
 
 if TYPE_CHECKING:
     from atlas.build.report import Built
+
+name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
 
 
 @click.command(
@@ -24,7 +27,7 @@ if TYPE_CHECKING:
         "atlas report my_page.toml --format single pdf",
     ),
 )
-@click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
+@name_argument
 @out_option("build/report")
 @click.option(
     "--format",
@@ -76,3 +79,56 @@ def _explain(built: "Built") -> None:
 
         note = "A figure from the cache shows what it cost when it was drawn."
         show(Printout("what the figures cost", heading=HEADING, rows=rows(built.costs), notes=[note]))
+
+
+@click.command(
+    "data", cls=Command, epilog=examples("atlas data short_solenoid", "atlas data my_paper.toml --out paper/data")
+)
+@name_argument
+@out_option("build/data")
+@style_option
+@jobs_option
+def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
+    """Write the tables of a report, and the points that its figures draw, as CSV and, with pyarrow, as Parquet.
+
+    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. The file
+    datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
+    draws the figure, and the digest. CSV has all digits that are printed, Parquet the nearest doubles. The folder is
+    written whole, with the same bytes each time; what you put there stays. Beside a file that you edited the new one
+    is written, as NAME.new.csv, and then the exit status is 2.
+    """
+    from atlas.build.composed import build_data
+
+    try:
+        parquet = bool(of_sweeps("pyarrow", "Parquet"))
+    except AtlasError as error:
+        parquet = False
+        click.echo(f"atlas: CSV alone: {error}", err=True)
+    with bar(f"data of {Path(name).stem}", every=10) as tell:
+        place = build_data(name, out, tell, jobs=jobs, parquet=parquet, style=style)
+    click.echo(place)
+
+
+@click.command(
+    "tex", cls=Command, epilog=examples("atlas tex short_solenoid", "atlas tex my_paper.toml --out manuscript")
+)
+@name_argument
+@out_option("build/tex")
+@style_option
+@jobs_option
+def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
+    r"""Write a report as LaTeX: numbers by key, tables, figures, references, and a paper in REVTeX.
+
+    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. In a manuscript,
+    \input{atlas-numbers} and write \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it rounded
+    to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are tables
+    of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
+
+    What you put into the folder stays. Beside a file that you edited the new one is written, as paper.new.tex, and
+    then the exit status is 2.
+    """
+    from atlas.build.composed import build_tex
+
+    with bar(f"{Path(name).stem} as LaTeX", every=10) as tell:
+        place = build_tex(name, out, tell, jobs=jobs, style=style)
+    click.echo(place)

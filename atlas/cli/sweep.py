@@ -8,26 +8,11 @@ from typing import Annotated, Any, NamedTuple
 
 import click
 
-from atlas.cli.body import (
-    BODY,
-    SIZES,
-    any_body_options,
-    body_options,
-    body_parameters,
-    chosen_body,
-    chosen_field,
-    chosen_moments,
-    field_options,
-    given_tensor,
-    spin_option,
-    tensor_option,
-    units_of,
-)
-from atlas.cli.check import start_option
-from atlas.cli.family import in_principal_axes, motion_in_given_axes, start_of
+from atlas.cli import body
+from atlas.cli.family import in_principal_axes, motion_in_given_axes
 from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, pair, stack
 from atlas.cli.points import columns_of
-from atlas.cli.progress import bar
+from atlas.cli.present import bar
 from atlas.families import FAMILIES
 
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
@@ -107,11 +92,11 @@ def swept(
     if toml is None:
         if family is None:
             raise click.UsageError(f"name the family to sweep: {NAMES}.")
-        body, pairs = _body(options), [_setting(text) for text in settings]
-        _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
-        family = _meant(family, {*body, *(name for name, _ in pairs)})
+        given, pairs = _body(options), [_setting(text) for text in settings]
+        _once([*given, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(given))
+        family = _meant(family, {*given, *(name for name, _ in pairs)})
         known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
-        if "I1" in body and "I1" not in known:
+        if "I1" in given and "I1" not in known:
             components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
             narrow = next((name for name in components if options[name] is not None), "")
             raise click.UsageError(
@@ -119,8 +104,8 @@ def swept(
                 + f"in the family {family}; a body with three moments of inertia is the family asymmetric, with "
                 "--set I1=0.8 and so on, or motion, which finds it."
             )
-        wanted = Wanted(family, quantities, body | dict(pairs), listing, out, digits, rows)
-    elif family or settings or listing or quantities or digits or rows or body_parameters(options):
+        wanted = Wanted(family, quantities, given | dict(pairs), listing, out, digits, rows)
+    elif family or settings or listing or quantities or digits or rows or body.body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")
     else:
         wanted = read(toml)
@@ -140,14 +125,14 @@ def swept(
             rows=wanted.rows,
             jobs=jobs,
             progress=lambda done, total: tell(done, total, ""),
-            time=units_of(options).get("time", "time"),
+            time=body.units_of(options).get("time", "time"),
         )
     click.echo(str(path))
 
 
 def of_three_moments() -> click.Command:
     """Return the command of sweeps over bodies with three moments of inertia."""
-    options = options_of(any_body_options, tensor_option, start_option, spin_option)
+    options = options_of(body.any_body_options, body.tensor_option, body.start_option, body.spin_option)
     made: click.Command = click.command("sweep", cls=Command, help=HELP)(options(swept))
     return made
 
@@ -167,7 +152,7 @@ def of_three_moments() -> click.Command:
         "atlas sweep --file sweep.toml --out table.parquet/",
     ),
 )
-@options_of(body_options, field_options)
+@options_of(body.body_options, body.field_options)
 def command(**options: Any) -> None:
     """Sweep over symmetric bodies."""
     swept(**options)
@@ -198,26 +183,32 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
     """Return what the options of body, field and start say, by the names of a table."""
     if "tensor" in options:
         return _of_three_moments(options)
-    body, found = any(options[name] is not None for name in BODY), body_parameters(options)
-    ratio = getattr(made := chosen_body(options), "ratio", made) if body else None
-    B = dict(zip(("B2", "B3"), chosen_field(options), strict=True)) if set(found) - {*BODY, *SIZES} else {}
+    found, made = body.body_parameters(options), None
+    if any(options[name] is not None for name in body.BODY):
+        made = body.chosen_body(options)
+    ratio = getattr(made, "ratio", made)
+    B = (
+        dict(zip(("B2", "B3"), body.chosen_field(options), strict=True))
+        if set(found) - {*body.BODY, *body.SIZES}
+        else {}
+    )
     return ({} if ratio is None else {"ratio": float(ratio)}) | B
 
 
 def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
     """Return the same of a body with three moments; of a tensor along its principal axes."""
-    if given_tensor(options) is not None:
+    if body.given_tensor(options) is not None:
         found = in_principal_axes(motion_in_given_axes(options))
         click.echo(f"The axes are principal ones: {found.axes} in those of the body that were given.", err=True)
         names = {p.name: p.names for p in found.family.parameters}
         return {one: x for name, values in found.values.items() for one, x in zip(names[name], values, strict=True)}
     given: dict[str, float] = {}
-    if any(options[name] is not None for name in BODY):
-        given |= zip(("I1", "I2", "I3"), map(float, chosen_moments(options)), strict=True)
+    if any(options[name] is not None for name in body.BODY):
+        given |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
     if options["field"] is not None or options["magnetic"] is not None:
-        given |= zip(("B1", "B2", "B3"), chosen_field(options), strict=True)
+        given |= zip(("B1", "B2", "B3"), body.chosen_field(options), strict=True)
     if options["omega"] is not None or options["spin"] is not None:
-        given |= zip(("omega1", "omega2", "omega3"), map(float, start_of(options)), strict=True)
+        given |= zip(("omega1", "omega2", "omega3"), map(float, body.start_of(options)), strict=True)
     return given
 
 

@@ -35,7 +35,7 @@ class Spread:
 
     def texts(self) -> Any:
         """Return the answer with its numbers as texts, 12.57(3): in brackets the uncertainty of the last digits."""
-        return _mapped(self.found, lambda x, place: concise(x, self.sigma.get(place, 0.0)))
+        return mapped(self.found, lambda x, place: concise(x, self.sigma.get(place, 0.0)))
 
     def rates(self, names: list[str]) -> dict[str, str]:
         """Return rates among the numbers, by name, in turns a second."""
@@ -45,7 +45,7 @@ class Spread:
 
     def record(self) -> dict[str, Any]:
         """Return the answer, and under sigma the same with the standard deviations in the place of its numbers."""
-        return self.found | {"sigma": _mapped(self.found, lambda _, place: self.sigma.get(place)), "notes": self.notes}
+        return self.found | {"sigma": mapped(self.found, lambda _, place: self.sigma.get(place)), "notes": self.notes}
 
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
@@ -155,14 +155,14 @@ def _numbers(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[An
             yield from _numbers(one, (*place, i))
 
 
-def _mapped(value: Any, function: Callable[[float, tuple[Any, ...]], Any], place: tuple[Any, ...] = ()) -> Any:
+def mapped(value: Any, function: Callable[[float, tuple[Any, ...]], Any], place: tuple[Any, ...] = ()) -> Any:
     """Return an answer with a function of each number, and of its place, for it."""
     if isinstance(value, float):
         return function(float(value), place)
     if isinstance(value, Mapping):
-        return {key: one if key == "t" else _mapped(one, function, (*place, key)) for key, one in value.items()}
+        return {key: one if key == "t" else mapped(one, function, (*place, key)) for key, one in value.items()}
     if not isinstance(value, str) and hasattr(value, "__iter__"):
-        return [_mapped(one, function, (*place, i)) for i, one in enumerate(value)]
+        return [mapped(one, function, (*place, i)) for i, one in enumerate(value)]
     return value
 
 

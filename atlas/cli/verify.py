@@ -7,8 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli.options import Command, examples
-from atlas.cli.present import Printout, dump, show
-from atlas.cli.progress import bar
+from atlas.cli.present import Printout, bar, dump, show
 from atlas.paper.plain import plain
 
 COLUMNS = (

@@ -215,14 +215,14 @@ def _requests(
         found = places(layer.points)
         seen = found[((found >= -_EDGE) & (found <= np.array(size) + _EDGE)).all(axis=1)]
         if len(seen):
-            yield layer.label, _backwards(seen), (-4.0, 4.0), layer.role
+            yield (
+                layer.label,
+                along(seen)[:-_BACK:-_EVERY],
+                (-4.0, 4.0),
+                layer.role,
+            )  # its last point, and some before it
     elif isinstance(layer, Region):
         yield layer.label, places(layer.points).mean(axis=0), (0.0, 0.0), "note"
-
-
-def _backwards(points: FloatArray) -> FloatArray:
-    """Return the last point of a polyline, and some before it."""
-    return along(points)[:-_BACK:-_EVERY]
 
 
 def _ink(size: tuple[float, float], panel: Plane, places: Places) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:

@@ -92,7 +92,9 @@ def _place(box: Bbox, view: View) -> list[float]:
 
 def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
     """Return what is in a panel; its texts are numbers of those that all panels share."""
-    found: dict[str, Any] = {"frame": _list(view.frame), "matt": int(any(map(_classes, view.surfaces)))}
+    found: dict[str, Any] = {"frame": _list(view.frame)}
+    # a glare would falsify a colour that is a class of a value
+    found["matt"] = int(any(surface.role.startswith("rate_") for surface in view.surfaces))
     found["surfaces"] = [_surface(surface) for surface in view.surfaces]
     found |= {kind: [] for kind in ("lines", "wires", "arrows", "dots", "names")}
     for layer in view.panel.layers:
@@ -107,11 +109,6 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
             stands = _list(layer.tail) if beyond else [*map(_short, offset)]
             found["names"].append([number, readable(style_of(role).colour), _list(np.atleast_2d(at)), stands])
     return found
-
-
-def _classes(surface: Surface) -> bool:
-    """Tell whether the colour of a surface is a class of a value, which a glare would falsify."""
-    return surface.role.startswith("rate_")
 
 
 def _surface(surface: Surface) -> list[Any]:

@@ -18,11 +18,6 @@ def _balls() -> Any:
     return GeneralMotion
 
 
-def _finite(made: Any) -> list[list[Any]]:
-    """Return the real and imaginary parts of the roots that are no infinity."""
-    return [[z.real, z.imag] for z in made.roots if abs(float(z.real)) != float("inf")]
-
-
 def _complex(x: str, y: str) -> str:
     return x if y == "0" else f"{x} {'-' if y.startswith('-') else '+'} {y.lstrip('-')} i"
 
@@ -40,7 +35,8 @@ FAMILY = Family(
             text=" ... ".join, certified=True,
         ),
         Quantity(
-            "roots", "of Q(Omega3)", RATE, get=_finite, tabled=False,
+            "roots", "of Q(Omega3)", RATE, tabled=False,
+            get=lambda made: [[z.real, z.imag] for z in made.roots if abs(float(z.real)) != float("inf")],
             text=lambda roots: ", ".join(_complex(*z) for z in roots) or "none",
         ),
         Quantity("period", "period of nutation", TIME, certified=True),

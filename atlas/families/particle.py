@@ -27,10 +27,6 @@ def _vector(name: str, letter: str, unit: str, default: tuple[float, float, floa
     )  # fmt: skip
 
 
-def _drift(made: Any) -> Any:
-    return made.drift if made.cyclotron_frequency != 0 else None
-
-
 FAMILY = Family(
     "particle",
     "motion of a point charge in constant fields",
@@ -58,7 +54,15 @@ FAMILY = Family(
         Quantity(
             "radius", "radius of the circle about the drifting centre", "length", "(97)", printed=False, certified=True
         ),
-        Quantity("drift", "c [E, B]/B^2", SPEED, "(94)", get=_drift, text=in_brackets, tabled=False),
+        Quantity(
+            "drift",
+            "c [E, B]/B^2",
+            SPEED,
+            "(94)",
+            text=in_brackets,
+            tabled=False,
+            get=lambda made: made.drift if made.cyclotron_frequency != 0 else None,
+        ),
     ),
     (
         Sampled("position", "position", "position", "length", "(101)", "y_i", checked="particle y"),

@@ -23,10 +23,6 @@ def _rates(made: Any) -> Any:
     return [one.rate for one in made.steady_precessions] or "none"
 
 
-def _rates_text(rates: Any) -> str:
-    return rates if isinstance(rates, str) else " and ".join(rates)
-
-
 def _stability(made: Any) -> str:
     """Return "stable" or "unstable"."""
     return {True: "stable", False: "unstable", None: "not steady"}[made.stable]
@@ -74,7 +70,8 @@ FAMILY = Family(
         *rates("n"),
         Quantity(
             "steady_precessions", "rates of steady precession at this inclination and omega3", RATE,
-            "theorem-top-precession", get=_rates, exact=_rates, text=_rates_text, tabled=False,
+            "theorem-top-precession", get=_rates, exact=_rates, tabled=False,
+            text=lambda rates: rates if isinstance(rates, str) else " and ".join(rates),
         ),
         Quantity(
             "stable", "this steady motion against nutation", "", "theorem-top-nutation", get=_stability,

@@ -109,7 +109,9 @@ class OfRecipe:
         if not parts or not all(type(x) in {int, float} for x in parts) or (parts is default and key in CONTOURS):
             return
         names = [key] if not isinstance(default, tuple) else [f"{key}.{i}" for i in range(1, len(parts) + 1)]
-        low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or _around(parts)
+        size = 3.0 * max(1.0, *(abs(x) for x in parts))
+        start = -size if any(isinstance(x, float) for x in parts) else 1.0  # of a number that has no range
+        low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or (start, size)
         low, high = min(low, *parts), max(high, *parts)
         for name, start in zip(names, parts, strict=True):
             step = 1 if type(start) is int else step_of(low, high)
@@ -149,12 +151,6 @@ Subject = OfFamily | OfRecipe
 @lru_cache(maxsize=1)
 def _made(kernels: Any, arguments: tuple[Any, ...]) -> Any:
     return kernels(*arguments)
-
-
-def _around(parts: tuple[float, ...]) -> tuple[float, float]:
-    """Return the ends of a slider for a number that has no range: from zero, or as far below it."""
-    size = 3.0 * max(1.0, *(abs(x) for x in parts))
-    return (-size if any(isinstance(x, float) for x in parts) else 1.0), size
 
 
 def subject(name: str) -> Subject:

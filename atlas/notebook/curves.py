@@ -16,7 +16,8 @@ def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> 
     name = type(motion).__name__
     if motion.shape:
         raise AtlasError(f"A trace is of one {name}, not of several: make one with numbers in place of arrays.")
-    period = _period(motion)
+    quantities = FAMILIES[motion.family].quantities
+    period = next((float(q.of(motion)) for q in quantities if q.name == "period"), 0.0)
     if stop is None:
         if not isfinite(period) or not period:
             raise AtlasError(f"This {name} has no period: say stop=..., the time up to which its axis is followed.")
@@ -25,9 +26,3 @@ def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> 
     rate = turns(motion, min(stop, period) if period else stop)
     times = knots(motion.third_axis, 0.0, stop, positive(tolerance, "tolerance"), pieces(rate * stop))
     return times, motion.third_axis(times)
-
-
-def _period(motion: Any) -> float:
-    """Return the period that the register has of a motion, 0 where it has none."""
-    family = FAMILIES[motion.family]
-    return next((float(q.of(motion)) for q in family.quantities if q.name == "period"), 0.0)

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import partial
 from itertools import groupby
 from math import ceil
 from typing import Any
@@ -55,7 +56,9 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
     computed = [table for table in document.listed("table") if table.name]
     numbers = [one for table in computed for one in _numbers(table, markdown)]
     keys = {one.cell: one.key for one in numbers}
-    texts = [_CELL.sub(lambda cell: _by_key(cell, keys), text) for text in document.written["latex"]]
+    # what has no key stays as it is printed
+    by_key = partial(_CELL.sub, lambda cell: rf"\atlas{{{keys[cell[1]]}}}" if cell[1] in keys else cell[2])
+    texts = [by_key(text) for text in document.written["latex"]]
     made = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
     for table in document.listed("table"):
         made[f"tables/{table.id.removeprefix('tab-')}.tex"] = table_of(table, markdown, texts)
@@ -90,11 +93,6 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
                 unit = "" if said is None else markdown[said]
                 cell = f"{table.id.removeprefix('tab-')}-{number}-{place + 1}"
                 yield Numeral(key, cell, digits(row[place]) or ANY, *_with_unit(row[place], unit))
-
-
-def _by_key(cell: re.Match[str], keys: Mapping[str, str]) -> str:
-    """Return the macro of a number that a sentence takes from a table; what has no key stays as it is printed."""
-    return rf"\atlas{{{keys[cell[1]]}}}" if cell[1] in keys else cell[2]
 
 
 def _row_name(row: Sequence[str], at: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
@@ -148,7 +146,8 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
     for page in document.pages:
         made = rf"\section{{{_escaped(page.title)}}}" + "\n"
         displayed = False
-        for equations, run in groupby(zip(page.templates, page.blocks, strict=True), _is_equation):
+        pairs = zip(page.templates, page.blocks, strict=True)
+        for equations, run in groupby(pairs, lambda pair: isinstance(pair[1], EquationView)):
             parts = [_block(name, block, texts) for name, block in run]
             floats = groupby(parts, lambda part: part.startswith(r"\input{"))
             parts = [
@@ -163,10 +162,6 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
                 made += ("\n" if goes_on else "\n\n") + "\n\n".join(parts)
             displayed = equations
         yield made
-
-
-def _is_equation(block: tuple[str, Any]) -> bool:
-    return isinstance(block[1], EquationView)
 
 
 def _block(name: str, block: Any, texts: Sequence[str]) -> str:

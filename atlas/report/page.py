@@ -124,7 +124,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         *_closed(asked, left_out),
         *_neighbours(asked, there),
         {"kind": "prose", "text": _reproduce(asked)},
-        *([{"kind": "prose", "text": _missing(left_out)}] if left_out else []),
+        *([{"kind": "prose", "text": "\n- ".join(["## Left out\n", *left_out])}] if left_out else []),
     ]
     case = f"{family.says[:1].upper()}{family.says[1:]}"
     records = (("bodies", "body", asked.body), ("fields", "field", asked.field))
@@ -309,7 +309,3 @@ def _python(asked: Asked, name: str) -> str:
         return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).pair"
     value = asked.values.get(name)
     return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)
-
-
-def _missing(left_out: list[str]) -> str:
-    return "\n".join(["## Left out", "", *(f"- {reason}" for reason in left_out)])

@@ -37,18 +37,13 @@ def _given(record: Body | Field) -> str:
     units = _UNITS[getattr(record, "system", "SI")]
     parts = []
     for key in record.__struct_fields__:
-        value = getattr(record, key)
-        if key in {"title", "system"} or value is None or (key in {"E", "axis"} and _is_default(record, key)):
+        value, omitted = getattr(record, key), getattr(type(record)(title=""), key)
+        if key in {"title", "system"} or value is None or (key in {"E", "axis"} and value == omitted):
             continue
         written = value.replace("_", " ") if isinstance(value, str) else _numbers(value)
         unit = f"\u202f{units[key]}" if key in units else ""
         parts.append(written if key == "shape" else f"{_NAMES.get(key, key)} = {written}{unit}")
     return ", ".join(parts)
-
-
-def _is_default(record: Body | Field, key: str) -> bool:
-    """Whether a key has the value that it has when it is not given."""
-    return bool(getattr(record, key) == getattr(type(record)(title=""), key))
 
 
 def _numbers(value: float | tuple[float, ...]) -> str:

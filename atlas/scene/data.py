@@ -33,7 +33,10 @@ def table(scene: Scene) -> str:
     writer.writerow(COLUMNS)
     for number, panel in enumerate(scene.panels, 1):
         for place, layer in enumerate(panel.layers, 1):
-            kind, label = type(layer).__name__.lower(), " ".join(_label(layer).split())
+            kind, label = (
+                type(layer).__name__.lower(),
+                " ".join((layer.text if isinstance(layer, Label) else layer.label).split()),
+            )
             first = (number, place, kind, getattr(layer, "role", "map"), label)
             writer.writerows((*first, part, *row) for part, rows in _parts(layer) for row in rows)
     return out.getvalue()
@@ -47,10 +50,6 @@ def _heading(scene: Scene) -> Iterator[str]:
     for number, panel in enumerate(scene.panels, 1):
         axes = f"x: {panel.x_label}; y: {panel.y_label}" if isinstance(panel, Plane) else "x, y, z: along the axes"
         yield f"panel {number}: {f'{panel.title}; ' if panel.title else ''}{axes}"
-
-
-def _label(layer: Layer) -> str:
-    return layer.text if isinstance(layer, Label) else layer.label
 
 
 def _parts(layer: Layer) -> Iterator[tuple[str, list[list[Any]]]]:

@@ -15,7 +15,7 @@ from pathlib import Path
 import click
 
 from atlas import files
-from atlas.cli.progress import bar
+from atlas.cli.present import bar
 from atlas.core.arithmetic.machine import processors
 from stress.arrays import stress_arrays
 from stress.run import PROMISES, Result, stress

@@ -201,11 +201,8 @@ def test_every_library_is_watched() -> None:
 
 
 def test_every_command_has_a_case() -> None:
-    """No command is left out: each is one of a family, or a module of atlas.cli holds it."""
+    """No command is left out."""
     assert {case.words.split()[0] for case in CASES} == set(command_line.commands)
-    texts = {path.stem: path.read_text(encoding="utf-8") for path in (CHECKOUT / "atlas" / "cli").glob("*.py")}
-    families = {one.command.name for one in FAMILIES.values() if one.command}
-    assert {name for name, text in texts.items() if "\n@click.command(" in text} == {*command_line.commands} - families
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.words)

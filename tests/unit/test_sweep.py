@@ -373,7 +373,7 @@ def test_the_log_of_a_batch_job_shows_a_sweep(tmp_path: Path, monkeypatch: pytes
     words = "sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1:2:3 --quantity gamma --rows 1 -j 1 --out"
     for minutes, shown in ((0.4, ["sweep: 3 of 3 (100 %) after 1 min"]), (0.1, [])):
         clock = iter(60 * minutes * i for i in range(10))
-        monkeypatch.setattr("atlas.cli.progress.monotonic", lambda clock=clock: next(clock))
+        monkeypatch.setattr("atlas.cli.present.monotonic", lambda clock=clock: next(clock))
         ended = CliRunner().invoke(program, [*words.split(), str(tmp_path / "t.csv")])
         assert ended.stderr.splitlines() == shown
 

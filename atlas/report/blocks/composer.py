@@ -110,10 +110,6 @@ class Composer:
         """Return the pictures of a figure block."""
         return tuple(self.document.pictures_of(block))
 
-    def hold_errata(self) -> None:
-        """Let this page be that of the errata."""
-        self.document.errata = self.slug
-
     def list_works(self) -> None:
         """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
         if not self.document.report.bibliography:

@@ -181,6 +181,6 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
 
 def view_errata(_block: Errata, composer: Composer) -> ErrataView:
     """Set out the entries with a slip, the grave ones first."""
-    composer.hold_errata()
+    composer.document.errata = composer.slug
     found = entries(lambda _, one: bool(one.grade), composer.recorded.findings, composer.text, composer.uses)
     return ErrataView(by_grade(found), composer.ledger)

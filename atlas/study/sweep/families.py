@@ -176,20 +176,14 @@ def _at_time(get: Callable[[Any, Any], Any], made: Any, row: Row) -> Any:
     return get(made, row["t"])
 
 
-def _error(made: Any, p: Row) -> Any:
-    from atlas.study.sweep.rotation_errors import error
+def _error(name: str, made: Any, row: Row) -> Any:
+    from atlas.study.sweep import rotation_errors
 
-    return error(made, p)
-
-
-def _plain_error(made: Any, p: Row) -> Any:
-    from atlas.study.sweep.rotation_errors import plain_error
-
-    return plain_error(made, p)
+    return getattr(rotation_errors, name)(made, row)
 
 
 FAR = "phase beyond 2^50"
-BESIDE = {"elementary": {"error": Column(_error, missing=FAR), "plain_error": Column(_plain_error, missing=FAR)}}
+BESIDE = {"elementary": {x: Column(partial(_error, x), missing=FAR) for x in ("error", "plain_error")}}
 """Columns that compare two ways to compute."""
 
 FAMILIES: Mapping[str, Swept] = {

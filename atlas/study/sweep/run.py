@@ -5,7 +5,7 @@ import json
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, Future, wait
+from concurrent.futures import Future, wait
 from contextlib import closing, nullcontext
 from dataclasses import replace
 from functools import cache
@@ -189,8 +189,11 @@ def _made(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -
     if executor is None:
         for span in spans:
             yield make(plan, *span, table)
-            if workers > 1 and spans.long and (own := _pool(workers)):
-                break
+            if workers > 1 and spans.long:
+                from atlas.processes import end_with_parent, pool  # which loads multiprocessing
+
+                if own := pool(workers, end_with_parent):  # if the system lets us have any
+                    break
         else:
             return
     there, engine, waiting = None, cast("Any", executor or own), deque[Future[Made]]()
@@ -209,13 +212,6 @@ def _made(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -
                 yield waiting.popleft().result()
         finally:
             wait([future for future in waiting if not future.cancel()])
-
-
-def _pool(count: int) -> Executor | None:
-    """Return so many processes that end with this one, if the system lets us have any."""
-    from atlas.processes import end_with_parent, pool  # which loads multiprocessing
-
-    return pool(count, end_with_parent)
 
 
 def key(plan: Plan, rows: int | None) -> str:
