@@ -10,6 +10,7 @@ from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain, tex, title
+from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 
 
 def scene(
@@ -25,20 +26,20 @@ def scene(
         raise DomainError("figure ball needs a field, larmor other than 0: without one the momentum stays as it is.")
     ball = BallMotion(inertia, larmor, momentum=momentum)
     size = float(np.hypot(*momentum))
-    radius, fine = 0.62, quadric_panel.tolerance(2.0)
+    radius, fine = 0.62, tolerance(2.0)
     layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, radius, fine, role="ball"),
+        solids.sphere(O, radius, fine, role="ball"),
         *quadric_panel.basis((1.6, 1.75, 2.0)),
-        Arrow(quadric_panel.O, 1.6 * quadric_panel.E3, "field", r"$\mathbf{B}$", offset=(-7.0, 0.0)),
-        Points(quadric_panel.O[None], "origin", r"$O$"),
+        Arrow(O, 1.6 * E3, "field", r"$\mathbf{B}$", offset=(-7.0, 0.0)),
+        Points(O[None], "origin", r"$O$"),
     ]
-    k = quadric_panel.in_plane(*ball.k_hat)
-    layers.append(Arrow(quadric_panel.O, 1.35 * k, "turn", r"$\hat{\mathbf{k}}$"))
+    k = in_plane(*ball.k_hat)
+    layers.append(Arrow(O, 1.35 * k, "turn", r"$\hat{\mathbf{k}}$"))
     if size > 0.0:
         m2, m3 = (1.65 / size * m for m in momentum)
-        layers.append(Arrow(quadric_panel.O, quadric_panel.in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
+        layers.append(Arrow(O, in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
         if m2 != 0.0:
-            layers.append(Curve(solids.circle(m3 * quadric_panel.E3, quadric_panel.E3, abs(m2), fine), "precession"))
+            layers.append(Curve(solids.circle(m3 * E3, E3, abs(m2), fine), "precession"))
             quarter = np.pi / 5.0 * float(np.sign(larmor))
             at = np.array([[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)])
             layers.append(Arrow(at[0], at[1], "precession", r"$\mathbf{m}(t)$"))

@@ -10,8 +10,9 @@ import numpy as np
 from atlas.core.inputs import positive
 from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
 from atlas.scene.captions import listed, plain, tex, title
+from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 from atlas.scene.sample import curve
 from atlas.scene.torus import VIEW, net, on_torus, seen
 
@@ -75,7 +76,7 @@ def scene(
 
 def torus(name: str, ball: BallMotion, larmor: float, stop: float) -> Space:
     """Return the panel of the torus with its net and the line of the motion."""
-    fine = quadric_panel.tolerance(1.5)
+    fine = tolerance(1.5)
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, fine, pieces=pieces)
     behind = "hidden_trace" if larmor * stop < FEW else ""
@@ -84,14 +85,14 @@ def torus(name: str, ball: BallMotion, larmor: float, stop: float) -> Space:
 
 def trace(name: str, ball: BallMotion, larmor: float, stop: float, *, named: bool) -> Space:
     """Return the panel of the ball with the way of R_1, the field and k at t = 0; the start has a name or not."""
-    fine = quadric_panel.tolerance(1.5)
+    fine = tolerance(1.5)
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, fine, pieces=pieces)
     layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, 1.0, fine, role="ball"),
+        solids.sphere(O, 1.0, fine, role="ball"),
         Curve(way, "second_trace" if larmor * stop < FEW else "fine_trace"),
         Points(way[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
-        Arrow(quadric_panel.E3, 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+        Arrow(E3, 1.5 * E3, "field", r"$\mathbf{B}$"),
     ]
-    k = quadric_panel.in_plane(*ball.k_hat)
+    k = in_plane(*ball.k_hat)
     return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$")), 25.0, 20.0, title=name)

@@ -9,10 +9,11 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadric_panel, quadrics, solids
+from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadrics, solids
 from atlas.scene.bodies import proportions, row, solenoid
 from atlas.scene.captions import body_role, tex_vector, title
 from atlas.scene.layers import frame
+from atlas.scene.quadric_panel import E3, in_plane, tolerance
 
 WIDTH, HEIGHT = 178.0, 92.0
 BODIES = (
@@ -69,23 +70,23 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
     """Return the layers of some of the bodies and the part of the scale on which they stand."""
     some = BODIES[first:end]
     start, stop = np.floor(some[0][1]), some[-1][1]
-    fine, reach = quadric_panel.tolerance(STEP * len(some) / 2), REACH * float(np.hypot(*prime))
+    fine, reach = tolerance(STEP * len(some) / 2), REACH * float(np.hypot(*prime))
     places = row(len(some), STEP, azimuth)
     low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
 
     def on_scale(I: float, height: float = 0.0) -> FloatArray:
         part = (I - start) / (stop - start)
-        return np.asarray(low + part * (high - low) + (RULER + height) * quadric_panel.E3)
+        return np.asarray(low + part * (high - low) + (RULER + height) * E3)
 
     layers: list[Layer] = []
     for place, (name, I) in zip(places, some, strict=True):
         layers += body(name, I, place, fine)
-        layers.append(Label(place + NAMES * quadric_panel.E3, name, body_role(I), (0.0, 0.0)))
-        foot = place + (NAMES - 0.3) * quadric_panel.E3
+        layers.append(Label(place + NAMES * E3, name, body_role(I), (0.0, 0.0)))
+        foot = place + (NAMES - 0.3) * E3
         layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
         layers.append(Points(on_scale(I)[None], "point"))
         surfaces = quadrics.pieces(I, prime, reach, fine)
-        shift = place + ABOVE * quadric_panel.E3 + quadric_panel.in_plane(*prime)
+        shift = place + ABOVE * E3 + in_plane(*prime)
         for surface in surfaces:
             layers.append(solids.moved(surface, shift))
             line = quadrics.hyperbola(quadrics.quadric_matrix(I, prime), surface, fine)
@@ -102,7 +103,7 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
 
 def body(name: str, I: float, centre: FloatArray, tolerance: float) -> list[Layer]:
     """Return the layers of an upright body whose farthest point is at the distance 1."""
-    up = quadric_panel.E3
+    up = E3
     if name == "sphere":
         return [solids.sphere(centre, 1.0, tolerance, role="solid")]
     if name == "loop":

@@ -5,9 +5,10 @@ One colour means one thing in the whole atlas; this is the key to all of its fig
 
 import numpy as np
 
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, solids
 from atlas.scene.arrange import stacked
 from atlas.scene.captions import title
+from atlas.scene.quadric_panel import E2, E3, in_plane
 
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
 NARROWEST = 139.0
@@ -59,7 +60,7 @@ def scene() -> Scene:
     for column, (role, name) in enumerate((("surface", "initial data"), ("solid", "the body"))):
         ends = place(column, len(VECTORS))
         half = 0.5 * (ends[1] - ends[0])
-        area = solids.rectangle(ends.mean(axis=0), half, 0.3 * quadric_panel.E3, role=role)
+        area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
         columns[column] += [area, beside(ends[1], name)]
     return Scene(
         title(__doc__),
@@ -78,7 +79,7 @@ def scene() -> Scene:
 
 def place(column: int, row: int) -> np.ndarray:
     """Return both ends (2, 3) of the sample in a column and a row."""
-    return quadric_panel.in_plane(COLUMN * column, -ROW * row) + np.outer([0.0, LENGTH], quadric_panel.E2)
+    return in_plane(COLUMN * column, -ROW * row) + np.outer([0.0, LENGTH], E2)
 
 
 def beside(end: np.ndarray, name: str) -> Label:

@@ -12,11 +12,12 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, solids
 from atlas.scene.arrange import stacked
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
 from atlas.scene.movement import about, riding
+from atlas.scene.quadric_panel import E3, in_plane, tolerance
 
 WIDTH, HEIGHT = 178.0, 50.0
 STEP = 2.3
@@ -42,9 +43,9 @@ def scene(
             f"count = {count}."
         )
     times = np.linspace(0.0, 2 * np.pi / abs(motion.k), count)
-    axis = quadric_panel.in_plane(*field) / np.hypot(*field)
+    axis = in_plane(*field) / np.hypot(*field)
     angle = float(np.arctan2(field[0], field[1]))
-    fine = quadric_panel.tolerance(STEP * count / 2)
+    fine = tolerance(STEP * count / 2)
     cells: list[list[Layer]] = []
     places = row(count, STEP, azimuth)
     for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
@@ -55,7 +56,7 @@ def scene(
                 Curve(ring, "trace"),
                 Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides="" if i else "first"),
                 Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
-                Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$" if i else "start", "note", (0.0, -5.0)),
+                Label(centre - 1.35 * E3, rf"${i}/{count - 1}$" if i else "start", "note", (0.0, -5.0)),
             ]
         )
     return Scene(

@@ -10,10 +10,11 @@ from atlas.core.inputs import FloatArray, number, positive, vector, whole
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space
 from atlas.scene.bodies import proportions, solenoid
 from atlas.scene.captions import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector, title
 from atlas.scene.layers import frame
+from atlas.scene.quadric_panel import E3, in_plane
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 150.0, 200.0
@@ -46,7 +47,7 @@ def scene(
             f"figure flight_poster needs a charge, a field, a solenoid (I < 2) and 2 to 60 attitudes, not mu = {mu:g}, "
             f"field = {field}, I = {I:g}, count = {count}."
         )
-    B = 2 * c / mu * quadric_panel.in_plane(*field)
+    B = 2 * c / mu * in_plane(*field)
     particle = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), vector(velocity, "velocity"), c)
     motion = ElementaryMotion(ratio, field, omega2)
     stop = positive(turns, "turns") * particle.period
@@ -58,7 +59,7 @@ def scene(
     for between in HEADS:  # the sense of the flight
         tail, tip = particle.position(stop / (count - 1) * np.array([between - 0.1, between + 0.1]))
         layers.append(Arrow(tail, tip, "flight_path"))
-    layers.append(Label(centres[0] - size * quadric_panel.E3, "start", "label", (0.0, -6.0)))
+    layers.append(Label(centres[0] - size * E3, "start", "label", (0.0, -6.0)))
     near = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
     for i in np.argsort(centres @ near):  # from the farthest to the nearest, as they cover one another
         centre, R = centres[i], attitudes[i]

@@ -12,8 +12,9 @@ import numpy as np
 from atlas.core.inputs import FloatArray, vector
 from atlas.core.motions.elliptic import EllipticMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, solids
 from atlas.scene.captions import plain, tex, tex_vector, title
+from atlas.scene.quadric_panel import O, tolerance
 
 WIDTH, HEIGHT = 178.0, 76.0
 POINTS = 256
@@ -98,7 +99,7 @@ def sphere(motion: Any, field: Any) -> Space:
     start = vector(field, "field") / np.linalg.norm(field)
     K = motion.field_in_body(motion.period * np.linspace(0.0, 1.0, POINTS + 1))
     line, pole = K / np.linalg.norm(K[0]), K[:-1].mean(axis=0) / np.linalg.norm(K[:-1].mean(axis=0))
-    layers: list[Layer] = [solids.sphere(quadric_panel.O, 1.0, quadric_panel.tolerance(1.4))]
+    layers: list[Layer] = [solids.sphere(O, 1.0, tolerance(1.4))]
     for end in line[:: POINTS // SPOKES]:
         arc = pole + np.linspace(0.0, 1.0, 17)[:, None] * (end - pole)
         layers.append(Curve(arc / np.linalg.norm(arc, axis=1)[:, None], "fine_trajectory"))

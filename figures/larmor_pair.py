@@ -12,8 +12,9 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
 from atlas.scene.captions import plain_setting, spelt, tex, tex_setting, title
+from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve
 
 SIZE = 76.0
@@ -79,10 +80,10 @@ def turned_upright(B2: float, B3: float) -> FloatArray:
 
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
     """Return one sphere with the traces of both motions."""
-    fine = quadric_panel.tolerance(1.4)
+    fine = tolerance(1.4)
     layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, 1.0, fine),
-        Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+        solids.sphere(O, 1.0, fine),
+        Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
     ]
     for path, role in zip(paths, ("trace", "thin_trace"), strict=True):
         points = curve(path, 0.0, time, fine, pieces=48)

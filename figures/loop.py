@@ -7,6 +7,7 @@ from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain_setting, tex_setting, title
+from atlas.scene.quadric_panel import E1, E2, O, in_plane
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
@@ -16,11 +17,11 @@ def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, ele
         raise DomainError(
             f"figure loop takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."
         )
-    touch = quadric_panel.in_plane(-2.0 * B2, -2.0 * B3)
+    touch = in_plane(-2.0 * B2, -2.0 * B3)
     half = 1.25 * float((B2 * B2 + B3 * B3) ** 0.5)
     planes = [
-        solids.rectangle(point, half * quadric_panel.E2, half * quadric_panel.E1, role="tangent_plane", label=name)
-        for point, name in ((quadric_panel.O, r"$\omega_3=0$"), (touch, r"$\omega_3=-2B'_3$"))
+        solids.rectangle(point, half * E2, half * E1, role="tangent_plane", label=name)
+        for point, name in ((O, r"$\omega_3=0$"), (touch, r"$\omega_3=-2B'_3$"))
     ]
     touching = Points(touch[None], "special", r"$-2\mathbf{B}'$")
     layers = [*quadric_panel.quadric_layers(2.0, field), *planes, touching]

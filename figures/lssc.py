@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
 from atlas.scene.bodies import proportions
 from atlas.scene.captions import plain_setting, quotient, tex_setting, title
+from atlas.scene.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 
 SIZE, WINDINGS = 1.5, 7.0
 """How far the farthest point of the body is from its centre, and windings on a piece as high as that."""
@@ -22,39 +23,29 @@ def scene(
     """Show a solenoid with I = I3/I2 = ``ratio`` and the field B with the components ``field`` = (B2, B3)."""
     I = quotient(ratio)
     radius, height = (SIZE * length for length in proportions(I))
-    fine = quadric_panel.tolerance(2.5)
+    fine = tolerance(2.5)
     reach = 0.5 * height
     b = float(np.hypot(*field)) or 1.0
-    tip = quadric_panel.in_plane(*field) * (max(1.75 * SIZE, reach + 1.0) / b)
-    second, third = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
+    tip = in_plane(*field) * (max(1.75 * SIZE, reach + 1.0) / b)
+    second, third = tip[1] * E2, tip[2] * E3
     layers: list[Layer] = []
     if height > 0.0:
-        shell = solids.cylinder(quadric_panel.O, quadric_panel.E3, radius, height, fine, role="body")
+        shell = solids.cylinder(O, E3, radius, height, fine, role="body")
         count = max(2, round(WINDINGS * height))
-        coils = [
-            solids.circle(h * quadric_panel.E3, quadric_panel.E3, radius, fine)
-            for h in np.linspace(-reach, reach, count + 1)[1:-1]
-        ]
+        coils = [solids.circle(h * E3, E3, radius, fine) for h in np.linspace(-reach, reach, count + 1)[1:-1]]
         layers.append(shell)
         layers += [Curve(coil, "coil") for coil in coils]
     else:
-        layers.append(Curve(solids.circle(quadric_panel.O, quadric_panel.E3, radius, fine), "loop"))
+        layers.append(Curve(solids.circle(O, E3, radius, fine), "loop"))
     layers += [
-        Arrow(quadric_panel.O, max(2.0, 1.4 * radius) * quadric_panel.E1, "basis", r"$\mathbf{e}_1$"),
-        Arrow(
-            quadric_panel.O, max(2.0, 1.4 * radius, 1.15 * float(tip[1])) * quadric_panel.E2, "basis", r"$\mathbf{e}_2$"
-        ),
-        Arrow(
-            quadric_panel.O,
-            max(reach + 1.0, 1.15 * float(tip[2])) * quadric_panel.E3,
-            "basis",
-            r"$\mathbf{e}_3=\mathbf{R}_3(0)$",
-        ),
-        Points(quadric_panel.O[None], "origin", r"$O$"),
+        Arrow(O, max(2.0, 1.4 * radius) * E1, "basis", r"$\mathbf{e}_1$"),
+        Arrow(O, max(2.0, 1.4 * radius, 1.15 * float(tip[1])) * E2, "basis", r"$\mathbf{e}_2$"),
+        Arrow(O, max(reach + 1.0, 1.15 * float(tip[2])) * E3, "basis", r"$\mathbf{e}_3=\mathbf{R}_3(0)$"),
+        Points(O[None], "origin", r"$O$"),
     ]
     if any(field):
         layers += [
-            Arrow(quadric_panel.O, tip, "field", r"$\mathbf{B}'$"),
+            Arrow(O, tip, "field", r"$\mathbf{B}'$"),
             Curve(np.stack([tip, second]), "construction"),
             Curve(np.stack([tip, third]), "construction"),
         ]

@@ -8,8 +8,9 @@ import numpy as np
 
 from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 from atlas.scene.sample import curve
 
 LEAN = 0.55
@@ -33,32 +34,26 @@ def scene(
     particle = ParticleMotion(mu, (0.0, *E), (0.0, 0.0, B), (0.0, 0.0, 0.0), (speed, 0.0, 0.0), c)
     rough = particle.position(np.linspace(0.0, turns * particle.period, 200))
     span = float(np.ptp(rough, axis=0).max()) or 1.0
-    fine = quadric_panel.tolerance(0.5 * span)
+    fine = tolerance(0.5 * span)
     path = curve(particle.position, 0.0, turns * particle.period, fine, pieces=max(8, round(8 * turns)))
     reach = 0.55 * span
     strength = float(np.hypot(*E))
     layers: list[Layer] = [
         Curve(path, "trajectory"),
         Points(path[:1], "start"),
-        Arrow(quadric_panel.O, 1.15 * reach * quadric_panel.E1, "basis", r"$x,\ \mathbf{e}_1$"),
-        Arrow(quadric_panel.O, 1.45 * reach * quadric_panel.E2, "basis", r"$y,\ \mathbf{e}_2$"),
-        Arrow(quadric_panel.O, 1.75 * reach * quadric_panel.E3, "basis", r"$z,\ \mathbf{e}_3$"),
-        Arrow(
-            quadric_panel.O,
-            float(np.sign(B)) * 1.3 * reach * quadric_panel.E3,
-            "field",
-            r"$\mathbf{B}$",
-            offset=(7.0, 0.0),
-        ),
+        Arrow(O, 1.15 * reach * E1, "basis", r"$x,\ \mathbf{e}_1$"),
+        Arrow(O, 1.45 * reach * E2, "basis", r"$y,\ \mathbf{e}_2$"),
+        Arrow(O, 1.75 * reach * E3, "basis", r"$z,\ \mathbf{e}_3$"),
+        Arrow(O, float(np.sign(B)) * 1.3 * reach * E3, "field", r"$\mathbf{B}$", offset=(7.0, 0.0)),
     ]
     if strength > 0.0 and all(E):
         steep = abs(E[0]) < 2.0 * abs(E[1])
         drawn = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), E)
-        tip = 1.1 * reach * quadric_panel.in_plane(*(float(part) for part in drawn / np.linalg.norm(drawn)))
-        flat, tall = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
+        tip = 1.1 * reach * in_plane(*(float(part) for part in drawn / np.linalg.norm(drawn)))
+        flat, tall = tip[1] * E2, tip[2] * E3
         layers += [
-            Arrow(quadric_panel.O, tip, "electric", r"$\mathbf{E}$"),
-            Arrow(quadric_panel.O, flat, "component"),
+            Arrow(O, tip, "electric", r"$\mathbf{E}$"),
+            Arrow(O, flat, "component"),
             Arrow(flat, tip, "component"),
             Label(0.62 * flat, r"$\mathbf{E}_{\!\perp}$", offset=(0.0, -5.0)),
             Label(flat + 0.5 * tall, r"$\mathbf{E}_{\!\parallel}$", offset=(5.0, 0.0)),
@@ -66,8 +61,8 @@ def scene(
     elif strength > 0.0:  # along an axis, E is one of its own components
         name = r"$\mathbf{E}=\mathbf{E}_{\!\perp}$" if E[0] else r"$\mathbf{E}=\mathbf{E}_{\!\parallel}$"
         offset = (0.0, -8.0) if E[0] else (-16.0, 0.0)
-        tip = 0.9 * reach * quadric_panel.in_plane(float(np.sign(E[0])), float(np.sign(E[1])))
-        layers.append(Arrow(quadric_panel.O, tip, "electric", name, offset=offset))
+        tip = 0.9 * reach * in_plane(float(np.sign(E[0])), float(np.sign(E[1])))
+        layers.append(Arrow(O, tip, "electric", name, offset=offset))
     drift = r" and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis $x$" if E[0] else ""
     vector = tex_vector((0.0, *E))
     return Scene(

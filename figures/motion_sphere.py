@@ -14,6 +14,7 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain, plain_setting, spelt, tex, tex_setting, title
 from atlas.scene.layers import frame
+from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 from atlas.scene.sample import curve
 
 MANY = 400.0
@@ -34,19 +35,19 @@ def scene(
 ) -> Scene:
     """Show ``turns`` periods of the precession; ``omega3`` is given only where (71) leaves it free."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
-    pole = quadric_panel.in_plane(*field) if any(field) else motion.angular_momentum(0.0)
+    pole = in_plane(*field) if any(field) else motion.angular_momentum(0.0)
     size = float(np.linalg.norm(pole))
-    axis = pole / size if size else quadric_panel.E3
-    fine = quadric_panel.tolerance(1.6)
+    axis = pole / size if size else E3
+    fine = tolerance(1.6)
     angle = float(np.arctan2(np.hypot(axis[0], axis[1]), axis[2]))
     rate = max(abs(motion.k), abs(motion.phi)) or 1.0
     time = turns * 2.0 * np.pi / (abs(motion.k) or rate)
     eye = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
-    layers: Layers = [solids.sphere(quadric_panel.O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
+    layers: Layers = [solids.sphere(O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
     named = ("field", r"$\mathbf{B}$") if any(field) else ("momentum", r"$\mathbf{m}$")
-    layers.append(Arrow(quadric_panel.O, 1.65 * axis, *named))
+    layers.append(Arrow(O, 1.65 * axis, *named))
     if np.sin(angle) > 1e-9 and motion.k:
-        layers.append(solids.cone(quadric_panel.O, axis, angle, 1.0, fine))
+        layers.append(solids.cone(O, axis, angle, 1.0, fine))
         period = 2.0 * np.pi / abs(motion.k)
         layers.append(Curve(curve(motion.third_axis, 0.0, period, fine), "trace"))
         layers += heads(motion.third_axis, period * np.array([0.2, 0.7]), eye, "trace", "")
@@ -58,9 +59,9 @@ def scene(
         layers += heads(lambda t: motion.column(1, t), starts, eye, "second_trace", r"$\mathbf{R}_1(t)$")
     later = 0.42 * 2.0 * np.pi / (abs(motion.k) or rate)
     layers += [
-        Arrow(quadric_panel.O, motion.third_axis(later), "body_axis", r"$\mathbf{R}_3(t)$"),
+        Arrow(O, motion.third_axis(later), "body_axis", r"$\mathbf{R}_3(t)$"),
         Points(np.array([[0.0, 0.0, 1.0]]), "start"),
-        Points(quadric_panel.O[None], "origin"),
+        Points(O[None], "origin"),
     ]
     name = r"\mathbf{B}" if any(field) else r"\mathbf{m}"
     return Scene(

@@ -12,7 +12,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadrics
 from atlas.scene.arrange import lettered, stacked
 from atlas.scene.captions import tex, title
-from atlas.scene.quadric_panel import Member
+from atlas.scene.quadric_panel import Member, tolerance
 
 WIDTH, HEIGHT = 178.0, 134.0
 NARROWEST = 150.0
@@ -52,7 +52,7 @@ def scene(
     members = []
     for number, (quadric, (name, *_)) in enumerate(zip(surfaces, tops, strict=True), 1):
         Q = quadrics.top_matrix(ratio, quadric)
-        sheets = quadrics.sheets(quadric, Q, reach, quadric_panel.tolerance(2 * reach))
+        sheets = quadrics.sheets(quadric, Q, reach, tolerance(2 * reach))
         members.append(Member(sheets, Q, np.asarray(quadric.centre), f"{number} {name}"))
     depth = max(one.centre[2] - grid[..., 2].min() for one in members for sheet in one.surfaces for grid in sheet.grids)
     cells = quadric_panel.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)

@@ -18,6 +18,7 @@ from atlas.scene.bodies import drawn_body
 from atlas.scene.captions import plain_setting, tex_setting, title
 from atlas.scene.hyperbola_plane import places
 from atlas.scene.layers import frame
+from atlas.scene.quadric_panel import in_plane, tolerance
 
 WIDTH, HEIGHT = 120.0, 118.0
 BANDS = 5
@@ -47,7 +48,7 @@ def scene(
         axis = np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)]
         inside = np.abs((points - quadric.centre) @ axis) <= REACH * b
         layers += line(points[inside], np.asarray(hyperbola.stability(omega2))[inside] > 0)
-    for sheet in quadrics.pieces(ratio, field, REACH * b, quadric_panel.tolerance(REACH * b)):
+    for sheet in quadrics.pieces(ratio, field, REACH * b, tolerance(REACH * b)):
         layers += [Curve(rim, "rim") for rim in sheet.rims]
     layers += bodies(ratio, field, b)
     view = frame(Space((), azimuth, elevation))
@@ -151,11 +152,11 @@ def bodies(ratio: float, field: tuple[float, float], b: float) -> list[Layer]:
     Q = quadrics.quadric_matrix(ratio, field)
     layers: list[Layer] = []
     for place in places(ratio, field):
-        point = quadric_panel.in_plane(*place.at)
+        point = in_plane(*place.at)
         normal = Q[:3, :3] @ point + Q[:3, 3]
         centre = point + OFF * b * normal / np.linalg.norm(normal)
         layers += [Points(point[None], place.role, place.text), Curve(np.stack([point, centre]), "guide")]
-        layers += drawn_body(ratio, np.eye(3), centre, BODY * b, quadric_panel.tolerance(REACH * b))
+        layers += drawn_body(ratio, np.eye(3), centre, BODY * b, tolerance(REACH * b))
         if point.any():
             layers.append(Arrow(centre, centre + SPIN * b * point / np.linalg.norm(point), "velocity"))
     return layers

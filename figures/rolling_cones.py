@@ -14,10 +14,11 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.layers import frame
 from atlas.scene.movement import about, riding
+from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 
 
 def scene(
@@ -36,7 +37,7 @@ def scene(
             f"field = {field}, omega2 = {omega2}."
         )
     free = motion.beside
-    axis = quadric_panel.in_plane(*field) / np.hypot(*field)
+    axis = in_plane(*field) / np.hypot(*field)
     both = {"(a) in the field": motion, "(b) free": free}
     panels = tuple(cones(name, one, axis, (azimuth, elevation)) for name, one in both.items())
     return Scene(
@@ -66,7 +67,7 @@ def scene(
 
 def rolled(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how the body turns, and its cone with it."""
-    return about(quadric_panel.O, motion.rotation(t))
+    return about(O, motion.rotation(t))
 
 
 def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -75,20 +76,20 @@ def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatAr
     back = np.zeros((len(t), 3, 3))
     back[:, 0, 0], back[:, 1, 1], back[:, 2, 2] = np.cos(spin), np.cos(spin), 1.0
     back[:, 0, 1], back[:, 1, 0] = np.sin(spin), -np.sin(spin)
-    return about(quadric_panel.O, motion.rotation(t) @ back)
+    return about(O, motion.rotation(t) @ back)
 
 
 def angles(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> tuple[float, float]:
     """Return the half-angles of the space cone and of the body cone, in radians: of omega to the field and to R_3."""
     omega = np.asarray(motion.angular_velocity(0.0))
-    space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, quadric_panel.E3))
+    space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, E3))
     return space, body
 
 
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
     """Say how the body cone lies to the space cone: both stand on the side of their axes that is nearer to omega."""
     omega = np.asarray(motion.angular_velocity(0.0))
-    body, space = (np.copysign(1.0, n @ omega) * n for n in (quadric_panel.E3, axis))
+    body, space = (np.copysign(1.0, n @ omega) * n for n in (E3, axis))
     if np.cross(omega, body) @ np.cross(omega, space) < 0:
         return "rolls on the outside of the space cone"
     wider = np.linalg.norm(np.cross(omega, body)) > np.linalg.norm(np.cross(omega, space))
@@ -120,21 +121,21 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
 
     The angular momentum of a free body is on the side of its angular velocity: (m, omega) is twice the energy.
     """
-    fine = quadric_panel.tolerance(1.8)
+    fine = tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))
     omega /= np.linalg.norm(omega)
     layers: list[Layer] = []
     sides = (
         (axis, angles(motion, axis)[0], "cone", "space"),
-        (quadric_panel.E3, angles(motion, axis)[1], "body", "body"),
+        (E3, angles(motion, axis)[1], "body", "body"),
     )
     for line, angle, part, word in sides:
         towards = line * np.copysign(1.0, line @ omega)
-        cone = solids.cone(quadric_panel.O, towards, angle, 1.0, fine)
+        cone = solids.cone(O, towards, angle, 1.0, fine)
         at, offset = beside(cone.rims[0], omega, view, narrow=angle == min(one[1] for one in sides))
         found: list[Layer] = [
             replace(cone, role=part),
-            Curve(np.stack([quadric_panel.O, 1.12 * np.cos(angle) * towards]), "construction"),
+            Curve(np.stack([O, 1.12 * np.cos(angle) * towards]), "construction"),
             Label(at, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset),
         ]
         layers += riding(found, f"body {name}") if part == "body" else found
@@ -142,15 +143,9 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
     role, letter = ("momentum", r"$\mathbf{m}$") if free else ("field", r"$\mathbf{B}$")
     along = axis * (np.sign(axis @ omega) if free else 1.0)  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis
     layers += [
-        Arrow(quadric_panel.O, reach(along, omega) * along, role, letter),
-        Arrow(
-            quadric_panel.O,
-            reach(quadric_panel.E3, omega) * quadric_panel.E3,
-            "body_axis",
-            r"$\mathbf{R}_3$",
-            rides=f"body {name}",
-        ),
-        Arrow(quadric_panel.O, 1.35 * omega, "velocity", r"$\boldsymbol{\omega}$", rides=f"line {name}"),
-        Points(quadric_panel.O[None], "origin"),
+        Arrow(O, reach(along, omega) * along, role, letter),
+        Arrow(O, reach(E3, omega) * E3, "body_axis", r"$\mathbf{R}_3$", rides=f"body {name}"),
+        Arrow(O, 1.35 * omega, "velocity", r"$\boldsymbol{\omega}$", rides=f"line {name}"),
+        Points(O[None], "origin"),
     ]
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=name)

@@ -13,8 +13,9 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
-from atlas.scene import Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Curve, Layer, Points, Scene, Space, solids
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.sample import curve
 
 SIZE = 44.0
@@ -71,7 +72,7 @@ def golden(ratio: Any, field: tuple[float, float]) -> float:
 
 def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
     """Return one sphere with the trace of a point over ``turns`` turns of the precession, seen along the field."""
-    fine = quadric_panel.tolerance(1.6)
+    fine = tolerance(1.6)
     period = 2 * np.pi / abs(motion.k)
 
     def point(t: FloatArray) -> FloatArray:
@@ -80,7 +81,7 @@ def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns
     pieces = max(16, int(16 * turns))
     trace = curve(point, 0.0, turns * period, fine, pieces=pieces)
     layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, 1.0, fine),
+        solids.sphere(O, 1.0, fine),
         Curve(curve(motion.third_axis, 0.0, period, fine), "body_axis"),
         Curve(trace, "trajectory" if turns <= DENSE else "fine_trajectory"),
         Points(trace[:1], "start"),

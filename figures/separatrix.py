@@ -13,8 +13,9 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.general import GeneralMotion
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, solids
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
+from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve, flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
@@ -86,17 +87,17 @@ def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[Ge
 
 def sphere(motion: GeneralMotion, field: tuple[float, float], last: float, view: tuple[float, float]) -> Space:
     """Panel (a): the trace of the axis on the sphere, with the field upright."""
-    fine = quadric_panel.tolerance(1.4)
+    fine = tolerance(1.4)
 
     def axis(t: FloatArray) -> FloatArray:
         return axis_trace.turned(motion.third_axis(t), motion.field)
 
     trace, r = curve(axis, -last, last, fine, pieces=64), field[1] / float(np.hypot(*field))
-    ring = solids.circle(r * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(1.0 - r * r)), fine)
+    ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), fine)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
     layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, 1.0, fine),
-        Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+        solids.sphere(O, 1.0, fine),
+        Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
         Curve(ring, "reference"),
         Label(ring[int(np.argmax(ring @ aside))], "precession", "reference", (6.0, 0.0)),
         Curve(trace, "trace"),

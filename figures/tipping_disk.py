@@ -17,11 +17,12 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadric_panel
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.arrange import lettered, stacked
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, quotient, tex, title
 from atlas.scene.movement import about, along, riding
+from atlas.scene.quadric_panel import E3, tolerance
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
@@ -113,15 +114,15 @@ def moments(motion: GeneralMotion, count: int) -> FloatArray:
 
 def strip(motion: GeneralMotion, I: float, times: FloatArray, azimuth: float) -> list[list[Layer]]:
     """Return the layers of the body at each of these times, side by side as seen from there."""
-    fine = quadric_panel.tolerance(STEP * len(times) / 2)
+    fine = tolerance(STEP * len(times) / 2)
     cells: list[list[Layer]] = []
     for i, (centre, R) in enumerate(zip(row(len(times), STEP, azimuth), motion.rotation(times), strict=True)):
         cells.append(
             [
                 *riding([*drawn_body(I, R, centre, 1.0, fine)], f"body {i}"),
                 Arrow(centre, centre + 1.15 * R[:, 2], "body_axis", rides=f"body {i}"),
-                Arrow(centre, centre + 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
-                Label(centre - 1.15 * quadric_panel.E3, f"{i + 1}", "note", (0.0, -4.0)),
+                Arrow(centre, centre + 1.5 * E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
+                Label(centre - 1.15 * E3, f"{i + 1}", "note", (0.0, -4.0)),
             ]
         )
     return cells

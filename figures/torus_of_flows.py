@@ -9,8 +9,9 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray, vector
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, solids
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.torus import VIEW, net, on_torus, seen
 from atlas.study.flows import flow
 
@@ -98,9 +99,9 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
 def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     """Return the sphere of K with the same lines."""
     b = float(np.linalg.norm(orbit[0]))
-    fine = quadric_panel.tolerance(1.4)
+    fine = tolerance(1.4)
     layers = [
-        solids.sphere(quadric_panel.O, 1.0, fine),
+        solids.sphere(O, 1.0, fine),
         Curve(orbit / b, "fine_trajectory"),
         Curve(out / b, "trajectory"),
         Curve(back / b, "turn"),

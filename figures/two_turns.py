@@ -11,10 +11,11 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, solids
 from atlas.scene.arrange import stacked
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
+from atlas.scene.quadric_panel import E1, E3, in_plane, tolerance
 
 STEP = 3.0
 REACH = 1.55
@@ -41,8 +42,8 @@ def scene(
     R = motion.rotation(t)
     C, S = np.cos(proper), np.sin(proper)
     about_axis = np.array([[C, -S, 0.0], [S, C, 0.0], [0.0, 0.0, 1.0]])
-    axis = quadric_panel.in_plane(*field) / np.hypot(*field)
-    fine = quadric_panel.tolerance(1.5 * STEP)
+    axis = in_plane(*field) / np.hypot(*field)
+    fine = tolerance(1.5 * STEP)
     steps = ((np.eye(3), r"(a) $1$"), (about_axis, r"(b) $R_z(\phi t)$"), (R, r"(c) $R_\mathbf{B}(kt)\,R_z(\phi t)$"))
     cells: list[list[Layer]] = []
     for i, (centre, (attitude, name)) in enumerate(zip(row(3, STEP, azimuth), steps, strict=True)):
@@ -50,23 +51,14 @@ def scene(
             *drawn_body(quotient(ratio), attitude, centre, 1.0, fine),
             Arrow(centre, centre + REACH * attitude[:, 2], "body_axis", r"$\mathbf{R}_3$"),
             Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$"),
-            Label(centre - 1.6 * quadric_panel.E3, name, "label", (0.0, -6.0)),
+            Label(centre - 1.6 * E3, name, "label", (0.0, -6.0)),
         ]
         if i == 1:
-            layers += sweep(
-                centre + 1.25 * quadric_panel.E3, quadric_panel.E3, 0.45 * quadric_panel.E1, proper, r"$\phi t$", fine
-            )
+            layers += sweep(centre + 1.25 * E3, E3, 0.45 * E1, proper, r"$\phi t$", fine)
         if i == 2:
-            layers.append(Curve(np.stack([centre, centre + REACH * quadric_panel.E3]), "construction"))
-            along = float(quadric_panel.E3 @ axis)
-            layers += sweep(
-                centre + REACH * along * axis,
-                axis,
-                REACH * (quadric_panel.E3 - along * axis),
-                precession,
-                r"$kt$",
-                fine,
-            )
+            layers.append(Curve(np.stack([centre, centre + REACH * E3]), "construction"))
+            along = float(E3 @ axis)
+            layers += sweep(centre + REACH * along * axis, axis, REACH * (E3 - along * axis), precession, r"$kt$", fine)
         cells.append(layers)
     return Scene(
         title=title(__doc__),

@@ -9,10 +9,11 @@ import numpy as np
 
 from atlas.core.inputs import positive
 from atlas.errors import AtlasError
-from atlas.scene import axis_trace, quadric_panel
+from atlas.scene import axis_trace
 from atlas.scene.bodies import body_of
 from atlas.scene.captions import plain, quotient, spelt, tex
 from atlas.scene.layers import Arrow, Curve, Label, Layer, Plane, Scene, Space
+from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.sample import MOST as MANY
 from atlas.scene.sample import curve, quarter_pixel
 
@@ -59,7 +60,7 @@ def course(
 SIZE, SQUARE = (124.0, 66.0), (90.0, 90.0)
 MOST, FEW = 60.0, 12.0
 """Turns of the body, about any axis, for which its axis is followed at most, and for which Omega(t) is drawn."""
-_FINE = quadric_panel.tolerance(3.0)
+_FINE = tolerance(3.0)
 _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
 """Lengths of the axis and of what stands upright, pieces of a trace at first, and a period that is taken for none."""
 
@@ -144,7 +145,7 @@ def at(motion: Any, t: float, length: float) -> Scene:
     R, upright = np.asarray(motion.rotation(t)), Upright.of(motion)
     layers: list[Layer] = [
         *body_of(motion, R, _FINE),
-        Arrow(quadric_panel.O, _AXIS * R[:, 2], "body_axis", r"$\mathbf{R}_3$"),
+        Arrow(O, _AXIS * R[:, 2], "body_axis", r"$\mathbf{R}_3$"),
     ]
     begin = max(0.0, t - length)
     if t > begin:
@@ -152,7 +153,7 @@ def at(motion: Any, t: float, length: float) -> Scene:
     if upright.role:
         along = np.array(upright.vector) / np.abs(upright.vector).max()
         along /= np.linalg.norm(along)
-        layers.append(Arrow(quadric_panel.O, _UP * along, upright.role, f"${upright.letter}$"))
+        layers.append(Arrow(O, _UP * along, upright.role, f"${upright.letter}$"))
     layers.append(Label(_UP * np.concatenate([np.eye(3), -np.eye(3)]), ""))  # as far as it reaches at any time
     what = {"momentum": "angular momentum", "": ""}.get(upright.role, "field")
     beside = f", and the direction of the {what}" if what else ""

@@ -5,8 +5,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.scene import quadric_panel, solids
+from atlas.scene import solids
 from atlas.scene.layers import Arrow, Curve, Layer, Points, Space
+from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve
 
 
@@ -26,7 +27,7 @@ def sphere(
     `upright` has its components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
     to `length` in so many pieces at first.
     """
-    fine = quadric_panel.tolerance(1.4)
+    fine = tolerance(1.4)
     trace = curve(lambda t: turned(third_axis(t), upright), 0.0, length, fine, pieces=pieces)
     return drawn(name, trace, label=label, elevation=elevation, role=role)
 
@@ -40,18 +41,12 @@ def drawn(
     name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float, role: str = "field"
 ) -> Space:
     """Return the sphere with a trace (N, 3) that is turned already."""
-    fine = quadric_panel.tolerance(1.4)
+    fine = tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, 1.0, fine),
-        Arrow(quadric_panel.O, 1.45 * quadric_panel.E3, role, label),
-        *(
-            Curve(
-                solids.circle(z * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(max(0.0, 1 - z * z))), fine),
-                "reference",
-            )
-            for z in height
-        ),
+        solids.sphere(O, 1.0, fine),
+        Arrow(O, 1.45 * E3, role, label),
+        *(Curve(solids.circle(z * E3, E3, float(np.sqrt(max(0.0, 1 - z * z))), fine), "reference") for z in height),
         Curve(trace, "trace"),
         Points(trace[:1], "start"),
     ]
