@@ -13,7 +13,7 @@ from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, solids
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.torus import VIEW, net, on_torus, seen
-from atlas.study.flows import flow
+from atlas.study.simulate import flow
 
 WIDTH, HEIGHT = 178.0, 80.0
 FINE = 150

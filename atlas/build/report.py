@@ -20,7 +20,7 @@ from atlas.build.publish import publish
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder
-from atlas.report.find import find, related_to
+from atlas.report.toml import find, related_to
 from atlas.sources import DISTURBED, PACKAGE, Sources, digest
 
 if TYPE_CHECKING:

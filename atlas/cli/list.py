@@ -33,11 +33,11 @@ def command(which: str | None, as_json: bool) -> int:
     says what it takes. A figure that is too wide for a journal's column says how much it needs. A recipe or a report
     that cannot be read does not hide the others; then the exit status is 1.
     """
-    from atlas.report import find
+    from atlas.report import toml
     from atlas.scene import recipes
 
     figures, broken = titles(recipes.names(), recipes.title)
-    reports, also = titles(find.names(), report_title)
+    reports, also = titles(toml.names(), report_title)
     known = {name: recipe for name in figures if (recipe := _loaded(name, broken))}
     record: dict[str, Any] = {
         "figures": figures,
@@ -123,9 +123,8 @@ def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str
 def report_title(name: str) -> str:
     """Return the title of a report in reports/."""
     from atlas.report import toml
-    from atlas.report.find import find
 
     try:
-        return str(toml.loads(find(name).read_text(encoding="utf-8")).get("title", ""))
+        return str(toml.loads(toml.find(name).read_text(encoding="utf-8")).get("title", ""))
     except ValueError as error:  # not TOML, or not UTF-8
         raise AtlasError(f"reports/{name}.toml is not TOML: {error}") from error

@@ -13,8 +13,8 @@ from atlas.report.blocks import Block
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.table import Listing, Recorded, Table
 from atlas.report.definition import Report
-from atlas.report.find import names
 from atlas.report.schema import SchemaError, convert
+from atlas.report.toml import names
 
 
 def load(path: Path) -> Report:

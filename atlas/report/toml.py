@@ -1,9 +1,13 @@
-"""TOML as Python reads it, but for values that stand too deeply in one another, which are a mistake; and as written."""
+"""Report files, which are TOML: where they are, their values as Python has them, and values as they are written."""
 
 import json
 import tomllib
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
+
+from atlas.errors import AtlasError, unknown
+from atlas.places import folder
 
 
 def loads(text: str) -> dict[str, Any]:
@@ -46,3 +50,30 @@ def written(value: Any) -> str:
     if isinstance(value, str):
         return f"'''\n{value}\n'''" if "\n" in value and "'''" not in value else json.dumps(value, ensure_ascii=False)
     return repr(int(value) if isinstance(value, int) else float(value))
+
+
+def names() -> list[str]:
+    """List the reports of the folder ``reports/``."""
+    return sorted(path.stem for path in folder("reports").glob("*.toml"))
+
+
+def related_to(file: Path) -> list[str]:
+    """Return the names of the reports that stand beside that of a file; none where the file can't be read."""
+    try:
+        related = loads(file.read_text(encoding="utf-8-sig")).get("related", {})
+    except ValueError:
+        return []
+    known = names()
+    return [name for name in related if name in known] if isinstance(related, dict) else []
+
+
+def find(name: str) -> Path:
+    """Return the file of a report, given its name or its path."""
+    path = Path(name) if name.endswith(".toml") else folder("reports") / f"{name}.toml"
+    if path.is_file():
+        return path
+    if name.endswith(".toml"):
+        raise AtlasError(f"There is no report file {name}.")
+    if Path(name).is_file():
+        raise AtlasError(f"{name} is no report: a report is a .toml file.")
+    raise unknown("report", name, names())

@@ -19,7 +19,7 @@ from atlas.exact.motions.elliptic import EllipticMotion as ExactElliptic
 from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import workprec
 from atlas.scene import Curve, Points, Region, recipes
-from atlas.study.flows import flow
+from atlas.study.simulate import flow
 
 EPS = float(np.finfo(float).eps)
 BODY = np.array([0.5, 1.0, 1.4])

@@ -10,9 +10,9 @@ from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report import bibliography
-from atlas.report.find import find, names
 from atlas.report.load import load
 from atlas.report.texts import citations
+from atlas.report.toml import find, names
 
 WORKS = """
 @article{klein1897, author={Klein, Felix}, title={Über den Kreisel}, journal={Annalen}, year={1897}, langid={german}}

@@ -7,8 +7,8 @@ import pytest
 
 from atlas.paper import EQUATIONS
 from atlas.report.blocks.equation import Equation
-from atlas.report.find import find
 from atlas.report.load import load
+from atlas.report.toml import find
 
 REPORT = load(find("atlas"))
 BLOCKS = [block for page in REPORT.pages if page.slug != "letters" for block in page.blocks]

@@ -10,9 +10,9 @@ from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report import bibliography
 from atlas.report.compose import compose
-from atlas.report.find import find, names
 from atlas.report.load import load
 from atlas.report.pictures import pictures
+from atlas.report.toml import find, names
 from atlas.scene import recipes
 
 HEAD = 'name = "a"\ntitle = "A"\n'

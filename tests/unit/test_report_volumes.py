@@ -9,10 +9,10 @@ from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
 from atlas.report.compose import compose
 from atlas.report.document import THEOREMS, Document
-from atlas.report.find import find, related_to
 from atlas.report.load import load
 from atlas.report.pictures import pictures
 from atlas.report.texts import Link, citations
+from atlas.report.toml import find, related_to
 
 VOLUMES = ("atlas", "trial")
 

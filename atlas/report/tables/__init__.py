@@ -4,13 +4,12 @@ from collections.abc import Mapping
 
 from atlas.errors import unknown
 from atlas.report.tables.bodies import charges, coats, diamagnetism, radiation, sizes, swings
-from atlas.report.tables.body_and_field import body_and_field
 from atlas.report.tables.closed import closed, companions
 from atlas.report.tables.elementary import motion, points, quadric, samples, sheet
 from atlas.report.tables.families import blocks, layers, quantities, report_keys, roles, targets
 from atlas.report.tables.laboratory import beyond_larmor, inferred, levitated, lines
 from atlas.report.tables.particle import ball, flight, particle
-from atlas.report.tables.properties import properties
+from atlas.report.tables.properties import body_and_field, properties
 from atlas.report.tables.table import Data, Maker, Request
 from atlas.report.tables.tops import asymmetric, elliptic, monodromy, periods, tops
 
