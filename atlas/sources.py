@@ -97,7 +97,7 @@ def _read(path: Path, content: bytes) -> dict[str, Any]:
     tree = _tree(content) if path.suffix == ".py" else None
     if tree is None:
         return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}
-    said, imports = _said(tree)
+    said, imports = _facts_of(tree)
     return {"digest": hashlib.sha256(said.encode()).hexdigest(), "imports": sorted(imports)}
 
 
@@ -118,7 +118,7 @@ def _tree(content: bytes) -> ast.AST | None:
         return None
 
 
-def _said(tree: ast.AST) -> tuple[str, set[str]]:
+def _facts_of(tree: ast.AST) -> tuple[str, set[str]]:
     """Return all that a syntax tree says but for places, and the dotted names of ours that it imports anywhere.
 
     Each node is a line with its kind, then what is in it; `ast.dump` and `ast.walk` do that in twice the time.

@@ -82,7 +82,7 @@ def build_report(
     sources = Sources(cache)
     try:
         key = key_of(file, sources, style) if cache.load(_noted(file.stem, out)) else None
-        found = None if key is None else _found(file.stem, out, formats, cache, key)
+        found = None if key is None else _unchanged(file.stem, out, formats, cache, key)
         return found or _build(file, out, formats, style, jobs, cache, sources, key, progress)
     except OSError as error:
         where = f": {error.filename}" if error.filename else ""
@@ -105,7 +105,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     return digest(found, sources.named(style), sys.version_info[:2], versions(), gl.library())
 
 
-def _found(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
+def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
     """Return the report that is there, if it was made from the same and its files are as they were written."""
     last = cache.load(_noted(name, out))
     for one in formats:

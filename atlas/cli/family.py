@@ -92,7 +92,9 @@ charge_options = stack(
 
 def command(name: str) -> click.Command:
     """Make the command of this name."""
-    made = {key: _made(one, one.command) for key, one in FAMILIES.items() if one.command and one.command.name == name}
+    made = {
+        key: _command_of(one, one.command) for key, one in FAMILIES.items() if one.command and one.command.name == name
+    }
     return next(iter(made.values())) if len(made) == 1 else AnyMotion(name, made)
 
 
@@ -140,7 +142,7 @@ def family_of(args: Sequence[str]) -> str:
     return "asymmetric" if oblique or given & {"--tensor", "--attitude"} else "general"
 
 
-def _made(family: Family, described: Described) -> click.Command:
+def _command_of(family: Family, described: Described) -> click.Command:
     """Make the command of a family: its options, and what it does with them."""
     has_lines = any(s.matrix for s in family.sampled)
     decorators = [
@@ -156,9 +158,9 @@ def _made(family: Family, described: Described) -> click.Command:
 
         def floats() -> dict[str, Any]:
             made = family.kernels()(*values_of(family, options, exact=False))
-            columns = {s.name: along(s.at(made), times) for s in sampled}
+            columns = {s.name: along(s.method_of(made), times) for s in sampled}
             lines = _spectrum(made, options)
-            return named | _found(family, made, times, columns, exact=False) | _recorded(lines)
+            return named | _quantities(family, made, times, columns, exact=False) | _recorded(lines)
 
         @cache
         def near() -> list[Any]:
@@ -177,7 +179,7 @@ def _made(family: Family, described: Described) -> click.Command:
             if options["as_json"] and "R" in found:
                 found["q"] = [_quaternion(R, q) for R, q in zip(found["R"], near(), strict=True)]
             columns = {s.name: found[s.name] for s in sampled if s.name in found}
-            return named | _found(family, made, times, columns, exact=True)
+            return named | _quantities(family, made, times, columns, exact=True)
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = _parameters(family, options)
@@ -247,11 +249,11 @@ def _with_sigma(
         made = motion_in_given_axes(given) if family.name == "asymmetric" else None
         of = family if made is None else FAMILIES[made.family]
         made = of.kernels()(*values_of(of, given, exact=False)) if made is None else made
-        columns = {s.name: along(s.at(made), times) for s in sampled if hasattr(made, s.method)}
+        columns = {s.name: along(s.method_of(made), times) for s in sampled if hasattr(made, s.method)}
         found = {"family": of.name} if described.name == "motion" else {}
         if given is not options:  # a proof that is a sentence is said once
             of = replace(of, quantities=tuple(q for q in of.quantities if q.tabled or not q.slow))
-        found |= _found(of, made, times, columns, exact=False)
+        found |= _quantities(of, made, times, columns, exact=False)
         return found | ({"larmor": hypot(*body.chosen_field(given))} if given.get("magnetic") is not None else {})
 
     found = spread(answered, options)
@@ -344,8 +346,11 @@ def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], 
         )
     family = FAMILIES[made.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-    columns = {s.name: along(s.at(made), times) for s in sampled}
-    found, lines = {"family": family.name} | _found(family, made, times, columns, exact=False), _spectrum(made, options)
+    columns = {s.name: along(s.method_of(made), times) for s in sampled}
+    found, lines = (
+        {"family": family.name} | _quantities(family, made, times, columns, exact=False),
+        _spectrum(made, options),
+    )
     if options["as_json"]:
         known = body_of(made.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
@@ -501,7 +506,7 @@ def sample(s: Sampled, made: Any, t: Any, best: Best) -> Any:
     So one time, whose numbers may be too small or which may be too far, never loses the others.
     """
     try:
-        best[s.name, t] = s.at(made)(t)
+        best[s.name, t] = s.method_of(made)(t)
     except NotCertifiedError as reason:
         best.reason = str(reason)
         from atlas.exact.digits import NOT_CERTIFIED
@@ -519,7 +524,7 @@ def _quaternion(R: Any, near: Any) -> Any:
     return [NOT_CERTIFIED] * 4 if near is None or isinstance(R[0][0], str) else quaternion(R, near)
 
 
-def _found(
+def _quantities(
     family: Family, made: Any, times: Sequence[float], columns: Mapping[str, Any], *, exact: bool
 ) -> dict[str, Any]:
     """Return the quantities and samples by name.
@@ -531,7 +536,7 @@ def _found(
         if not q.printed:
             continue
         try:
-            found[q.name] = q.of(made, exact=exact)
+            found[q.name] = q.value(made, exact=exact)
         except DomainError as reason:
             missing[q.name] = str(reason)
             if not q.missing:

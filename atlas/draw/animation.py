@@ -158,7 +158,7 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
     """Return a motion at these times, or over one period, as an animation; `options` are those of `animation`."""
     length = any_motion.period(motion)
     moments = np.linspace(0.0, length, FRAMES, endpoint=False) if times is None else times
-    return animation(lambda k: any_motion.at(motion, float(moments[k]), length), len(moments), **options)
+    return animation(lambda k: any_motion.scene_at(motion, float(moments[k]), length), len(moments), **options)
 
 
 def _split(options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -175,7 +175,7 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
             f"which values. It has {', '.join(recipe.parameters)}."
         )
     moments = np.linspace(0.0, scene.lasts, FRAMES, endpoint=False) if times is None else times
-    return lambda k: movement.at(scene, float(moments[k])), len(moments)
+    return lambda k: movement.scene_at(scene, float(moments[k])), len(moments)
 
 
 def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -> None:

@@ -90,7 +90,7 @@ def to_figure(
     return figure
 
 
-def into(axes: Axes, panel: Panel, style: Any = None) -> None:
+def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
     """Draw a panel into axes of the user's own. Raises AtlasError for what is none, and for three dimensions."""
     if not isinstance(axes, Axes):
         raise AtlasError(f"ax must be axes of Matplotlib, not {reprlib.repr(axes)}.")

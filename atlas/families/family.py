@@ -74,7 +74,7 @@ class Quantity:
     tabled: bool = True
     slow: bool = False
 
-    def of(self, made: Any, *, exact: bool = False) -> Any:
+    def value(self, made: Any, *, exact: bool = False) -> Any:
         """Return it of an object of kernels or, if `exact`, of balls."""
         return ((exact and self.exact) or self.get or attrgetter(self.name))(made)
 
@@ -103,7 +103,7 @@ class Sampled:
     components: tuple[str, ...] = ()
     uncertified: bool = False
 
-    def at(self, made: Any) -> Callable[[Any], Any]:
+    def method_of(self, made: Any) -> Callable[[Any], Any]:
         """Return the function of time."""
         method: Callable[[Any], Any] = getattr(made, self.method)
         return method

@@ -74,7 +74,7 @@ def integrals(letter: str) -> tuple[Quantity, ...]:
     momentum = "II (Omega + K) along the field, over I2" if letter == "M" else "momentum along the field, over I2"
     return tuple(
         Quantity(
-            name, says, unit, equation, get=partial(_kept, key), exact=partial(_constant, key), certified=True,
+            name, says, unit, equation, get=partial(_integral, key), exact=partial(_constant, key), certified=True,
             printed=False,
         )
         for key, name, says, unit, equation in (
@@ -87,7 +87,7 @@ def integrals(letter: str) -> tuple[Quantity, ...]:
     )  # fmt: skip
 
 
-def _kept(key: str, made: Any) -> Any:
+def _integral(key: str, made: Any) -> Any:
     return made.invariants()[key]
 
 

@@ -98,7 +98,7 @@ def _has(balls: Any, q: Quantity) -> bool:
 
 def _certified(q: Quantity, made: Any) -> tuple[str, str]:
     """Return a quantity in proven digits, and how many there are."""
-    text = _joined(q, certified(lambda: q.of(made, exact=True), DIGITS, spare=SPARE))
+    text = _joined(q, certified(lambda: q.value(made, exact=True), DIGITS, spare=SPARE))
     if NOT_CERTIFIED in text or MARK in text:
         return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"
     return text, f"{DIGITS} digits proven" if re.search(r"\d", text) else EXACT
@@ -106,7 +106,7 @@ def _certified(q: Quantity, made: Any) -> tuple[str, str]:
 
 def _double(q: Quantity, made: Any, ulps: float) -> tuple[str, str]:
     """Return a quantity as doubles give it, and what is promised of it."""
-    text = _joined(q, _written(q.of(made)))
+    text = _joined(q, _written(q.value(made)))
     if not re.search(r"\d", text):
         return text, EXACT
     return text, f"double, within {ulps:g} ulp" if ulps else "double, no promise"

@@ -56,7 +56,7 @@ class OfFamily:
 
     def kernels(self, values: Mapping[str, float]) -> Any:
         """Return what the kernels make of it, for picture and numbers, and for the next time t."""
-        return _made(self.family.kernels(), tuple(self.arguments(values).values()))
+        return _instance(self.family.kernels(), tuple(self.arguments(values).values()))
 
     def scene(self, values: Mapping[str, float]) -> Scene:
         """Return the picture: the body at the time t, or the figure."""
@@ -65,7 +65,7 @@ class OfFamily:
             from atlas.scene import any_motion
 
             motion = self.kernels(values)
-            return any_motion.at(motion, values["t"], any_motion.period(motion))
+            return any_motion.scene_at(motion, values["t"], any_motion.period(motion))
         recipe = recipes.load(self.family.figures[0])
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
 
@@ -102,9 +102,9 @@ class OfRecipe:
     @cached_property
     def sliders(self) -> list[Slider]:
         """The sliders of all numbers and lists of numbers that have a default."""
-        return [one for key, default in self.recipe.parameters.items() for one in self._of(key, default)]
+        return [one for key, default in self.recipe.parameters.items() for one in self._slider(key, default)]
 
-    def _of(self, key: str, default: Any) -> Iterator[Slider]:
+    def _slider(self, key: str, default: Any) -> Iterator[Slider]:
         parts = default if isinstance(default, tuple) else (default,)
         if not parts or not all(type(x) in {int, float} for x in parts) or (parts is default and key in CONTOURS):
             return
@@ -122,7 +122,7 @@ class OfRecipe:
         found: dict[str, Any] = {}
         for key, default in self.recipe.parameters.items():
             parts = default if isinstance(default, tuple) else (default,)
-            names = [one.name for one in self._of(key, default)]
+            names = [one.name for one in self._slider(key, default)]
             if names:
                 given = tuple(type(x)(values[name]) for name, x in zip(names, parts, strict=True))
                 found[key] = given if isinstance(default, tuple) else given[0]
@@ -149,7 +149,7 @@ Subject = OfFamily | OfRecipe
 
 
 @lru_cache(maxsize=1)
-def _made(kernels: Any, arguments: tuple[Any, ...]) -> Any:
+def _instance(kernels: Any, arguments: tuple[Any, ...]) -> Any:
     return kernels(*arguments)
 
 

@@ -17,7 +17,7 @@ def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> 
     if motion.shape:
         raise AtlasError(f"A trace is of one {name}, not of several: make one with numbers in place of arrays.")
     quantities = FAMILIES[motion.family].quantities
-    period = next((float(q.of(motion)) for q in quantities if q.name == "period"), 0.0)
+    period = next((float(q.value(motion)) for q in quantities if q.name == "period"), 0.0)
     if stop is None:
         if not isfinite(period) or not period:
             raise AtlasError(f"This {name} has no period: say stop=..., the time up to which its axis is followed.")

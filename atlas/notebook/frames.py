@@ -58,7 +58,9 @@ def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) 
             raise unknown("quantity", name, known, f"at a time of a {type(shown).__name__}")
     wanted = tuple(known if names is None else names)
     found = {
-        s.name: s.at(shown)(t).reshape(t.size, len(s.columns)) for s in swept.family.sampled if {*s.columns} & {*wanted}
+        s.name: s.method_of(shown)(t).reshape(t.size, len(s.columns))
+        for s in swept.family.sampled
+        if {*s.columns} & {*wanted}
     }
     yield "t", t
     for name in wanted:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from atlas.core.motions.flight import Flight
 from atlas.core.shown import Shown
-from atlas.draw.panels import into, to_figure
+from atlas.draw.panels import draw_panel, to_figure
 from atlas.errors import AtlasError, unknown
 from atlas.families import FAMILIES, Family
 from atlas.scene import flight, recipes
@@ -36,7 +36,7 @@ def plot(
         )
     if target is not None:
         raise AtlasError("target is for a whole figure; axes of your own have the size that you gave them.")
-    into(ax, scene.panels[(panel or 1) - 1], style)
+    draw_panel(ax, scene.panels[(panel or 1) - 1], style)
     drawn: Figure = ax.figure
     return drawn
 
@@ -70,11 +70,11 @@ def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Sc
 
 def _flight(shown: Any, parameters: dict[str, Any]) -> Scene:
     """Return the scene of a flight, which is made of a particle and a motion and is no family of the register."""
-    known = signature(flight.of).parameters
+    known = signature(flight.scene_of).parameters
     for key in parameters:
         if key not in known or key == "flight":
             raise unknown("parameter", key, [name for name in known if name != "flight"], "of a picture of a Flight")
-    return flight.of(shown, **parameters)
+    return flight.scene_of(shown, **parameters)
 
 
 def alone(scene: Scene, panel: int) -> Scene:

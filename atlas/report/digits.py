@@ -16,7 +16,7 @@ class Number:
     proven: bool = True
 
     @classmethod
-    def given(cls, value: float) -> "Number":
+    def as_given(cls, value: float) -> "Number":
         """Return an input as it was given."""
         return cls(plain(value))
 

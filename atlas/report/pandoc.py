@@ -134,7 +134,7 @@ def _reason(message: str) -> str:
 PARAGRAPHS = {"Para", "Plain"}
 
 
-def kept(blocks: list[Any]) -> list[Any]:
+def with_leading(blocks: list[Any]) -> list[Any]:
     """Return the blocks of a text, pandoc's, with Typst's `leading` about each paragraph that leads in to something."""
     found: list[Any] = []
     for before, block in zip([None, *blocks], blocks, strict=False):

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from atlas.errors import AtlasError
 from atlas.report import pandoc
-from atlas.report.pandoc import FormulaError, Target, Tree, kept, mend_all
+from atlas.report.pandoc import FormulaError, Target, Tree, mend_all, with_leading
 
 _CITED = re.compile(
     r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\(\d+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
@@ -101,7 +101,7 @@ class Texts:
             self.read()
         trees = [_Checked(text, target, cite).tree(tree) for text, tree in zip(self.texts, self._trees, strict=True)]
         if target == "typst":
-            trees = [tree if text.inline else kept(tree) for text, tree in zip(self.texts, trees, strict=True)]
+            trees = [tree if text.inline else with_leading(tree) for text, tree in zip(self.texts, trees, strict=True)]
         keys = [
             json.dumps([pandoc.release(), target, text.inline, tree])
             for text, tree in zip(self.texts, trees, strict=True)

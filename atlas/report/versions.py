@@ -14,7 +14,7 @@ def versions() -> dict[str, str]:
 def parameters(known: BodiesAndFields) -> list[str]:
     """Return each body and field in a line of Markdown."""
     given: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
-    return [f"{record.title}: {_given(record)}" for record in given]
+    return [f"{record.title}: {_written_out(record)}" for record in given]
 
 
 _UNITS = {
@@ -32,7 +32,7 @@ _UNITS = {
 _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": "(I2, I3)"}
 
 
-def _given(record: Body | Field) -> str:
+def _written_out(record: Body | Field) -> str:
     """Write out what a record was given, with units."""
     units = _UNITS[getattr(record, "system", "SI")]
     parts = []

@@ -140,7 +140,7 @@ def picture(
     )
 
 
-def at(motion: Any, t: float, length: float) -> Scene:
+def scene_at(motion: Any, t: float, length: float) -> Scene:
     """Return a motion at the time t: the body, what its axis has drawn for the `length` of time before, the field."""
     R, upright = np.asarray(motion.rotation(t)), Upright.of(motion)
     layers: list[Layer] = [

@@ -25,7 +25,7 @@ CLEAR = 0.6
 Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
-def of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit: str = "length") -> Scene:
+def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit: str = "length") -> Scene:
     """Return the figure of a flight, over so many turns of its centre of mass or up to `stop`.
 
     Raises AtlasError for several flights at once, DomainError where nothing makes the centre of mass turn.

@@ -7,7 +7,7 @@ import numpy as np
 from atlas.scene.layers import FloatArray, Layer, Scene, moved
 
 
-def at(scene: Scene, t: float) -> Scene:
+def scene_at(scene: Scene, t: float) -> Scene:
     """Return a scene at the time t; at t = 0 it is the scene itself."""
     moves = {name: tuple(part[0] for part in path(np.array([t]))) for name, path in scene.paths.items()}
 

@@ -219,7 +219,7 @@ def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) 
     first = last = 0.0
     for block in trajectory.blocks:
         if errors:
-            found = errors.of(block)
+            found = errors.of_block(block)
             _within(threshold, errors.floor)
             for grade in grades:
                 grade.add(block, found[grade.name])
@@ -228,7 +228,7 @@ def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) 
         drifts.add(block)
         first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
         rows += len(block["t"])
-    if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.found()):
+    if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.drifts()):
         raise AtlasError(
             f"{trajectory.file}: without a certified motion for this inertia tensor the integrals are all there is to "
             "test, and they need R11 to R33 or a quaternion, and Omega1 to Omega3. Three moments of inertia have one, "
@@ -242,7 +242,7 @@ def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) 
         rows=rows,
         threshold=float(threshold),
         columns=tuple(replace(grade.column(), name=trajectory.names[grade.name]) for grade in grades),
-        drifts=drifts.found(),
+        drifts=drifts.drifts(),
         rows_a_point=envelope.rows,
         times=tuple(envelope.times()),
         errors={group: tuple(values) for group, values in envelope.errors().items()},

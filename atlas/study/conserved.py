@@ -53,7 +53,7 @@ class Drifts:
                 worst, at = known.worst, known.worst_time
             self._found[name] = Drift(name, says, label, worst, at, float(size[-1]))
 
-    def found(self) -> tuple[Drift, ...]:
+    def drifts(self) -> tuple[Drift, ...]:
         """Return the drifts: orthogonality, the norm, and the integrals of motion."""
         return tuple(self._found.values())
 

@@ -59,11 +59,11 @@ class Errors:
         self._length = long(unit)
         self.uncertainty, self.floor = truth.uncertainty, truth.floor
 
-    def of(self, block: Block) -> dict[str, FloatArray]:
+    def of_block(self, block: Block) -> dict[str, FloatArray]:
         """Return the errors (m,) of each column of a block."""
         t = block["t"]
         near = self._truth.within(t)
-        R, Omega, q = self._truth.at(np.where(near, t, 0.0))
+        R, Omega, q = self._truth.values(np.where(near, t, 0.0))
         if QUATERNION[0] in block:
             same = sum(block[name] * q[:, i] for i, name in enumerate(QUATERNION))
             q = np.where(np.asarray(same)[:, None] < 0, -q, q)
@@ -91,7 +91,10 @@ class Errors:
         Of a motion in given axes, which has no balls, they are the errors in doubles.
         """
         if self._truth.growth:
-            return {name: float(x[0]) for name, x in self.of({name: x[i : i + 1] for name, x in block.items()}).items()}
+            return {
+                name: float(x[0])
+                for name, x in self.of_block({name: x[i : i + 1] for name, x in block.items()}).items()
+            }
         row = {name: float(values[i]) for name, values in block.items() if name != "t"}
         t, motion, truth = float(block["t"][i]), self._motion, dict[str, Real]()
         with workprec(BITS + 16):
@@ -151,7 +154,7 @@ def inverse_fits(errors: Errors, block: Block, found: Block, limit: float) -> bo
     if not names or not {*taken.values()} <= {*names} or _most(found, names) <= limit:
         return False
     turned = {name: -block[other] if name in QUATERNION[1:] else block[other] for name, other in taken.items()}
-    return _most(errors.of({"t": block["t"]} | turned), names) <= limit
+    return _most(errors.of_block({"t": block["t"]} | turned), names) <= limit
 
 
 def _most(errors: Block, names: Sequence[str]) -> float:

@@ -144,7 +144,7 @@ def _top(known: Given, file: str) -> Reference:
             f"I2 I3, direction, omega and, where they are not zero, coupling, linear, quadratic{_beside(strange)}."
         )
     omega, direction = _needed(known, "omega", file), _needed(known, "direction", file)
-    coupling, linear, quadratic = known.get("coupling", (0.0, 0.0)), *(_one(known.get(x, 0.0)) for x in OF_TOPS[2:])
+    coupling, linear, quadratic = known.get("coupling", (0.0, 0.0)), *(_number(known.get(x, 0.0)) for x in OF_TOPS[2:])
     made = TopMotion(known["inertia"], coupling, direction, omega, linear, quadratic)
     I2 = float(known["inertia"][0])
     rates = np.abs([*omega, *(k / I2 for k in coupling), *(np.sqrt(abs(a) / I2) for a in (linear, quadratic))])
@@ -189,10 +189,10 @@ def _body(known: Given, file: str) -> Any:
     if "inertia" in known:
         I2, I3 = known["inertia"]
         return SymmetricBody(I2, I3)
-    return _one(_needed(known, "ratio", file))
+    return _number(_needed(known, "ratio", file))
 
 
-def _one(value: Any) -> Any:
+def _number(value: Any) -> Any:
     """Return a number that stands alone in its line, or was given."""
     return value[0] if isinstance(value, tuple) else value
 

@@ -59,7 +59,7 @@ class Truth:
         """Tell at which times the truth is good to UNCERTAINTY, shape (m,)."""
         return np.asarray((np.abs(t) <= PHASE * self._phases.reach) & EXTENDED)
 
-    def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
+    def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
         """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by (84), (73)."""
         half, left_out, sign, _ = self._phases.angles(t, room(2, t.size))
         x = half.astype(np.longdouble) + left_out  # half the phase, less whole quarter turns; sign tells their parity
@@ -97,7 +97,7 @@ class KernelTruth:
         """Tell at which times there is a value, shape (m,)."""
         return np.asarray(np.abs(t) <= self._reach)
 
-    def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
+    def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
         """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`."""
         from scipy.spatial.transform import Rotation
 

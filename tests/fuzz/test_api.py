@@ -102,7 +102,7 @@ def families(draw: Any) -> tuple[str, list[Any]]:
 def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
     """All that the register lists of a motion or surface."""
     one, given = FAMILIES[case[0]], case[1]
-    at = {s.name: lambda m, s=s: s.at(m)(t) for s in one.sampled}
+    at = {s.name: lambda m, s=s: s.method_of(m)(t) for s in one.sampled}
     asked(lambda: one.kernels()(*given), {q.name: q.of for q in one.quantities} | at)
 
 

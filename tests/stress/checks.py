@@ -62,12 +62,14 @@ def check(
         exact, found = family.balls()(*(exactly or values)), family.kernels()(*values)
         for q in family.quantities:
             if q.checked:
-                true = enclosed(lambda q=q: list(_flat(q.of(exact, exact=True))), BITS)  # type: ignore[misc]
-                worst.add(q.checked, regime, own(np.ravel(q.of(found)), true), with_more(inputs))
+                true = enclosed(lambda q=q: list(_flat(q.value(exact, exact=True))), BITS)  # type: ignore[misc]
+                worst.add(q.checked, regime, own(np.ravel(q.value(found)), true), with_more(inputs))
         place = where(exact) if where else lambda _: regime
         for s in family.sampled:
-            for t, value in zip(times, s.at(found)(np.array(times)) if s.checked else (), strict=bool(s.checked)):
-                true = truth(partial(s.at(exact), t))
+            for t, value in zip(
+                times, s.method_of(found)(np.array(times)) if s.checked else (), strict=bool(s.checked)
+            ):
+                true = truth(partial(s.method_of(exact), t))
                 if s.matrix:
                     errors = absolute(value.flat, chain(*true))
                 elif unit:

@@ -32,7 +32,7 @@ def test_the_first_body_of_the_film_strip_runs_through_the_others_and_is_back_at
         axes = [one for panel in later for one in panel.layers if getattr(one, "role", "") == "body_axis"]
         assert len(axes) == 8
         for k, axis in enumerate(axes):
-            at = movement.at(scene, scene.lasts * k / 7)
+            at = movement.scene_at(scene, scene.lasts * k / 7)
             moved = [
                 one
                 for panel in (at.panels if later is scene.panels else at.narrow)
@@ -41,7 +41,9 @@ def test_the_first_body_of_the_film_strip_runs_through_the_others_and_is_back_at
             ]
             assert np.allclose(moved[0].tip - moved[0].tail, axis.tip - axis.tail, atol=1e-13)
             assert all(np.array_equal(one.tip, other.tip) for one, other in zip(moved[1:], axes[1:], strict=True))
-    seams = [one for one in movement.at(scene, scene.lasts).panels[0].layers if getattr(one, "role", "") == "seam"]
+    seams = [
+        one for one in movement.scene_at(scene, scene.lasts).panels[0].layers if getattr(one, "role", "") == "seam"
+    ]
     before = [one for one in scene.panels[0].layers if getattr(one, "role", "") == "seam"]
     assert np.allclose(seams[0].grids[0], before[0].grids[0], atol=1e-5)
 
@@ -50,7 +52,7 @@ def test_cones_touch_along_omega_at_every_time() -> None:
     """The arrow of omega lies on the cone of the body and on that of space, and is along R(t) Omega."""
     scene, motion = recipes.load("rolling_cones").scene(), ElementaryMotion(1.5, (1.0, 2.0), -1.4)
     for t in (0.9, 4.0):
-        panel = movement.at(scene, t).panels[0]
+        panel = movement.scene_at(scene, t).panels[0]
         (omega,) = (one.tip for one in panel.layers if getattr(one, "role", "") == "velocity")
         true = motion.rotation(t) @ motion.angular_velocity(t)
         assert np.linalg.norm(np.cross(omega, true)) < 1e-12 * np.linalg.norm(true)
@@ -70,7 +72,7 @@ def test_what_rides_has_a_path_and_starts_where_it_is_drawn(name: str) -> None:
         assert np.abs(R[0] - np.eye(len(s[0]))).max() < 1e-13
         assert np.abs(s[0]).max() < 1e-12
         assert np.abs(R @ R.swapaxes(1, 2) - np.eye(len(s[0]))).max() < 1e-13
-    for surface in layers(movement.at(scene, 0.3 * scene.lasts), Surface):
+    for surface in layers(movement.scene_at(scene, 0.3 * scene.lasts), Surface):
         grid = np.concatenate([np.reshape(one, (-1, 3)) for one in surface.grids])
         full = np.concatenate([grid, np.ones((len(grid), 1))], axis=1)
         assert np.abs(np.einsum("ni,ij,nj->n", full, surface.quadric, full)).max() < 1e-9
@@ -81,7 +83,7 @@ def test_dots_stay_on_their_curves() -> None:
     """At any time the dots of the tipping disk are at the angle of its axis then."""
     scene = recipes.load("tipping_disk").scene()
     motion = atlas.GeneralMotion(2.0, (0.0, 1.0), (1e-3, 0.0, -1.0))
-    dots = [one for one in movement.at(scene, 7.0).panels[-1].layers if isinstance(one, Points)]
+    dots = [one for one in movement.scene_at(scene, 7.0).panels[-1].layers if isinstance(one, Points)]
     for dot in dots:
         ((t, degrees),) = dot.points
         x, y, z = motion.third_axis(t)
@@ -205,11 +207,11 @@ def test_errors_are_one_line_and_leave_nothing(tmp_path: Path, words: str, says:
 def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
-    scene = animation.any_motion.at(motion, 0.8, 1.0)
+    scene = animation.any_motion.scene_at(motion, 0.8, 1.0)
     (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
     assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
     for t, start in ((0.8, 0.5), (0.2, 0.0)):  # the trace of its tip over the time before, not before the start
-        (trace,) = (one.points for one in layers(animation.any_motion.at(motion, t, 0.3), Curve))
+        (trace,) = (one.points for one in layers(animation.any_motion.scene_at(motion, t, 0.3), Curve))
         ends = np.array([motion.third_axis(start), motion.third_axis(t)])
         assert np.allclose(trace[[0, -1]], np.linalg.norm(axis.tip) * ends)
     corners = np.unique(np.round(np.concatenate([one.rims[0] for one in layers(scene, Surface)]), 9), axis=0)

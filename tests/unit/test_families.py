@@ -37,7 +37,7 @@ def flat(value: Any) -> list[Any]:
 
 def numeric(q: Quantity, made: Any) -> bool:
     """Whether a quantity is a number, or several."""
-    value = q.of(made)
+    value = q.value(made)
     return value is not None and not isinstance(value, str)
 
 
@@ -88,14 +88,14 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
         if not (q.certified or q.printed or q.checked):
             continue  # of kernels alone
         if q.name == "agreement":
-            assert q.of(found).startswith("proved for this motion, at all times within ")
-            assert q.of(exact, exact=True) == "every digit is proven"
+            assert q.value(found).startswith("proved for this motion, at all times within ")
+            assert q.value(exact, exact=True) == "every digit is proven"
             continue
         if not numeric(q, found) or q.name == "unstable_band":
-            assert q.of(found) == q.of(exact, exact=True)
+            assert q.value(found) == q.value(exact, exact=True)
             continue
-        true = enclosed(lambda q=q: flat(q.of(exact, exact=True)), 100)  # type: ignore[misc]
-        numbers = np.ravel(np.array(q.of(found), dtype=float)).tolist()
+        true = enclosed(lambda q=q: flat(q.value(exact, exact=True)), 100)  # type: ignore[misc]
+        numbers = np.ravel(np.array(q.value(found), dtype=float)).tolist()
         with ctx.workprec(128):
             assert max(own(numbers, true)) <= one.promises.get(q.checked, 2), q.name
 
@@ -105,9 +105,9 @@ def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None
     """Matrices within their promise in ulps of 1, vectors in ulps of their length; or within sixteen."""
     found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
     for s in (s for s in one.sampled if not s.uncertified):
-        for t, value in zip(TIMES.tolist(), s.at(found)(TIMES), strict=True):
+        for t, value in zip(TIMES.tolist(), s.method_of(found)(TIMES), strict=True):
             with ctx.workprec(192):
-                true = s.at(exact)(t)
+                true = s.method_of(exact)(t)
                 errors = absolute(value.flat, flat(true)) if s.matrix else [of_length(value, true)]
             assert max(errors) <= one.promises.get(s.checked, 16), (s.name, t)
 
@@ -119,7 +119,7 @@ def test_sliders_end_inside_the_domain(one: Family, at: int) -> None:
     made = one.kernels()(*values(one, at=at))
     for q in one.quantities:
         if not q.missing:
-            q.of(made)
+            q.value(made)
 
 
 @EVERY

@@ -10,7 +10,7 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.motions.flight import AGREEMENT, Flight
 from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import AtlasError
-from atlas.scene.flight import of
+from atlas.scene.flight import scene_of
 
 EPS = float(np.finfo(float).eps)
 FIELD = Field([0.3, -0.5, 1.1], [0.2, 0.1, -0.3], mu=-1.3, c=0.8)
@@ -147,11 +147,11 @@ def test_a_picture_is_of_one_flight() -> None:
     motion, motions = (ElementaryMotion(ratio, FRAME.field, 0.7) for ratio in (1.5, [1.5, 1.2]))
     particles = ParticleMotion.in_field(FIELD, [[1.0, 2.0, 3.0], [0.0, 0.0, 0.0]], [0.1, -0.4, 0.2])
     point = [0.3, -0.1, 0.7]
-    assert of(Flight(PARTICLE, motion, point, FRAME)).panels
+    assert scene_of(Flight(PARTICLE, motion, point, FRAME)).panels
     for several in (
         Flight(PARTICLE, motion, [point, point], FRAME),
         Flight(PARTICLE, motions, point, FRAME),
         Flight(particles, motion, point, FRAME),
     ):
         with pytest.raises(AtlasError, match="of one Flight"):
-            of(several)
+            scene_of(several)

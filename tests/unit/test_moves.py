@@ -42,7 +42,7 @@ def test_the_script_carries_a_scene_as_the_paths_do(name: str) -> None:
     done = subprocess.run(
         [str(node), "-e", PROGRAM, str(SCRIPT)], input=given, capture_output=True, text=True, check=True
     )
-    later, held = movement.at(scene, u * scene.lasts), data["wide"]["spaces"]
+    later, held = movement.scene_at(scene, u * scene.lasts), data["wide"]["spaces"]
     for panel, (frame, riders), found in zip(later.panels, held, json.loads(done.stdout), strict=False):
         compare(viewed(panel, frame), riders, found)
 

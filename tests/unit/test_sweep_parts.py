@@ -85,7 +85,7 @@ def test_any_rows_are_those_of_the_table() -> None:
         plan = Plan.of("elementary", given, ["k"], listed=listed)
         table = plan.rows()
         for start, stop in [(0, 154), (0, 1), (153, 154), (21, 23), (22, 44), (5, 90), (11, 12), (100, 120)]:
-            for name, column in plan.part(start, stop).rows(0, stop - start).items():
+            for name, column in plan.list_of(start, stop).rows(0, stop - start).items():
                 assert np.array_equal(column, table[name][start:stop])
 
 

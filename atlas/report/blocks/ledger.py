@@ -114,11 +114,11 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
         false=keep(f"“{found.false}.”", inline=True) if found.false else None,
         script=found.script,
-        said=words("; ".join(_said(*pair) for pair in found.said.items())),
+        said=words("; ".join(_reading(*pair) for pair in found.said.items())),
     )
 
 
-def _said(phrase: str, line: str) -> str:
+def _reading(phrase: str, line: str) -> str:
     return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is assumed"
 
 

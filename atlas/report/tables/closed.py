@@ -120,7 +120,7 @@ def companions(request: Request) -> Data:
     asked = request.take(CompanionParameters)
     found = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
     columns = [column(values, request.digits) for values in zip(*found, strict=True)]
-    given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.given(omega2)) for B2, B3, omega2 in asked.motions]
+    given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in asked.motions]
     return Data(
         (
             Column(r"$\mathbf{B}'$", RATE),

@@ -117,7 +117,7 @@ def points(request: Request) -> Data:
     )
     columns = [column(one, request.digits) for one in zip(*values, strict=True)]
     columns[0] = column(
-        [Number.given(float(x)) if Fraction(float(x)) == x else _exact(x) for x in order], request.digits
+        [Number.as_given(float(x)) if Fraction(float(x)) == x else _exact(x) for x in order], request.digits
     )
     rows = tuple(
         (
@@ -218,7 +218,7 @@ def samples(request: Request) -> Data:
             *(Column(rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)),
             *(Column(rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3)),
         ),
-        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
         r"@(73), and the body's axis in the laboratory, the third column of @(84).",
     )

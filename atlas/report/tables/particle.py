@@ -43,7 +43,7 @@ def particle(request: Request) -> Data:
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
     return Data(
         (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
-        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         "The path of the particle, @(101), in the laboratory frame.",
         (
             (
@@ -114,6 +114,6 @@ def flight(request: Request) -> Data:
             *(Column(f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)),
             *(Column(f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3)),
         ),
-        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         r"The flight of the centre of mass $\mathbf{y}_0$, @(101), and of the point $\mathbf{y}_N$ of the body.",
     )

@@ -93,7 +93,7 @@ def properties(request: Request) -> Data:
     With ``given = false`` what is given is left out.
     """
     thing = Thing.of(request)
-    rows = [*_given(thing)] if thing.described else []
+    rows = [*_rows_given(thing)] if thing.described else []
     rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
     says, given = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
     return Data(
@@ -107,14 +107,14 @@ def properties(request: Request) -> Data:
     )  # fmt: skip
 
 
-def _given(thing: Thing) -> Iterator[Row]:
+def _rows_given(thing: Thing) -> Iterator[Row]:
     """Go through what is given, a component a row."""
     for p in thing.family.parameters:
         value = thing.given[p.name]
         parts = value if p.columns else (value,)
         for place, (name, part) in enumerate(zip(p.names, parts, strict=True)):
             if part is not None:
-                number = part if isinstance(part, Number) else Number.given(part)
+                number = part if isinstance(part, Number) else Number.as_given(part)
                 says = "" if place else p.says.partition(".")[0]
                 yield lettered(says), f"`{name}`", number, thing.unit(p.unit), "", "given"
 
@@ -133,7 +133,7 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     says, equation = q.cases.get(case, (q.says, q.equation))
     says = f"{q.name} {says}" if says.startswith("of ") else says
     for place, (name, words, text) in enumerate(_parts(q, found)):
-        value, sure = _sure(thing, q, text, place if isinstance(found, list | tuple) else None, digits)
+        value, sure = _printed(thing, q, text, place if isinstance(found, list | tuple) else None, digits)
         unit = thing.unit(q.unit) if isinstance(value, Number) else ""
         yield (
             lettered(words or ("" if place else says)),
@@ -150,9 +150,9 @@ def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
     from atlas.exact.digits import certified
 
     if not (q.certified or q.printed or q.checked):
-        return q.of(thing.kernels())  # of kernels alone
+        return q.value(thing.kernels())  # of kernels alone
     made = thing.balls()
-    return certified(lambda: _plain(q.of(made, exact=True)), digits, spare=SPARE)
+    return certified(lambda: _plain(q.value(made, exact=True)), digits, spare=SPARE)
 
 
 def _plain(value: Any) -> Any:
@@ -174,7 +174,7 @@ def _parts(q: Quantity, found: Any) -> Iterable[tuple[str, str, Any]]:
     return zip(names, words, found, strict=True)
 
 
-def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
+def _printed(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
     """Return a value as it is printed, and how sure it is."""
     from atlas.exact.digits import MARK, NOT_CERTIFIED
 
@@ -182,7 +182,7 @@ def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) 
         number = Number(plain(text), proven=False)
         return (number, "float, not certified") if isfinite(text) else (NONE, "beyond the largest float")
     if text == NOT_CERTIFIED:
-        value = q.of(thing.kernels())
+        value = q.value(thing.kernels())
         value = value if place is None else value[place]
         value = value[0] if q.name == "roots" else value  # real, or its text would have an i
         promise = thing.family.promises.get(q.checked)
@@ -236,7 +236,7 @@ def body_and_field(request: Request) -> Data:
     body, field = one.body_record, one.field_record
     if body is None or field is None:
         raise AtlasError("this table needs a body and a field.")
-    rows = [(words, symbol, Number.given(value), unit, "given") for words, symbol, value, unit in _described(one)]
+    rows = [(words, symbol, Number.as_given(value), unit, "given") for words, symbol, value, unit in _described(one)]
     rows += [
         (words, symbol, quantity(value, request.digits), unit, "follows")
         for words, symbol, value, unit in _derived(one, request.digits)

@@ -52,7 +52,7 @@ def tops(request: Request) -> Data:
     given: list[tuple[str | Number, ...]] = [
         (
             one.name,
-            Number.given(one.ratio),
+            Number.as_given(one.ratio),
             *(_of_top(x) for x in (one.coupling, (one.linear, one.quadratic), one.direction, one.omega)),
         )
         for one in asked
@@ -100,7 +100,7 @@ def monodromy(request: Request) -> Data:
         rows.append(
             (
                 one.name,
-                *(Number.given(x) for x in (one.ratio, one.M3, one.p)),
+                *(Number.as_given(x) for x in (one.ratio, one.M3, one.p)),
                 Number(f"{found.period.min():.4f}"),
                 Number(f"{found.period.max():.4f}"),
                 rf"$\begin{{pmatrix}}{matrix}\end{{pmatrix}}$",
@@ -157,7 +157,7 @@ def elliptic(request: Request) -> Data:
     return Data(
         (Column("$z$"), *map(Column, heads), Column("Motion")),
         tuple(
-            (Number.given(z), *row, m.stability)
+            (Number.as_given(z), *row, m.stability)
             for (z, _), row, m in zip(asked.places, zip(*columns, strict=True), motions, strict=True)
         ),
         rf"Elliptic motions of a body with $I_i={_row(asked.inertia)}$ in $\mathbf{{B}}'={_row(asked.field)}$: the "
@@ -202,7 +202,7 @@ def asymmetric(request: Request) -> Data:
     columns = [column(one, request.digits) for one in zip(*values, strict=True)]
     return Data(
         (Column("$t$"), *(Column(rf"$R_{{{i}3}}$") for i in (1, 2, 3)), Column(r"$\Omega_3$")),
-        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         rf"The motion from $\boldsymbol\omega={_row(asked.omega)}$ of the body with $I_i={_row(asked.inertia)}$ in "
         rf"$\mathbf{{B}}'={_row(asked.field)}$: its third axis in the laboratory and its spin about it.",
     )

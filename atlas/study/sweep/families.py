@@ -166,7 +166,7 @@ def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
 
 
 def _value(q: Quantity, place: int | None, made: Any, _: Row, *, exact: bool) -> Any:
-    value = q.of(made, exact=exact)
+    value = q.value(made, exact=exact)
     if place is None:
         return value
     return value[place] if isinstance(value, tuple | list) else value[..., place]

@@ -88,9 +88,9 @@ class Plan:
         units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 
-    def part(self, start: int, stop: int) -> "Plan":
+    def list_of(self, start: int, stop: int) -> "Plan":
         """Return some rows of the table as a list, to be sent."""
-        given = self._given(np.arange(start, stop))
+        given = self._parameters(np.arange(start, stop))
         arrays = {name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in given.items()}
         return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start)
 
@@ -101,7 +101,7 @@ class Plan:
             return self._columns(start, stop)
         except AtlasError as error:
             row = self._failing(start, stop)
-            given = ", ".join(f"{name} = {value.item()}" for name, value in self._given(np.array([row])).items())
+            given = ", ".join(f"{name} = {value.item()}" for name, value in self._parameters(np.array([row])).items())
             reason = self._refusal(row, row + 1) or error
             raise type(error)(f"In row {self.first + row + 1} of the table, {given}: {reason}") from error
 
@@ -122,7 +122,7 @@ class Plan:
 
     def _columns(self, start: int, stop: int) -> Columns:
         """Return some rows of the table."""
-        given, family = self._given(np.arange(start, stop)), FAMILIES[self.family]
+        given, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
         full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | given
         found = (
@@ -132,7 +132,7 @@ class Plan:
         )
         return {name: found[name] if name in found else given[name] for name in self.names}
 
-    def _given(self, rows: NDArray[np.int64]) -> Columns:
+    def _parameters(self, rows: NDArray[np.int64]) -> Columns:
         """Return the parameters of some rows."""
         places = [rows * (array.size > 1) for array in self.parameters.values()]
         if not self.listed:

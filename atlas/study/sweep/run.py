@@ -100,10 +100,10 @@ def _compute(
     plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
 ) -> list[str]:
     """Compute the parts that are not there yet, and keep each as soon as it is done; return all names in order."""
-    found = table.kept()
+    found = table.whole_parts()
     spans = Spans(plan, found, rows, workers)
     done = plan.count - spans.left
-    with closing(_made(plan, spans, table, executor, workers)) as made:
+    with closing(_parts(plan, spans, table, executor, workers)) as made:
         for name, data, seconds in made:
             if data is not None:
                 table.parts.write(name, data)
@@ -179,7 +179,7 @@ def width(executor: Any, jobs: int | None) -> int:
     return int(getattr(executor, "_max_workers", processors()))
 
 
-def _made(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
+def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
     """Call `make` for each part, here or, a few ahead of what is taken, elsewhere; yield the results in order.
 
     `executor` is one, a client of Dask, or None: then the parts are made here, and from where it is worth it by so many
@@ -204,7 +204,7 @@ def _made(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -
     with own or nullcontext():
         try:
             for start, stop in spans:
-                part = (there, start, stop) if there else (plan.part(start, stop), 0, stop - start)
+                part = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
                 waiting.append(engine.submit(make, *part, table))
                 if len(waiting) > AHEAD * workers:
                     yield waiting.popleft().result()

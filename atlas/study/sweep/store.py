@@ -164,7 +164,7 @@ class Table:
         """Return where a part of a table on this machine is."""
         return Path(self.parts.address, name)
 
-    def kept(self) -> dict[Span, str]:
+    def whole_parts(self) -> dict[Span, str]:
         """Return the parts that are there and whole, by their rows, in order; what else is among them goes.
 
         Those of a data set may be in its place already, if a sweep was stopped in its last steps.
