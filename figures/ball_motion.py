@@ -10,8 +10,6 @@ from atlas.core.motions.ball import BallMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import tex, title
 
-RANGES = {"periods": (1e-3, 1e3)}
-
 
 def scene(
     *,

@@ -8,8 +8,6 @@ from atlas.core.motions.elliptic import EllipticMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 
-RANGES = {"periods": (1e-3, 1e3)}
-
 
 def scene(
     *,

@@ -11,8 +11,6 @@ from atlas.core.motions.elementary import FreeMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain, quotient, tex, tex_equals, title
 
-RANGES = {"periods": (1e-3, 1e3)}
-
 
 def scene(
     *,

@@ -10,8 +10,6 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain_setting, tex_setting, title
 
-RANGES = {"periods": (1e-3, 1e3)}
-
 
 def scene(
     *,

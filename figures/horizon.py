@@ -8,44 +8,37 @@ from collections.abc import Iterator
 
 from atlas.scene.captions import listed, tex, title
 from atlas.scene.layers import Curve, Layer, Plane, Scene
-from atlas.study.benchmark import (
-    OURS,
-    Results,
-    Run,
-    by_method,
-    case_title,
-    decades,
-    line,
-    measured,
-    pairs,
-    read,
-    runs_of,
-)
+from atlas.study import benchmark
 
 RECORDS = ("bench.json",)
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1, within which the atlas keeps every entry of a rotation matrix."""
+ROOM = (0.4, 0.6), (1.2, 0.7)
 
 
 def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), columns: int = 1) -> Scene:
     """Draw one panel for each of the cases."""
-    record = read()
+    record = benchmark.read()
     worst = max(
-        (run.error for run in record.runs if run.method in OURS and run.case in cases and run.error is not None),
+        (
+            run.error
+            for run in record.runs
+            if run.method in benchmark.OURS and run.case in cases and run.error is not None
+        ),
         default=0.0,
     )
-    shown = listed([f"the {case_title(case)}" for case in cases])
+    shown = listed([f"the {benchmark.case_title(case)}" for case in cases])
     return Scene(
         title=title(__doc__),
         caption=(
             f"Largest error up to a time $T$, for {shown}. The largest of the atlas is "
             f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Of an integrator each dot is the best tolerance "
-            f"that came through in time. {measured(record)}"
+            f"that came through in time. {benchmark.measured(record)}"
         ),
         alt=(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, time to the "
-            f"right and the largest error upwards: {listed([case_title(case) for case in cases])}. "
-            f"{len(by_method(record.runs))} methods are drawn; the largest error of the atlas is {worst:.1e}."
+            f"right and the largest error upwards: {listed([benchmark.case_title(case) for case in cases])}. "
+            f"{len(benchmark.by_method(record.runs))} methods are drawn; the largest error of the atlas is {worst:.1e}."
         ),
         panels=panels(record, cases),
         columns=columns,
@@ -54,30 +47,22 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
     )
 
 
-def panels(record: Results, cases: tuple[str, ...]) -> tuple[Plane, ...]:
+def panels(record: benchmark.Results, cases: tuple[str, ...]) -> tuple[Plane, ...]:
     """Draw the runs of each case, all on the same axes."""
-    layers = {case: tuple(drawn(runs_of(record, case))) for case in cases}
-    points = [layer.points for case in cases for layer in layers[case]]
-    x_limits = decades((x for some in points for x in some[:, 0]), 0.4, 0.6)
-    limit = Curve(pairs(x_limits, float, lambda _: LIMIT), "limit", "four ulp of 1")
+    layers = {case: tuple(drawn(benchmark.runs_of(record, case))) for case in cases}
+    every = [layer for case in cases for layer in layers[case]]
+    ends = benchmark.decades((x for layer in every for x in layer.points[:, 0]), *ROOM[0])
+    limit = Curve(benchmark.pairs(ends, float, lambda _: LIMIT), "limit", "four ulp of 1")
+    labels = "time $T$", "largest error up to $T$"
     return tuple(
-        Plane(
-            (*layers[case], limit),
-            x_label="time $T$",
-            y_label="largest error up to $T$",
-            x_limits=x_limits,
-            y_limits=decades((y for some in points for y in some[:, 1]), 1.2, 0.7),
-            x_scale="log",
-            y_scale="log",
-            title=f"({letter}) {case_title(case)}",
-        )
+        benchmark.panel((*layers[case], limit), every, labels, ROOM, f"({letter}) {benchmark.case_title(case)}")
         for letter, case in zip("abcdefgh", cases, strict=False)
     )
 
 
-def drawn(runs: list[Run]) -> Iterator[Layer]:
+def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:
     """Yield the line of each method through its best run at each horizon."""
-    for method, group in by_method(runs).items():
+    for method, group in benchmark.by_method(runs).items():
         horizons = sorted({run.horizon for run in group})
         best = [min((run for run in group if run.horizon == T), key=lambda run: run.error) for T in horizons]
-        yield from line(pairs(best, lambda run: run.horizon, lambda run: run.error), method)
+        yield from benchmark.line(benchmark.pairs(best, lambda run: run.horizon, lambda run: run.error), method)

@@ -8,8 +8,6 @@ from atlas.core.motions.top import TopMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain, tex, title
 
-RANGES = {"periods": (1e-3, 1e3)}
-
 
 def scene(
     *,

@@ -9,42 +9,29 @@ from collections.abc import Iterator
 from atlas.errors import AtlasError
 from atlas.scene.captions import listed, plain, title
 from atlas.scene.layers import Layer, Plane, Points, Scene
-from atlas.study.benchmark import (
-    LINES,
-    Results,
-    Run,
-    by_method,
-    case_title,
-    decades,
-    line,
-    measured,
-    pairs,
-    power,
-    read,
-    runs_of,
-)
-from atlas.study.benchmark import title as name
+from atlas.study import benchmark
 
 RECORDS = ("bench.json",)
+ROOM = (1.6, 0.5), (0.9, 0.5)
 
 
 def scene(
     *, cases: tuple[str, ...] = ("elementary", "ball", "particle"), horizon: float = 100.0, columns: int = 1
 ) -> Scene:
     """Draw one panel for each of the cases, with all runs up to the time ``horizon``."""
-    record = read()
+    record = benchmark.read()
     return Scene(
         title=title(__doc__),
         caption=(
-            f"Largest error up to $t = {power(horizon)}$ against the time for one sample, set-up apart, for "
-            f"{listed([f'the {case_title(case)}' for case in cases])}. Each line is an integrator with one dot for "
-            "each tolerance from $10^{-3}$ to $10^{-14}$; each mark is a closed form. "
-            f"{measured(record)}"
+            f"Largest error up to $t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
+            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. Each line is an integrator with one "
+            "dot for each tolerance from $10^{-3}$ to $10^{-14}$; each mark is a closed form. "
+            f"{benchmark.measured(record)}"
         ),
         alt=(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, the largest "
             f"error up to t = {plain(horizon)} to the right and the time for one sample upwards: "
-            f"{listed([case_title(case) for case in cases])}. The lines of the integrators rise to the left; "
+            f"{listed([benchmark.case_title(case) for case in cases])}. The lines of the integrators rise to the left; "
             "the closed forms are marks at the lower left."
         ),
         panels=panels(record, cases, horizon),
@@ -53,33 +40,27 @@ def scene(
     )
 
 
-def panels(record: Results, cases: tuple[str, ...], horizon: float) -> tuple[Plane, ...]:
+def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float) -> tuple[Plane, ...]:
     """Draw the runs of each case up to the horizon, all on the same axes."""
-    layers = {case: tuple(drawn([run for run in runs_of(record, case) if run.horizon == horizon])) for case in cases}
-    points = [layer.points for case in cases for layer in layers[case]]
-    if not points:
+    layers = {
+        case: tuple(drawn([run for run in benchmark.runs_of(record, case) if run.horizon == horizon])) for case in cases
+    }
+    every = [layer for case in cases for layer in layers[case]]
+    if not every:
         known = dict.fromkeys(f"{run.horizon:g}" for run in record.runs)
         raise AtlasError(f"The benchmark record has no horizon {horizon:g}; it has {', '.join(known)}.")
+    labels = f"largest error up to $t = {benchmark.power(horizon)}$", "time for one sample (µs)"
     return tuple(
-        Plane(
-            layers[case],
-            x_label=f"largest error up to $t = {power(horizon)}$",
-            y_label="time for one sample (µs)",
-            x_limits=decades((x for some in points for x in some[:, 0]), 1.6, 0.5),
-            y_limits=decades((y for some in points for y in some[:, 1]), 0.9, 0.5),
-            x_scale="log",
-            y_scale="log",
-            title=f"({letter}) {case_title(case)}",
-        )
+        benchmark.panel(layers[case], every, labels, ROOM, f"({letter}) {benchmark.case_title(case)}")
         for letter, case in zip("abcdefgh", cases, strict=False)
     )
 
 
-def drawn(runs: list[Run]) -> Iterator[Layer]:
+def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:
     """Yield the line of each integrator and the mark of each closed form."""
-    for method, group in by_method(runs).items():
-        points = pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
+    for method, group in benchmark.by_method(runs).items():
+        points = benchmark.pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
         if group[0].tolerance is None:
-            yield Points(points, LINES.get(method, "eighth"), name(method))
+            yield Points(points, benchmark.LINES.get(method, "eighth"), benchmark.title(method))
         else:
-            yield from line(points, method)
+            yield from benchmark.line(points, method)

@@ -1,5 +1,6 @@
 """Figures: what each depends on, taken from the cache or drawn by worker processes side by side."""
 
+import json
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -244,3 +245,49 @@ def _put(figure: FigureBuild, out: Path) -> Files:
         if not path.is_file() or path.read_bytes() != figure.contents[kind]:
             files.write(path, figure.contents[kind])
     return Files(name, tuple(paths.values()), figure.facts["renderer"], figure.facts["note"], figure.reason)
+
+
+HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms]", "peak [MB]", "kB")
+
+
+def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Mapping[str, float], jobs: int) -> Path:
+    """Write the costs of a build as JSON; `times` are the clock's readings at the end of each step, in order."""
+    steps = {
+        step: round(end - start, 4) for (step, end), start in zip([*times.items()][1:], times.values(), strict=False)
+    }
+    record = {
+        "report": name,
+        "jobs": jobs,
+        "seconds": round(sum(steps.values()), 4),
+        "steps": steps,
+        "scenes": [_costs(figure) for figure in figures],
+    }
+    files.write(path, json.dumps(record, ensure_ascii=False, indent=1) + "\n")
+    return path
+
+
+def rows_of_costs(path: Path) -> list[list[str]]:
+    """Return the rows of a table of the costs, below `HEADING`."""
+    return [
+        [entry["scene"], "failed", *[""] * 6]
+        if entry["from"] == "failed"
+        else [
+            entry["scene"],
+            entry["from"],
+            str(entry["points"]),
+            str(entry["faces"]),
+            f"{1e3 * entry['compute_s']:.0f}",
+            f"{1e3 * entry['draw_s']:.0f}",
+            f"{entry['memory_mb']:.0f}",
+            f"{entry['bytes'] / 1024:.0f}",
+        ]
+        for entry in json.loads(path.read_text(encoding="utf-8"))["scenes"]
+    ]
+
+
+def _costs(figure: FigureBuild) -> dict[str, Any]:
+    """Return the entry of one figure; what it cost when it was drawn, if it comes from the cache."""
+    if figure.failure:
+        return {"scene": figure.name, "from": "failed", "reason": figure.failure}
+    drawn = "drawn" if figure.new else "cache"
+    return {"scene": figure.name, "from": drawn, "reason": figure.reason, **figure.facts["cost"]}

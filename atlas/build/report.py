@@ -136,7 +136,7 @@ def _build(
 
     The key of one that was never built is found out while its figures are drawn.
     """
-    from atlas.build import costs, figures
+    from atlas.build import figures
     from atlas.build.appendices import gather
     from atlas.draw import gl
     from atlas.report import bibliography
@@ -189,7 +189,7 @@ def _build(
         failures=tuple((figure.stem, figure.failure) for figure in failures),
         notes=tuple(dict.fromkeys(note for figure in wanted if (note := figure.facts.get("note")))),
         reasons=tuple(("figure", figure.name, figure.reason) for figure in wanted),
-        costs=costs.write(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),
+        costs=figures.write_costs(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),
     )
 
 

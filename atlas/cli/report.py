@@ -75,10 +75,10 @@ def _explain(built: "Built") -> None:
     """Show why each part was made or taken, and what the figures cost."""
     show(explained(built.reasons))
     if built.costs is not None:
-        from atlas.build.costs import HEADING, rows
+        from atlas.build.figures import HEADING, rows_of_costs
 
         note = "A figure from the cache shows what it cost when it was drawn."
-        show(Printout("what the figures cost", heading=HEADING, rows=rows(built.costs), notes=[note]))
+        show(Printout("what the figures cost", heading=HEADING, rows=rows_of_costs(built.costs), notes=[note]))
 
 
 @click.command(

@@ -12,6 +12,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "azimuth": (-360.0, 360.0),
     "elevation": (-90.0, 90.0),
     "turns": (1e-3, 1e3),
+    "periods": (1e-3, 1e3),
     "reach": (1e-2, 1e2),
     "horizon": (1e-3, 1e9),
     "columns": (1, 6),

@@ -12,7 +12,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.scene.layers import Curve, FloatArray, Layer, Points
+from atlas.scene.layers import Curve, FloatArray, Layer, Plane, Points
 
 FORMAT = 2
 Status: TypeAlias = Literal["done", "failed", "timed out", "skipped"]
@@ -203,6 +203,12 @@ def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> t
     """Return limits for a logarithmic axis with ``left`` and ``right`` decades of room for names."""
     logs = np.log10(np.fromiter(values, dtype=float))
     return float(10.0 ** (logs.min() - left)), float(10.0 ** (logs.max() + right))
+
+
+def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
+    """Return a panel on logarithmic axes, which hold `every` layer with so many decades of room: in x, in y."""
+    x, y = np.concatenate([layer.points for layer in every]).T
+    return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
 
 
 def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
