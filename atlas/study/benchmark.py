@@ -32,6 +32,8 @@ TITLES = {
     "grid_out": "atlas, grid, out=",
     "even_out": "atlas, times of the grid, out=",
     "heyoka_own": "heyoka, its own tolerance",
+    "heyoka_7": "heyoka, with a quaternion",
+    "DOP853_7": "DOP853, with a quaternion",
     "heyoka_long": "heyoka, long double",
     "third_axis": "atlas, third axis alone",
     "omega": "atlas, Omega alone",
@@ -47,6 +49,7 @@ CASES = {
     "particle": "charged particle",
     "heavy": "heavy top",
     "asymmetric": "three moments",
+    "elliptic": "elliptic motion",
 }
 
 LINES = {
@@ -65,6 +68,8 @@ LINES = {
     "Radau": "reference",
     "heyoka": "fourth",
     "heyoka_own": "fourth",
+    "heyoka_7": "fourth",
+    "DOP853_7": "fifth",
     "heyoka_long": "fourth",
     "fill": "limit",
     "ours_out/2": "fourth",

@@ -50,6 +50,7 @@ def case() -> Case:
         name="asymmetric",
         parameters=PARAMETERS,
         rates=rates,
+        from_omega=True,
         base=elementary.plain,
         samples=SAMPLES,
     )

@@ -1,7 +1,7 @@
 """What is measured: a motion with its exact parameters, its equations, its true values and its closed forms."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -66,6 +66,8 @@ class Case:
     """What times are compared with, if none of the closed forms is plain NumPy."""
     samples: int | None = None
     """How many times there are at most up to a horizon, where true values take long."""
+    from_omega: bool = False
+    """Whether the state is R and Omega in the body, so that a quaternion can stand in the place of R."""
 
     @property
     def size(self) -> int:
@@ -75,6 +77,33 @@ class Case:
     def values(self, states: FloatArray) -> FloatArray:
         """Return the values in states (N, ...)."""
         return states[:, : self.size].reshape(-1, *self.shape)
+
+
+class QuaternionCase(Case):
+    """A case of a rotation whose state is a quaternion, the scalar first, and Omega: seven numbers, not twelve."""
+
+    def values(self, states: FloatArray) -> FloatArray:
+        """Return the matrices of states (N, 7)."""
+        from scipy.spatial.transform import Rotation
+
+        return np.asarray(Rotation.from_quat(states[:, :4], scalar_first=True).as_matrix())
+
+
+def in_quaternions(case: Case) -> Case:
+    """Return a case whose state is R and Omega with a quaternion in the place of R."""
+
+    def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
+        w, x, y, z, a, b, c = state
+        R = [
+            w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),
+            2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),
+            2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z,
+        ]  # fmt: skip
+        turning = [-x * a - y * b - z * c, w * a + y * c - z * b, w * b + z * a - x * c, w * c + x * b - y * a]
+        return [*(rate / 2 for rate in turning), *case.rates([*R, a, b, c], p)[9:]]
+
+    same = {field.name: getattr(case, field.name) for field in fields(case)}
+    return QuaternionCase(**same | {"initial": lambda: [1, 0, 0, 0, *case.initial()[9:]], "rates": rates})
 
 
 def rotation_case(make: Callable[[], Any], exact: Any, momentum: Sequence[Any], *others: Method, **facts: Any) -> Case:

@@ -85,4 +85,5 @@ def case() -> Case:
         name="elementary",
         parameters=PARAMETERS,
         rates=rates,
+        from_omega=True,
     )

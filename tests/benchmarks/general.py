@@ -29,5 +29,6 @@ def case() -> Case:
         name="general",
         parameters=PARAMETERS,
         rates=elementary.rates,
+        from_omega=True,
         base=elementary.plain,
     )

@@ -52,5 +52,6 @@ def case() -> Case:
         name="heavy",
         parameters=parameters,
         rates=rates,
+        from_omega=True,
         base=elementary.plain,
     )

@@ -3,7 +3,8 @@
 The question: what do R(t) and y(t) cost without the closed form?
 
 SciPy's RK45, DOP853, LSODA and Radau, used as their documentation shows (rtol = atol = the tolerance, `t_eval` for the
-samples), and heyoka's Taylor integrator. All start from the same state, rounded once to floats.
+samples), and heyoka's Taylor integrator. All start from the same state, rounded once to floats. Both are also tried at
+their best: with a quaternion, 7 numbers in the place of 12, the right-hand side compiled by SymPy for SciPy's DOP853.
 """
 
 import warnings
@@ -19,7 +20,7 @@ import numpy as np
 from flint import arb
 
 from atlas.formulas.numbers import workprec
-from benchmarks.case import Case, FloatArray, Grid, Solve
+from benchmarks.case import Case, FloatArray, Grid, Solve, in_quaternions
 from benchmarks.oracle import BITS, nearest
 
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
@@ -48,6 +49,16 @@ class Integrator:
     module: str = "scipy.integrate"
     tolerances: tuple[float, ...] = ()
     """Its own tolerances in the place of the plan's."""
+    quaternions: bool = False
+    """Whether it takes a quaternion in the place of R, for which a case must have Omega in its state."""
+
+    def takes(self, case: Case) -> bool:
+        """Whether a case is one for it."""
+        return case.from_omega or not self.quaternions
+
+    def solver(self, case: Case, tolerance: float, limit: float) -> Solve:
+        """Build it for a case."""
+        return self.prepare(in_quaternions(case) if self.quaternions else case, tolerance, limit)
 
     @property
     def present(self) -> bool:
@@ -65,8 +76,10 @@ def integrators() -> tuple[Integrator, ...]:
     scipy = (Integrator(name, _scipy(name)) for name in ("RK45", "DOP853", "LSODA", "Radau"))
     return (
         *scipy,
+        Integrator("DOP853_7", _scipy("DOP853", _compiled), quaternions=True),
         Integrator("heyoka", partial(_heyoka, np.float64), "heyoka"),
         Integrator("heyoka_own", partial(_heyoka, np.float64), "heyoka", OWN),
+        Integrator("heyoka_7", partial(_heyoka, np.float64), "heyoka", OWN, quaternions=True),
         Integrator("heyoka_long", partial(_heyoka, np.longdouble), "heyoka", LONG),
     )
 
@@ -77,11 +90,24 @@ def start(case: Case) -> list[float]:
         return [nearest(x) for x in case.initial()]
 
 
-def _scipy(name: str) -> Callable[[Case, float, float], Solve]:
+def _written(case: Case) -> Callable[[list[float]], list[float]]:
+    """Return the right-hand side as it stands."""
+    return lambda state: case.rates(state, case.parameters)
+
+
+def _compiled(case: Case) -> Callable[[list[float]], list[float]]:
+    """Return it compiled by SymPy, with common subexpressions taken out."""
+    import sympy
+
+    state = sympy.symbols(f"x:{len(case.initial())}")
+    return sympy.lambdify([state], case.rates(state, case.parameters), "math", cse=True)  # type: ignore[no-any-return]
+
+
+def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[float]]] = _written) -> Any:
     def prepare(case: Case, tolerance: float, limit: float) -> Solve:
         from scipy.integrate import solve_ivp
 
-        initial, parameters, rates = start(case), case.parameters, case.rates
+        initial, rates = start(case), right_of(case)
 
         def solve(grid: Grid) -> FloatArray:
             deadline = perf_counter() + limit
@@ -89,7 +115,7 @@ def _scipy(name: str) -> Callable[[Case, float, float], Solve]:
             def right(_t: float, state: FloatArray) -> list[float]:
                 if perf_counter() > deadline:
                     raise TimedOutError
-                return rates(state.tolist(), parameters)
+                return rates(state.tolist())
 
             times = grid.times
             with warnings.catch_warnings(record=True) as said:

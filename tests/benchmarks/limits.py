@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from atlas.study.benchmark import OURS, Cost, Limit, Machine, Verdict
-from benchmarks.results import ANY, EVEN, MATRIX, SCALARS, SURFACE, Rows, Setup
+from benchmarks.results import ANY, EVEN, FRESH, MATRIX, SCALARS, SLOPES, SURFACE, Rows, Setup
 
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1: the accuracy that the limits of speed are for."""
@@ -72,6 +72,12 @@ def _many(rows: list[Rows]) -> Iterator[Limit]:
     for quantity, method, limit in LIMITS:
         if (quantity, method) in found:
             yield _below(f"{quantity} (ns)", found.get((quantity, method)), limit)
+    every = [row.to_plain for row in rows if (row.quantity, row.method) == (FRESH, "ours")]
+    if every:
+        yield _below("thousands of times in a fresh process, over the plain formula, at worst", max(every), 1.0)
+    slopes = next((row.to_plain for row in rows if (row.quantity, row.method) == (SLOPES, "ours")), None)
+    if slopes is not None:
+        yield _below("derivatives in six parameters, over R", slopes, 5.0)
     for quantity, method, factor in ((ANY, "ours", 3.0), (EVEN, "ours_grid", 15.0)):
         theirs, ours = found.get((quantity, "heyoka")), found.get((quantity, method))
         if ours is not None:

@@ -78,6 +78,8 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
 def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
     """Yield the same for an integrator at each tolerance, up to the first horizon that it cannot reach in time."""
     case, plan = bench.case, bench.plan
+    if not integrator.takes(case):
+        return
     if not integrator.present:
         yield Setup(case.name, integrator.name, "skipped", note=f"{integrator.module} is not installed")
         return
@@ -85,7 +87,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
     beaten = 0.0  # the loosest tolerance that did not even reach the first horizon in time
     for tolerance in integrator.tolerances or plan.tolerances:
         try:
-            setup, solve = once(partial(integrator.prepare, case, tolerance, plan.limit))
+            setup, solve = once(partial(integrator.solver, case, tolerance, plan.limit))
         except Exception as raised:  # noqa: BLE001  the same
             yield Setup(case.name, integrator.name, "failed", tolerance, note=said(raised))
             continue

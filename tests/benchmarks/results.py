@@ -17,7 +17,10 @@ PEERS = ("numpy", "scipy", "sympy", "python-flint", "heyoka")
 SCALARS, SURFACE, MATRIX = "omega3, k, phi of a curve", "quadric with its axes", "R at one time of each motion"
 NUTATION, TURNED = "period, angles, moduli of each general motion", "R at one time of each general motion"
 ANY, EVEN = "R of the general motion at any times", "R of the general motion on a grid"
-"""Quantities of many rows, and of many matrices of one motion."""
+SLOPES = "derivatives of R of the general motion in six parameters"
+FITTED = "a fit of 500 attitudes, its error in standard errors"
+FRESH = "R of the elementary motion in a fresh process"
+"""Quantities of many rows, of many matrices of one motion, and of what is made of them."""
 
 
 class Setup(Item, frozen=True):

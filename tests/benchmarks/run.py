@@ -11,7 +11,20 @@ from msgspec.structs import replace
 from atlas import files
 from atlas.errors import AtlasError
 from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, measured, stored
-from benchmarks import arrays, asymmetric, ball, dense, elementary, general, heavy, particle
+from benchmarks import (
+    arrays,
+    asymmetric,
+    ball,
+    dense,
+    derivatives,
+    elementary,
+    elliptic,
+    fits,
+    fresh,
+    general,
+    heavy,
+    particle,
+)
 from benchmarks.cost import costs
 from benchmarks.integrators import integrators
 from benchmarks.limits import targets
@@ -31,6 +44,7 @@ CASES = {
     "ball": ball.case,
     "particle": particle.case,
     "heavy": heavy.case,
+    "elliptic": elliptic.case,
     "asymmetric": asymmetric.case,
 }
 
@@ -45,6 +59,7 @@ class Scope:
     most_rounds: int
     cost_limit: float
     rows: int
+    fresh: tuple[int, ...]
 
     def rounds(self, count: int) -> int:
         """Fewer rounds where one takes long, but at least three."""
@@ -64,6 +79,7 @@ FULL = Scope(
     most_rounds=11,
     cost_limit=4.0,
     rows=1_000_000,
+    fresh=(1_000, 2_000, 5_000, 10_000, 30_000),
 )
 QUICK = Scope(
     Plan(horizons=(1e2, 1e4, 1e8), tolerances=(1e-3, 1e-8, 1e-14), samples=256, rounds=3, limit=0.3),
@@ -72,6 +88,7 @@ QUICK = Scope(
     most_rounds=5,
     cost_limit=0.2,
     rows=20_000,
+    fresh=(2_000,),
 )
 
 
@@ -85,7 +102,7 @@ def main() -> None:
     files.check(options.out)
     found = []
     # where true values take long, only if it is asked for or there is time
-    names = options.case or [name for name in CASES if not options.quick or name != "asymmetric"]
+    names = options.case or [name for name in CASES if not options.quick or name not in {"asymmetric", "elliptic"}]
     for item in measure(names, QUICK if options.quick else FULL):
         print(item, flush=True)  # noqa: T201  the record holds what is shown, the terminal the rest, and what failed
         found.append(_short(item))
@@ -120,8 +137,11 @@ def measure(names: Sequence[str], scope: Scope) -> Iterator[Any]:
             prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
         yield from prices
         yield from arrays.rows(scope.rows, scope.rounds(scope.rows))
+        yield from fresh.rows(scope.fresh)
     if "general" in names:
         yield from dense.rows(scope.rows, scope.rounds(scope.rows))
+        yield from derivatives.rows(1_000, 5)
+        yield from fits.rows(3)
 
 
 def shown(runs: Sequence[Run]) -> list[Run]:
