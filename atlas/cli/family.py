@@ -213,7 +213,10 @@ def _shown_otherwise(
     if uncertain(options):
         _with_sigma(family, described, options, parameters, times)
         return True
-    made = motion_in_given_axes(options) if family.name == "asymmetric" else None
+    along_own = body.given_tensor(options) is None and options.get("attitude") is None
+    if family.name != "asymmetric" or (along_own and (options["digits"] is not None or options["decimal"])):
+        return False
+    made = motion_in_given_axes(options)
     if made is not None:
         _in_doubles(made, options, parameters, times)
     return made is not None
@@ -223,7 +226,7 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
     """Print the spectral curve of a motion on a torus."""
     from atlas.exact.motions.spectral_curve import SpectralCurve
 
-    if uncertain(options) or motion_in_given_axes(options):
+    if uncertain(options) or body.given_tensor(options) is not None or options["attitude"] is not None:
         raise click.UsageError("--curve is proven: it goes with numbers without an uncertainty, along principal axes.")
     curve = SpectralCurve(family.balls()(*values_of(family, options, exact=True)))
     found = curve.record(options["digits"] or TABLE_DIGITS)
@@ -284,16 +287,17 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
 
 
 def motion_in_given_axes(options: dict[str, Any]) -> Any:
-    """Return the motion of a body whose axes are not principal ones, or that starts from an attitude; None for others.
+    """Return the motion of a body in other axes than its class has them, None for one that is along these.
 
-    It is in doubles: a certified twin has principal axes, and R(0) = 1.
+    So is a body whose axes are not principal ones, one that starts from an attitude, and a symmetric one in a field of
+    three components. It is in doubles: a certified twin has principal axes, and R(0) = 1.
     """
     tensor, attitude = body.given_tensor(options), body.given_attitude(options)
-    if tensor is None and attitude is None:
+    J = body.chosen_moments(options) if tensor is None else tensor
+    if tensor is None and attitude is None and len({*map(float, J)}) == len(J):
         return None
     from atlas.core.motions.chosen import motion
 
-    J = body.chosen_moments(options) if tensor is None else tensor
     return motion(J, body.chosen_field(options), body.start_of(options), attitude)
 
 
@@ -355,10 +359,10 @@ def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], 
         known = body_of(made.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
         dump({"parameters": parameters, **principal, **found, **_recorded(lines)})
-    elif family.command:
-        show(
-            _printout(family, family.command, mapped(found, lambda x, _: f"{x:.{TABLE_DIGITS}g}"), options, IN_DOUBLES)
-        )
+    else:
+        described = family.command or Described("motion", "", "", (), family.says)
+        texts = mapped(found, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
+        show(_printout(family, described, texts, options, IN_DOUBLES))
         _show_lines(family, options, made)
 
 

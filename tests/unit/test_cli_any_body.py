@@ -106,12 +106,12 @@ def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
 
 
 def test_frequencies_or_why_there_are_none() -> None:
-    """A motion on a torus prints its three; a symmetric body by three moments says that it has no torus."""
+    """A motion on a torus prints its three; of a symmetric body proven digits say that it has no torus."""
     words = "--field 0.2 1 0.6 --omega 1 2 3"
     status, out = run("motion", *f"--inertia 1 1.2 1.3 {words}".split())
     assert status == 0
     assert re.search(r"^f3 +-1\.154812784 +1/time", out, re.MULTILINE)
-    found = numbers("motion", *f"--inertia 1 1 1.3 {words} --json".split())
+    found = numbers("motion", *f"--inertia 1 1 1.3 {words} --json --digits 9".split())
     assert "frequencies" not in found
     assert found["missing"]["frequencies"].startswith("There is no torus with three frequencies")
 
@@ -146,14 +146,26 @@ def test_one_command_takes_any_body_and_any_start() -> None:
     """It says which family it found, and its help has the options of all."""
     for words, family in (
         ("--ratio 1.5 --field 1 2 --omega2 0.7", "elementary"), ("--ratio 1.5 --field 1 2 --omega 0 0.7 1", "general"),
-        ("--shape ring --radius 1 --field 1 2 --spin 3", "general"), ("--ratio 1 --field 1 1 2 --spin 3", "asymmetric"),
+        ("--shape ring --radius 1 --field 1 2 --spin 3", "general"), ("--ratio 1 --field 1 1 2 --spin 3", "ball"),
         ("--tensor 1 1 1.5 0 0 0 --field 0 0 0 --spin 1", "free"),
         ("--tensor 1 1 1.5 0 0 0 --field 0 1 1 --spin 1", "general"),
     ):  # fmt: skip
         assert numbers("motion", *words.split(), "--json")["family"] == family
+        assert run("motion", *words.split())[1]
     shown = run("motion", "--help")[1]
     for option in ("I2 I3 or I1 I2 I3", "--tensor", "--omega2", "--spin"):
         assert option in shown
+
+
+def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -> None:
+    """Late, too, where certified steps give no quaternion: what `atlas.motion` has; proven digits are of balls."""
+    words = "motion --inertia 1 1 1.5 --field 0.3 1 2 --omega 0.3 0.7 0.2 --times".split()
+    late = numbers(*words, "1e6", "--json")["samples"][0]
+    R = atlas.motion((1, 1, 1.5), (0.3, 1, 2), (0.3, 0.7, 0.2)).rotation(1e6)
+    assert R.tolist() == late["R"]
+    assert pytest.approx(R, abs=1e-14) == Rotation.from_quat(late["q"]).as_matrix()
+    soon = [numbers(*words, "1", "--json", *more)["samples"][0]["R"] for more in ([], ["--digits", "12"])]
+    assert np.array(soon[0]) == pytest.approx(np.array(soon[1], float), abs=1e-12)
 
 
 def test_units_are_those_of_si() -> None:
