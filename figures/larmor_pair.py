@@ -13,6 +13,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
+from atlas.scene.any_motion import slow_turn
 from atlas.scene.captions import plain_setting, spelt, tex, tex_setting, title
 from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve
@@ -39,6 +40,8 @@ def scene(
     if not str(motions[0].kind).startswith("nutation"):
         raise DomainError(f"figure larmor_pair needs a motion that nutates, not one of the kind {motions[0].kind}.")
     time = nutations * motions[0].period
+    if slow_turn(motions[0], time):
+        raise DomainError("figure larmor_pair draws a nutation, and that of this motion is too small to be seen.")
     b, upright = float(np.hypot(*field)), turned_upright(*field)
 
     def in_laboratory(motion: GeneralMotion) -> Path:

@@ -163,17 +163,24 @@ def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> 
 
 
 def _too_slow(made: Any, time: str) -> Iterator[str]:
-    """Yield what is too slow to be seen in figures of some periods of nutation: the precession of a fast spin."""
+    """Yield what is too slow to be seen in a figure of some periods of nutation, or too small to be seen in others."""
+    from atlas.scene.any_motion import slow_turn
+
     unit = "s" if time in {"s", "1/s"} else time
     try:
         period, angle, rate = float(made.period), float(made.precession_per_period), float(made.precession_rate)
     except (AttributeError, AtlasError):
         return
-    if 0 < abs(angle) < SEEN:
+    turn = f"a whole turn takes {2 * pi / abs(rate):.3g} {unit}" if rate else ""
+    if angle and slow_turn(made, 5 * period):
+        yield (
+            f"The nutation, of the period {period:.3g} {unit}, which is too small to be seen: the axis is followed for "
+            f"the precession, by {angle:.3g} rad in that time; {turn}."
+        )
+    elif 0 < abs(angle) < SEEN:
         yield (
             f"The precession about the field: in a period of nutation, {period:.3g} {unit}, the axis turns by "
-            f"{angle:.3g} rad, so that figures of some periods show none of it; a whole turn takes "
-            f"{2 * pi / abs(rate):.3g} {unit}."
+            f"{angle:.3g} rad, so that figures of some periods show none of it; {turn}."
         )
 
 

@@ -1,13 +1,13 @@
 """Any motion as a figure: the way of its third axis, with the angular velocity over time, or the body at one time."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite, pi
 from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import positive
+from atlas.core.inputs import FloatArray, positive
 from atlas.errors import AtlasError
 from atlas.scene import axis_trace
 from atlas.scene.bodies import body_of
@@ -60,6 +60,8 @@ def course(
 SIZE, SQUARE = (124.0, 66.0), (90.0, 90.0)
 MOST, FEW = 60.0, 12.0
 """Turns of the body, about any axis, for which its axis is followed at most, and for which Omega(t) is drawn."""
+SEEN = 0.02
+"""Length on the unit sphere that is seen in a figure."""
 _FINE = tolerance(3.0)
 _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
 """Lengths of the axis and of what stands upright, pieces of a trace at first, and a period that is taken for none."""
@@ -105,7 +107,7 @@ def picture(
 
     `setting` says whose motion it is and from where, for a caption and in plain words; `word` what has the period,
     nothing if it is not one. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
-    `upright` is that of the motion.
+    `upright` is that of the motion. Where the axis would not be seen to move, it is followed for one precession.
     """
     upright = upright or Upright.of(motion)
     first = turns(motion, 0.0)
@@ -117,9 +119,16 @@ def picture(
     short = min(length, FEW / rate) if rate else length
     counted = f"over {spelt(float(f'{length / unit_of_time:.3g}'))} of the {word}"
     span = counted if word and not steady else f"up to the time {float(f'{length:.3g}'):g}"
+    axis, lasts, count = motion.third_axis, length, length * rate
+    if not steady and (turn := slow_turn(motion, length)):
+        axis, lasts, count = precessing(motion, upright.vector), turn, 1.0
+        span = (
+            f"over one turn of the precession, the time {turn:.3g}, without the nutation, of the period {period:.3g}, "
+            "and the spin, which are too small and too fast to be seen with it,"
+        )
     panels = (
         axis_trace.sphere(
-            "(a) third axis", upright.vector, motion.third_axis, length, pieces(length * rate),
+            "(a) third axis", upright.vector, axis, lasts, pieces(count),
             label=f"${upright.letter}$", elevation=elevation, role=upright.role or "basis",
         ),
         course(
@@ -138,6 +147,25 @@ def picture(
         columns=2,
         size=SIZE,
     )
+
+
+def slow_turn(motion: Any, length: float) -> float:
+    """Return the time of one precession, where nothing is seen of the axis for a `length` of time; 0 elsewhere."""
+    rate = float(getattr(motion, "precession_rate", 0.0))
+    looks = motion.third_axis(np.linspace(0.0, length, 65))
+    return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < SEEN else 0.0
+
+
+def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
+    """Return the third axis over time as it is after each whole nutation: turned with the mean rate of precession."""
+    n, start = np.asarray(upright) / np.linalg.norm(upright), motion.third_axis(0.0)
+    along, rate = n * (n @ start), float(motion.precession_rate)
+
+    def axis(t: FloatArray) -> FloatArray:
+        angle = rate * np.asarray(t)[..., None]
+        return np.asarray(along + np.cos(angle) * (start - along) + np.sin(angle) * np.cross(n, start))
+
+    return axis
 
 
 def scene_at(motion: Any, t: float, length: float) -> Scene:

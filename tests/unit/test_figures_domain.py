@@ -68,6 +68,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("larmor_pair", {"field": (0.0, 1.2)}, "both components"),
     ("larmor_pair", {"field": (0.8, 0.0)}, "both components"),
     ("larmor_pair", {"ratio": 1.0}, "nutates"),
+    ("larmor_pair", {"omega": (0.0, 0.0, 1e6)}, "too small to be seen"),
     ("loop", {"field": (0.0, 1.0)}, "loop"),
     ("magn", {"mu": 0.0}, "mu"),
     ("magn", {"B": 0.0}, "field"),

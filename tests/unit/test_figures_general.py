@@ -16,6 +16,7 @@ from atlas import DomainError, ElementaryMotion, EllipticMotion, GeneralMotion, 
 from atlas.core.maps.bifurcation import momentum_map, potential
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
+from atlas.scene.any_motion import precessing
 
 FloatArray = NDArray[np.float64]
 
@@ -133,6 +134,20 @@ def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
     fields = np.array([np.asarray(a.tip) - np.asarray(a.tail) for a in layers(panel, Arrow, "field")])
     assert np.abs(np.cross(fields, [0.0, 1.0, 1.2])).max() <= 64 * EPS
     assert len(layers(panel, Surface, "seam")) == 8
+
+
+def test_a_precession_is_followed_where_nothing_else_is_seen() -> None:
+    """Of a spin at 2 MHz the axis goes once round the field; the circle has its places after whole nutations."""
+    given = (0.5, (0.0064, 0.011), (0.0, 0.0, 4 * np.pi * 1e6))
+    names = dict(zip(("ratio", "field", "omega"), given, strict=True))
+    scene, motion = recipes.load("general_motion").scene(**names, unit="s"), GeneralMotion(*given)
+    assert "without the nutation" in scene.caption
+    trace = layers(scene.panels[0], Curve, "trace")[0].points
+    assert np.abs(trace[0] - trace[-1]).max() <= 1e-9
+    axis = precessing(motion, (0.0, *given[1]))
+    late = motion.period * np.array([1.0, 1e3, 1e8])
+    assert np.abs(axis(late) - motion.third_axis(late)).max() <= 1e-6
+    assert "without the nutation" not in recipes.load("general_motion").scene().caption
 
 
 def test_the_seam_shows_the_proper_rotation() -> None:

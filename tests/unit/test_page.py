@@ -303,6 +303,7 @@ def test_a_precession_too_slow_to_be_drawn_is_told(
     monkeypatch.chdir(tmp_path)
     made = unbuilt(f"motion {body} --magnetic 0.4T 0.6928T --spin 2MHz")
     prose = made["pages"][0]["blocks"][-1]["text"]
+    assert "followed for the precession" in prose
     assert "a whole turn takes 492 s" in prose
     assert "7.71e-07 s" in prose
     (listing,) = (block for block in made["pages"][0]["blocks"] if block["kind"] == "listing")
