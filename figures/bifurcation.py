@@ -101,11 +101,15 @@ def panel(name: str, one: Bifurcation, reach: float, *, words: bool) -> Plane:
     low, high = float(edge[:, 1].min()), float(edge[:, 1].max())
     y_limits = low - 0.05 * (high - low), high + 0.05 * (high - low)
     layers: list[Layer] = [Region(edge, "region")]
+    if words:
+        layers.append(Label(np.array([x_limits[0] + 0.4 * (x_limits[1] - x_limits[0]), high]), "no motion", "note"))
     for oval, stable, _, points in lines:
         role = {"unbounded": "main", "bounded": "third"}[oval] if stable else "unstable_line"
         text = oval if stable else "unstable"
-        new = words and all(getattr(layer, "label", "") != text for layer in layers)
-        layers.append(Curve(points, role, text if new else ""))
+        layers.append(Curve(points, role))
+        if words and all(getattr(layer, "text", "") != text for layer in layers):
+            inside = points[(points[:, 0] > x_limits[0]) & (points[:, 0] < x_limits[1])]
+            layers.append(Label(inside[np.argmin(abs(inside[:, 0] - inside[:, 0].mean()))], text, role, (0.0, 5.0)))
     for rank, which in enumerate(np.argsort(spins[:, 0])):
         layers.append(Points(spins[which : which + 1], ROLES[one.spins[which].kind]))
         offset = UPRIGHT if rank and one.spins[which].kind == "stable" else OFFSETS[rank]

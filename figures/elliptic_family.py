@@ -67,11 +67,15 @@ def panel(
     """Return the curves of one body."""
     millimetres = (across, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
-    layers += [Curve(piece, "limit") for piece in branches(inertia[2], field, view, millimetres)]
+    hyperbola = branches(inertia[2], field, view, millimetres)
+    layers += [Curve(piece, "limit") for piece in hyperbola]
     found = curves(inertia, field, view, millimetres)
     named = {max((len(part), i) for i, (part, one) in enumerate(found) if one == role)[1] for _, role in found}
     words = [NAMES[role] if name.startswith("(a)") and i in named else "" for i, (_, role) in enumerate(found)]
     layers += [Curve(part, role, text) for (part, role), text in zip(found, words, strict=True)]
+    if name.startswith("(a)") and hyperbola:
+        lowest = min(hyperbola[0], key=lambda point: abs(point[1] - 0.9 * view.y[0]))
+        layers.append(Label(lowest, "(67)", "limit", (-4.0, 0.0)))
     B2, B3 = components(field)
     for factor, text, role in (
         (0.0, "rest", "rest"),

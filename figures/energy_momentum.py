@@ -12,7 +12,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.maps.wells import Branch, Wells
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import listed, plain, tex, title
 
 WIDTH, HEIGHT = 88.0, 62.0
@@ -44,11 +44,12 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}${same}, for "
-            rf"{listed(called)}: steady precessions with their rate $w$ in Larmor's frame, "
+            r"Energies $2H$ and momenta $p$ that motions can have (shaded), and the critical ones: steady precessions "
+            r"with their rate $w$ in Larmor's frame, "
             + rest
             + (f", and spins along the field or the vertical, {spins}." if spins else ".")
             + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in there else "")
+            + f" $M_3={tex(M3)}${same}, {listed(called)}."
         ),
         alt=(
             f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: a smooth curve, "
@@ -59,6 +60,7 @@ def scene(
         named={
             word: role
             for word, role in {
+                "shaded": "region",
                 "solid": "main",
                 "dashed": "unstable_line",
                 "dots": "start",
@@ -107,7 +109,11 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     near = np.array([*near, *(spin[:2] for spin in spins)])
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
     pad = 0.08 * (high - low)
-    layers: list[Layer] = [Curve(line, role) for line, role in lines]
+    p, nu = np.linspace(-reach * scale, reach * scale, 401), np.tanh(np.linspace(-7.0, 7.0, 701))
+    least = np.minimum(np.asarray(wells.potential(p[:, None], nu)).min(axis=1) + rest, high + pad)
+    above = [[p[-1], high + pad], [p[0], high + pad]]
+    layers: list[Layer] = [Region(np.array([*np.stack([p, least], axis=1), *above]), "region")]
+    layers += [Curve(line, role) for line, role in lines]
     layers += [label for one in branches for label in names(one, reach * scale, rest)]
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"

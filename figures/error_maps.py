@@ -8,12 +8,12 @@ from typing import Literal
 
 import numpy as np
 
-from atlas.scene import Image, Plane, Scene
+from atlas.scene import Image, Label, Plane, Scene
 from atlas.scene.captions import tex, tex_setting, title
 from atlas.study.maps import ErrorMap, over_omega2, over_ratio
 
 LIMITS = (1e-17, 1.0)
-NARROWEST = 139.0
+NARROWEST, LOW = 139.0, 1e-2
 TIME = r"$t\,|\mathbf{B}'|$"
 
 
@@ -21,7 +21,7 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
     """Draw two maps, over omega2 and over I, of the plain formula."""
     first, second = over_omega2(ratio, field), over_ratio(field, omega2)
     measured = np.concatenate([first.ours.ravel(), second.ours.ravel()])
-    worst = np.nanmax(measured)
+    worst, sign = np.nanmax(measured), float(np.sign(field[0]))
     empty = " A cell without colour has a phase beyond $2^{50}$." if np.isnan(measured).any() else ""
     return Scene(
         title=title(__doc__),
@@ -35,8 +35,8 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
             f"up to 1; the largest error of the atlas in the same cells is {worst:.1e}."
         ),
         panels=(
-            panel(first, r"$\omega_2/|B'_2|$", "(a) from the pole to rest", ""),
-            panel(second, "$I$", "(b) from a needle to a loop", "largest error", "log"),
+            panel(first, r"$\omega_2/|B'_2|$", "(a) all motions of a body", "", {-sign: "pole", 0.0: "rest"}),
+            panel(second, "$I$", "(b) all bodies", "largest error", {3e-3: "needle", 1.0: "ball"}, "log"),
         ),
         columns=2,
         commands=(first.table.command("omega2.csv"), second.table.command("ratio.csv")),
@@ -44,8 +44,16 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
     )
 
 
-def panel(errors: ErrorMap, x_label: str, name: str, label: str, x_scale: Literal["linear", "log"] = "linear") -> Plane:
-    """Draw one map; both have one scale of colours, which stands beside the one with a label."""
+def panel(
+    errors: ErrorMap,
+    x_label: str,
+    name: str,
+    label: str,
+    places: dict[float, str],
+    x_scale: Literal["linear", "log"] = "linear",
+) -> Plane:
+    """Draw one map with the names of places; both have one scale of colours, which stands beside one with a label."""
     image = Image(errors.x, errors.t, np.maximum(errors.plain, LIMITS[0]), label, "log", LIMITS)
     ends = (float(errors.x[0]), float(errors.x[-1])), (float(errors.t[0]), float(errors.t[-1]))
-    return Plane((image,), x_label, TIME if not label else "", *ends, x_scale=x_scale, y_scale="log", title=name)
+    words = [Label(np.array([x, LOW]), word) for x, word in places.items()]
+    return Plane((image, *words), x_label, TIME if not label else "", *ends, x_scale=x_scale, y_scale="log", title=name)

@@ -46,10 +46,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            f"{tex_setting(ratio, field, first='A')}, started beside the unstable elementary motion "
-            rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. Above: $\Omega_3$ leaves with the rate "
-            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "
-            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it."
+            r"The smaller the push $\omega_1$ beside an unstable motion, the later it is left. Above: $\Omega_3$ "
+            rf"leaves with the rate $\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "
+            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it. "
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$."
         ),
         alt=(
             f"Panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}, one below the other: Omega 3 "

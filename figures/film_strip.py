@@ -62,9 +62,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of its "
-            r"precession; below, the part of the period $2\pi/k$ gone by. The axis $\mathbf{R}_3$ keeps its angle with "
-            rf"$\mathbf{{B}}$; the dark seam has made $\phi/k={tex(motion.phi / motion.k)}$ turns about it at the end."
+            rf"One turn of the precession in {count} moments: the axis $\mathbf{{R}}_3$ keeps its angle with "
+            rf"$\mathbf{{B}}$; the dark seam has made $\phi/k={tex(motion.phi / motion.k)}$ turns about it at the end. "
+            rf"Below, the part of the period $2\pi/k$ gone by. {tex_setting(ratio, field, first='A')}, "
+            rf"$\omega_2={tex(omega2)}$."
         ),
         alt=(
             f"{count} drawings side by side of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: a "

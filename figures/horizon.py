@@ -5,6 +5,7 @@ tolerance that came through in time.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from atlas.scene.captions import listed, tex, title
 from atlas.scene.layers import Curve, Layer, Plane, Scene
@@ -40,24 +41,19 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
             f"right and the largest error upwards: {listed([benchmark.case_title(case) for case in cases])}. "
             f"{len(benchmark.by_method(record.runs))} methods are drawn; the largest error of the atlas is {worst:.1e}."
         ),
-        panels=panels(record, cases),
+        panels=panels(record, cases, columns),
         columns=columns,
         named={"dotted": "limit"},
         size=(columns * 140.0, -(-len(cases) // columns) * 66.0),
     )
 
 
-def panels(record: benchmark.Results, cases: tuple[str, ...]) -> tuple[Plane, ...]:
-    """Draw the runs of each case, all on the same axes."""
+def panels(record: benchmark.Results, cases: tuple[str, ...], columns: int) -> tuple[Plane, ...]:
+    """Draw the runs of each case, and the limit."""
     layers = {case: tuple(drawn(benchmark.runs_of(record, case))) for case in cases}
-    every = [layer for case in cases for layer in layers[case]]
-    ends = benchmark.decades((x for layer in every for x in layer.points[:, 0]), *ROOM[0])
-    limit = Curve(benchmark.pairs(ends, float, lambda _: LIMIT), "limit", "four ulp of 1")
-    labels = "time $T$", "largest error up to $T$"
-    return tuple(
-        benchmark.panel((*layers[case], limit), every, labels, ROOM, f"({letter}) {benchmark.case_title(case)}")
-        for letter, case in zip("abcdefgh", cases, strict=False)
-    )
+    planes = benchmark.panels(layers, ("time $T$", "largest error up to $T$"), ROOM, columns)
+    limit = Curve(benchmark.pairs(planes[0].x_limits or (), float, lambda _: LIMIT), "limit", "four ulp of 1")
+    return tuple(replace(plane, layers=(*plane.layers, limit)) for plane in planes)
 
 
 def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:

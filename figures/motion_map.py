@@ -20,8 +20,10 @@ from atlas.scene.captions import body_name, listed, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, branches, places
 from atlas.study.sweep.plan import Range, Tabulation
 
-WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
+WIDTH, HEIGHT, PANEL = 152.0, 144.0, 60.0
 NARROWEST = 139.0
+WIDER = 3.0
+"""How much wider than high a word is."""
 STEP = 10.0
 """Degrees: the scale of colours ends at the least multiple that holds all amplitudes."""
 
@@ -113,8 +115,9 @@ def panel(
 
 
 def inmost(x: FloatArray, y: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """Return the middle (2,) of the cell of a region that is farthest from its border."""
-    row, column = np.unravel_index(np.argmax(distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]), inside.shape)
+    """Return the middle (2,) of the cell of a region where a word has most room."""
+    away = distance_transform_edt(np.pad(inside, 1), sampling=(WIDER, 1.0))[1:-1, 1:-1]
+    row, column = np.unravel_index(np.argmax(away), inside.shape)
     return np.array([x[column], y[row]])
 
 

@@ -27,8 +27,8 @@ def scene(
     velocity: Vector = (1.0, 0.0, 0.0),
     c: float = 1.0,
     turns: float = 3.0,
-    azimuth: float = 32.0,
-    elevation: float = 18.0,
+    azimuth: float = -65.0,
+    elevation: float = 28.0,
     unit: str = "time",
 ) -> Scene:
     """Draw path and velocity over ``turns`` turns; without a magnetic field, while E doubles or makes the speed."""
@@ -50,9 +50,8 @@ def scene(
     time = plain(float(f"{stop:.3g}"))
     return Scene(
         title=title(__doc__),
-        caption=rf"A particle with $\mu={tex(mu)}$ in {fields}, with the velocity ${tex_vector(velocity)}$ at the dot: "
-        rf"{particle.case}, {particle.kind}. (a) Its path up to $t={time}$; the arrows are not to scale. (b) Its "
-        "velocity.",
+        caption=rf"(a) The path of a particle ({particle.kind}) up to $t={time}$; the arrows are not to scale. (b) Its "
+        rf"velocity, at the dot ${tex_vector(velocity)}$. {particle.case.capitalize()}: $\mu={tex(mu)}$, {fields}.",
         alt=f"The path in space of a particle with mu = {plain(mu)} in E = {plain_vector(electric)} and B = "
         f"{plain_vector(magnetic)}, and the three components of its velocity over time.",
         panels=(

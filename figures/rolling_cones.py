@@ -43,10 +43,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$: the body cone (amber), "
-            rf"the space cone (green), $k={tex(motion.k)}$. (a) In the field that is "
-            rf"about $\mathbf{{B}}$, and $\phi={tex(motion.phi)}$; (b) free, (87), about $\mathbf{{m}}$, and "
-            rf"$\phi={tex(free.phi)}$. The body cone {contact(motion, axis)} in (a) and {contact(free, axis)} in (b)."
+            rf"The body cone (amber) rolls on the space cone (green): (a) in the field, about $\mathbf{{B}}$, "
+            rf"$\phi={tex(motion.phi)}$; (b) free, (87), about $\mathbf{{m}}$, $\phi={tex(free.phi)}$. It "
+            rf"{contact(motion, axis)} in (a) and {contact(free, axis)} in (b). "
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, $k={tex(motion.k)}$."
         ),
         alt=(
             f"Two pairs of cones that touch along a line, for {plain_setting(ratio, field)} with omega 2 = "

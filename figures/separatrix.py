@@ -45,8 +45,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}: both motions that leave the unstable precession "
-            rf"$\omega_2={tex(omega2)}$ and return to it. (a) The trace of the axis in one of them, $\mathbf{{B}}$ "
+            rf"One excursion from an unstable precession and back, $\omega_2={tex(omega2)}$ of "
+            rf"{tex_setting(ratio, field)}. (a) The trace of the axis in one of the two, $\mathbf{{B}}$ "
             r"upright; dashed: the circle of the precession. (b) $\Omega_3$ of both, with "
             rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$."
         ),

@@ -75,7 +75,7 @@ def stems(
         for i, n in enumerate(chosen):
             layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i else kind))
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
-    top = float(f.max(initial=0.0)) * 1.12 or 1.0
+    top = float(f.max(initial=0.0)) * 1.16 or 1.0
     written: list[float] = []
     for n in np.argsort(-size):
         if len(written) < names and all(abs(f[n] - x) > BESIDE * top for x in written):
@@ -83,6 +83,6 @@ def stems(
             text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
             layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
     return Plane(
-        tuple(layers), f"frequency (1/{unit})", "amplitude", (-0.04 * top, top), (least / 2, 3.0),
+        tuple(layers), f"frequency (1/{unit})", "amplitude", (-0.08 * top, top), (least / 2, 3.0),
         y_scale="log", legend=True, title=f"{heading}, $(m,{letter})$",
     )  # fmt: skip

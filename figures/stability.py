@@ -22,8 +22,9 @@ from atlas.scene.hyperbola_plane import Window, components, graph, seen, unstabl
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
-HIGH, WIDE, FAR = 1.6, 1.0, 2.0
-"""The map shows |x| up to HIGH, and tau up to WIDE, or a little beyond that of the field unless that is above FAR."""
+HIGH, WIDE, FAR, NAMED = 1.6, 1.0, 2.0, 0.93
+"""The map shows |x| up to HIGH, and tau up to WIDE, or a little beyond that of the field unless that is above FAR;
+numbers stand within NAMED of it."""
 
 
 def scene(
@@ -98,7 +99,7 @@ def course(
     layers += [Curve(piece, "main") for piece in pieces]
     if bands:
         layers.append(Points(np.array([[edge, 0.0] for interval in bands for edge in interval]), "point"))
-        layers.append(Label(np.array([sum(bands[-1]) / 2, view.y[0]]), "unstable", "unstable", (0.0, 6.0)))
+        layers += [Label(np.array([sum(band) / 2, view.y[0]]), "unstable", "unstable", (0.0, 6.0)) for band in bands]
     layers += [
         Points(np.array([[0.0, B2 * B2 * rest]]), "rest"),
         Label(np.array([0.0, B2 * B2 * rest]), "rest", "label", (float(np.copysign(6.0, B2)), -2.0)),
@@ -126,12 +127,13 @@ def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
     for value in levels:
         lines = level(value, one_less, view)
         layers += [Curve(line, "component") for line in lines]
-        inner = np.concatenate([np.empty((0, 2)), *lines])
-        inner = inner[inner[:, 0] < 0.93 * view.x[1]]
-        if len(inner):
-            layers.append(Label(inner[np.argmax(inner[:, 0])], f"${tex(value)}$", "component", (4.0, 3.0)))
+        for line in lines:
+            farthest = int(np.argmax(line[:, 0]))  # beyond the window a level has two parts, each with its number
+            halves = (line,) if line[farthest, 0] < NAMED * view.x[1] else (line[:farthest], line[farthest:])
+            for inner in filter(len, (half[half[:, 0] < NAMED * view.x[1]] for half in halves)):
+                layers.append(Label(inner[np.argmax(inner[:, 0])], f"${tex(value)}$", "component", (4.0, 3.0)))
     if tau <= FAR:
-        layers.append(Curve(view.upright(tau), "limit"))
+        layers += [Curve(view.upright(tau), "limit"), Label(np.array([tau, 0.9 * HIGH]), "(a)", "label", (4.0, 0.0))]
     return Plane(
         tuple(layers),
         r"$\tau=|B'_3/B'_2|$",

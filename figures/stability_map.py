@@ -13,7 +13,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Label, Layer, Plane, Scene
-from atlas.scene.captions import body_role, title
+from atlas.scene.captions import title
 from atlas.scene.sample import flat
 from atlas.study.sweep.plan import Range, Tabulation
 
@@ -23,8 +23,8 @@ TOP = 0.6
 CELLS = (160, 96)
 NARROWEST = 120.0
 BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop"))
-ABOVE, ASIDE = 0.045, 0.09
-"""Room for the names above the map, and how far the outermost stand inside, in units of tau and I."""
+ASIDE, UP = 0.1, 0.035
+"""How far the names stand inside the map, in units of I and tau."""
 
 
 def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
@@ -45,11 +45,8 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
         unstable += [Curve(growing, "map_curve"), Label(growing[len(growing) // 2], f"${rate:g}$", "label")]
         for line in filter(len, (level(rate**2, side) for side in (-1, 1))):
             stable += [Curve(line, "map_curve"), Label(on(line, rate), f"${rate:g}$", "label")]
-    stable += [
-        Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), TOP + ABOVE / 2]), name, body_role(I) if I else "note")
-        for I, name in BODIES
-    ]
-    views = ((0.0, 1.0), (0.0, EDGE)), ((0.0, 2.0), (0.0, TOP + ABOVE))
+    stable += [Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), UP]), name) for I, name in BODIES]
+    views = ((0.0, 1.0), (0.0, EDGE)), ((0.0, 2.0), (0.0, TOP))
     names = "(a) greatest rate of growth", "(b) least nutation frequency"
     return Scene(
         title=title(__doc__),

@@ -58,15 +58,15 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            f"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
-            rf"$\omega_3={tex(omega3)}$; $D={tex(D)}<0$, and a push $\omega_1={tex(push)}$ grows with the rate "
-            rf"$\sqrt{{-D}}/2={tex(growth)}$. (a) {count} moments of half a period. (b) The angle of axis and "
-            "field, with these moments as dots. "
+            "A disk that spins along the field tips over: "
             + (
-                "The axis goes round in one sense, through both ends of the field's."
+                "its axis goes round in one sense, through both ends of the field's. "
                 if omega3 == -B3
-                else rf"It reaches {far:.0f} degrees and comes back."
+                else rf"its axis reaches {far:.0f} degrees and comes back. "
             )
+            + f"(a) {count} moments of half a period. (b) The angle of axis and field, with these moments as dots. "
+            rf"$I={tex(quotient(ratio))}$, $B'_3={tex(B3)}$, $\omega_3={tex(omega3)}$; $D={tex(D)}<0$, and a push "
+            rf"$\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$."
         ),
         alt=(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "

@@ -63,10 +63,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, in its first attitude; turned by "
-            rf"$\phi t={tex(round(proper, 3))}$ about its axis; and then, from the dashed line, by "
-            rf"$kt={tex(round(precession, 3))}$ about "
-            r"$\mathbf{B}$: this is the attitude $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85)."
+            r"Two turns lead from the first attitude to that at any time, $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85): "
+            rf"one by $\phi t={tex(round(proper, 3))}$ about the axis, and one, from the dashed line, by "
+            rf"$kt={tex(round(precession, 3))}$ about $\mathbf{{B}}$. {tex_setting(ratio, field, first='A')}, "
+            rf"$\omega_2={tex(omega2)}$."
         ),
         alt=(
             f"Three drawings of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: upright with its seam in "

@@ -37,9 +37,9 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Tops with the momenta $p$ and $M_3$, each a point $(a,A)$. On a dashed line the axis can rest at the "
-            r"cosine $\nu_0$ that the line bears: on one such line with one well, on three in the shaded region with "
-            r"two wells. Its border is their envelope, where $\nu_0$ is a triple root."
+            r"Tops with two wells (shaded) and with one, each a point $(a,A)$, at the momenta $p$ and $M_3$. On a thin "
+            r"line the axis can rest at the cosine $\nu_0$ that the line bears: with two wells on three such lines. "
+            r"The border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(
             f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve "
@@ -47,7 +47,7 @@ def scene(
         ),
         panels=panels,
         columns=len(panels),
-        named={"dashed": "reference", "shaded": "region"},
+        named={"thin": "component", "shaded": "region"},
         size=(WIDTH * len(panels) / 3, HEIGHT),
     )
 
@@ -70,18 +70,21 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         if not len(line):
             continue
         if np.ptp(line[:, 1]) <= 0.4 * reach:
-            layers.append(Curve(line, "reference"))
+            layers.append(Curve(line, "component"))
             continue
         down = 0.11 if line[1, 1] == reach else 0.25
         at, gap = down * line[0] + (1 - down) * line[1], GAP * reach * (line[1] - line[0]) / np.ptp(line[:, 1])
-        layers += [Curve(np.stack([line[0], at - gap]), "reference"), Curve(np.stack([at + gap, line[1]]), "reference")]
+        layers += [Curve(np.stack([line[0], at - gap]), "component"), Curve(np.stack([at + gap, line[1]]), "component")]
         layers.append(Label(at, f"${tex(nu)}$", "note", (0.0, 0.0)))
     layers.append(Curve(envelope(M3, reach), "main"))
+    if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
+        layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))
+    if first:
+        layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note"))
     if last:
         layers += [
             Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", "label", (0.0, 0.0)),
             Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", "label", (0.0, 0.0)),
-            Label(np.array([0.62 * reach, -0.86 * reach]), "two wells", "note", (0.0, 0.0)),
         ]
     return Plane(
         tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),

@@ -34,26 +34,22 @@ def scene(
             f"{listed([benchmark.case_title(case) for case in cases])}. The lines of the integrators rise to the left; "
             "the closed forms are marks at the lower left."
         ),
-        panels=panels(record, cases, horizon),
+        panels=panels(record, cases, horizon, columns),
         columns=columns,
         size=(columns * 140.0, -(-len(cases) // columns) * 66.0),
     )
 
 
-def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float) -> tuple[Plane, ...]:
-    """Draw the runs of each case up to the horizon, all on the same axes."""
+def panels(record: benchmark.Results, cases: tuple[str, ...], horizon: float, columns: int) -> tuple[Plane, ...]:
+    """Draw the runs of each case up to the horizon."""
     layers = {
         case: tuple(drawn([run for run in benchmark.runs_of(record, case) if run.horizon == horizon])) for case in cases
     }
-    every = [layer for case in cases for layer in layers[case]]
-    if not every:
+    if not any(layers.values()):
         known = dict.fromkeys(f"{run.horizon:g}" for run in record.runs)
         raise AtlasError(f"The benchmark record has no horizon {horizon:g}; it has {', '.join(known)}.")
     labels = f"largest error up to $t = {benchmark.power(horizon)}$", "time for one sample (µs)"
-    return tuple(
-        benchmark.panel(layers[case], every, labels, ROOM, f"({letter}) {benchmark.case_title(case)}")
-        for letter, case in zip("abcdefgh", cases, strict=False)
-    )
+    return benchmark.panels(layers, labels, ROOM, columns)
 
 
 def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:

@@ -6,6 +6,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator, ScalarFormatter
 
 from atlas.draw.style import dashes, stroke, style_of, zoom
@@ -19,6 +20,8 @@ _DECADES = 6
 """An axis with more powers of ten has no ticks between them: a reader could not tell them apart."""
 _NEAR, _TOUCH = 0.47, 1e-9
 """How far from the middle a mark meets the frame, and how far beyond it still is on it, in sizes of the panel."""
+_CASING = 0.7
+"""Dark edge of a white line on a map, both sides together, in printer's points."""
 _BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
 
 
@@ -94,6 +97,8 @@ def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
     look = style_of(layer.role)
     if isinstance(layer, Curve):
         line = {"color": look.colour, "lw": stroke(look.width), "ls": dashes(look.dash)}
+        if look.colour == WHITE:
+            line["path_effects"] = [withStroke(linewidth=stroke(look.width + _CASING), foreground=INK)]
         return axes.plot(*layer.points.T, zorder=_LINES + rise, **line)[0]
     if isinstance(layer, Points):
         return axes.plot(*np.atleast_2d(layer.points).T, ls="", zorder=_MARKS + rise, **marker(layer.role, edge))[0]

@@ -139,8 +139,8 @@ def picture(
     )  # fmt: skip
     return Scene(
         title=heading,
-        caption=rf"{setting[0]}. (a) The way of the third axis $\mathbf{{R}}_3(t)$ {span}, ${upright.letter}$ "
-        "upright, from the dot on, and the parallels that it touches. (b) The angular velocity in the body.",
+        caption=rf"(a) The way of the third axis $\mathbf{{R}}_3(t)$ {span}, ${upright.letter}$ upright, from the dot "
+        rf"on, and the parallels that it touches. (b) The angular velocity in the body. {setting[0]}.",
         alt=f"{setting[1]}: a unit sphere with the trace of the third axis {span}, {upright.plain} upright; and "
         "the three components of the angular velocity over time.",
         panels=panels,

@@ -3,7 +3,7 @@
 Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -214,6 +214,15 @@ def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str]
     """Return a panel on logarithmic axes, which hold `every` layer with so many decades of room: in x, in y."""
     x, y = np.concatenate([layer.points for layer in every]).T
     return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
+
+
+def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
+    """Return a panel of the layers of each case, all on the same axes, of which the lowest name the horizontal one."""
+    every, upper = [layer for some in cases.values() for layer in some], len(cases) - columns
+    return tuple(
+        panel(some, every, ("" if k < upper else labels[0], labels[1]), room, f"({'abcdefgh'[k]}) {case_title(case)}")
+        for k, (case, some) in enumerate(cases.items())
+    )
 
 
 def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
