@@ -70,6 +70,7 @@ stress: $(VENV)/.test $(VENV)/.bench
 	@cd tests && for kind in $(KINDS); do OPENBLAS_CORETYPE=$$kind ../$(BIN)/python -m stress --record || test $$? -gt 127; done   # beyond 127: no such instructions here
 	@cd tests && ../$(BIN)/python -m stress --arrays
 	@cd tests && ../$(BIN)/python -m stress.integrated_tops   # against heyoka
+	@cd tests && ../$(BIN)/python -m stress.scalars   # against formulas in mpmath
 	@cd tests && ../$(BIN)/python -m stress.three_moments   # an hour
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
 

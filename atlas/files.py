@@ -1,11 +1,23 @@
-"""Files written whole or not at all: under another name beside their place first, then renamed."""
+"""Files written whole or not at all: under another name beside their place first, then renamed.
+
+What a user may have edited, or put there, is not replaced: only files that are still as they were written here are, by
+the digests in a list in their folder.
+"""
 
 import ctypes
+import errno
+import fcntl
+import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from glob import escape
 from pathlib import Path
+
+from atlas.errors import AtlasError
+
+WRITTEN = ".written"
+"""The list of a folder's files as they were written, in it: lines of digest and name, as `sha256sum` has them."""
 
 HERE, EXCHANGE = -100, 2
 """AT_FDCWD and RENAME_EXCHANGE of Linux."""
@@ -13,7 +25,28 @@ HERE, EXCHANGE = -100, 2
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Give a name beside ``path`` to write to. The file takes the place of ``path`` at the end, if nothing is raised.
+    """Give a name to write to, see `unfinished`. The file takes the place of ``path`` at the end."""
+    with unfinished(path) as part:
+        yield part
+        part.replace(path)
+
+
+@contextmanager
+def keeping(path: Path) -> Iterator[Path]:
+    """Give a name to write to. The file takes the place of ``path`` unless what is there is not as it was written here.
+
+    Then the new one is beside it, and AtlasError says so.
+    """
+    with unfinished(path) as part:
+        yield part
+        with turn(path.parent):
+            beside = settle({path.name: part}, path.parent)
+    tell(path.parent, beside)
+
+
+@contextmanager
+def unfinished(path: Path) -> Iterator[Path]:
+    """Give a name beside ``path`` to write to, until it has another; what still has it at the end is removed.
 
     Missing folders are made; what a process on this machine has left that was killed while it wrote is removed. The
     other name ends in the same suffix. An OSError names ``path``, not the other name.
@@ -26,7 +59,6 @@ def replacing(path: Path) -> Iterator[Path]:
             if left == _unfinished(path, pid) and pid.isdecimal() and not alive(int(pid)):
                 left.unlink(missing_ok=True)
         yield part
-        part.replace(path)
     except OSError as error:
         if error.errno is None or Path(error.filename or part) != part:
             raise
@@ -41,14 +73,14 @@ def _unfinished(path: Path, pid: int | str) -> Path:
 
 
 def alive(pid: int) -> bool:
-    """Return whether there is a process of that number on this machine."""
+    """Return whether a process of that number runs on this machine; a zombie does not."""
     try:
         os.kill(pid, 0)
+        return Path(f"/proc/{pid}/stat").read_bytes().rpartition(b") ")[2][:1] != b"Z"
     except ProcessLookupError:
         return False
-    except (PermissionError, OverflowError):
-        return True  # another user's, or no number of a process
-    return True
+    except (OSError, OverflowError):
+        return True  # another user's, no number of a process, or a system without /proc
 
 
 def exchange(new: Path, old: Path) -> bool:
@@ -94,3 +126,87 @@ def write(path: Path, content: str | bytes) -> None:
     """Write a file, text as UTF-8."""
     with replacing(path) as part:
         part.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> dict[str, str]:
+    """Let files, by their names in a folder, take their places there; it must be this process's `turn`.
+
+    What is there and is not as it was written, by the folder's list or by ``known`` lines of one, stays: the new file
+    is beside it. Return the names of those, and under which the new ones are.
+    """
+    made = {name: _digest(part) or "" for name, part in parts.items()}
+    there = lines(out)
+    before = there | {line for line in known if line[66:] in made}
+    places = free(made, out, before)
+    names = {*places.values()}
+    for name in names:
+        if (out / name).is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(out / name))
+    after = {line for line in before if line[66:] not in names or not edited(out, line[66:], {line})}
+    after |= {f"{made[name]}  {one}" for name, place in places.items() for one in (name, place)}
+    if after != there:
+        write(out / WRITTEN, listed(after))
+    for name, part in parts.items():
+        if _digest(out / places[name]) != made[name]:
+            part.replace(out / places[name])
+    return {name: place for name, place in places.items() if place != name}
+
+
+def tell(out: Path, beside: Mapping[str, str]) -> None:
+    """Raise AtlasError where there are files beside those that were not written here, or were edited since."""
+    if beside:
+        told = "; ".join(
+            f"{out / old} is not as atlas wrote it: the new one is {Path(new).name}" for old, new in beside.items()
+        )
+        raise AtlasError(f"{told}.")
+
+
+def lines(folder: Path) -> set[str]:
+    """Return the list of a folder, nothing where there is none."""
+    try:
+        return {*(folder / WRITTEN).read_text(encoding="utf-8").splitlines()}
+    except OSError:
+        return set()
+
+
+def listed(lines: Iterable[str]) -> str:
+    """Return such a list as text."""
+    return "".join(f"{line}\n" for line in sorted(lines))
+
+
+def edited(folder: Path, name: str, lines: set[str]) -> bool:
+    """Whether something stands there that is no folder, and no file as it was written."""
+    path = folder / name
+    if path.is_symlink():
+        return True
+    return path.exists() and not path.is_dir() and f"{_digest(path)}  {name}" not in lines
+
+
+def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
+    """Return where files with these digests may stand: under their names, or beside what was edited."""
+    places = {}
+    for name, digest in made.items():
+        place = name
+        while edited(folder, place, lines) and ((folder / place).is_symlink() or _digest(folder / place) != digest):
+            place = str(Path(place).with_suffix(f".new{Path(place).suffix}"))
+        places[name] = place
+    return places
+
+
+def _digest(path: Path) -> str | None:
+    """Return the digest of a file, None for what is none."""
+    if not path.is_file():
+        return None
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+@contextmanager
+def turn(folder: Path) -> Iterator[None]:
+    """Wait for one's turn in a folder; the lock is on the folder itself, so that nothing is left in it."""
+    opened = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(opened)

@@ -3,10 +3,17 @@
 import math
 from collections.abc import Mapping
 from fractions import Fraction
+from pathlib import Path
 
+from atlas.files import WRITTEN
 from atlas.paper import EQUATIONS
 from atlas.proof import recorded
 from atlas.proof.verdict import Verdict
+
+
+def names(folder: Path) -> list[str]:
+    """Return the names in a folder, without the list of what was written there."""
+    return sorted(path.name for path in folder.iterdir() if path.name != WRITTEN)
 
 
 def ulps_apart(found: float, certified: str, size: float) -> float:

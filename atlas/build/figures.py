@@ -14,6 +14,7 @@ from typing import Any
 from atlas import files, processes
 from atlas.build import worker
 from atlas.build.cache import Cache
+from atlas.build.publish import publish
 from atlas.core.arithmetic.machine import processors
 from atlas.errors import AtlasError
 from atlas.libraries import versions
@@ -187,7 +188,10 @@ def cores() -> int:
 
 @dataclass(frozen=True)
 class Files:
-    """What became of a figure by itself: its files, what drew them, a line for the user, and why; or its failure."""
+    """What became of a figure by itself: its files, what drew them, a line for the user, and why; or its failure.
+
+    `edited` says which files stand beside those that were not written here, or edited since.
+    """
 
     name: str
     files: tuple[Path, ...] = ()
@@ -195,6 +199,7 @@ class Files:
     note: str = ""
     reason: str = ""
     failure: str = ""
+    edited: str = ""
 
 
 def build_figures(
@@ -235,16 +240,18 @@ def build_figures(
 
 
 def _put(figure: FigureBuild, out: Path) -> Files:
-    """Put the files of a figure in their places, if they are not there."""
+    """Put the files of a figure in their places; what is there and is not as it was written stays."""
     name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
     stem = "-".join([name, *figure.targets])
-    paths = {kind: out / f"{stem}.{kind}" for kind in figure.kinds}
-    for kind, path in paths.items():
-        if not path.is_file() or path.read_bytes() != figure.contents[kind]:
-            files.write(path, figure.contents[kind])
-    return Files(name, tuple(paths.values()), figure.facts["renderer"], figure.facts["note"], figure.reason)
+    made = {"": {f"{stem}.{kind}": figure.contents[kind] for kind in figure.kinds}}
+    paths, edited = tuple(out / path for path in made[""]), ""
+    try:
+        publish(made, out, stem)
+    except AtlasError as error:
+        edited = str(error)
+    return Files(name, paths, figure.facts["renderer"], figure.facts["note"], figure.reason, edited=edited)
 
 
 HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms]", "peak [MB]", "kB")

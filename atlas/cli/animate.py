@@ -55,8 +55,9 @@ def command(
     """Let a figure move: its recipe over the values of one parameter, every frame in one view and at one scale.
 
     Figures that show a motion, such as film_strip and rolling_cones, have a time t: t=0:10:100, say, or as long as the
-    motion lasts when nothing is asked for. The file is OUT/NAME.FORMAT, written whole or not at all. With a NAME,
-    --help tells its parameters.
+    motion lasts when nothing is asked for. The file is OUT/NAME.FORMAT, written whole or not at all. Beside one that
+    you edited, or put there, it is NAME.new.FORMAT, and then the exit status is 2. With a NAME, --help tells its
+    parameters.
     """
     from atlas.draw import animation
     from atlas.places import settle_matplotlib

@@ -8,7 +8,7 @@ import click
 
 from atlas.cli import body
 from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
-from atlas.cli.present import dump
+from atlas.cli.present import dump, picture
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Options that only a top has."""
@@ -124,16 +124,11 @@ def _graded(files: tuple[Path, ...], options: dict[str, Any], given: dict[str, A
         raise click.UsageError("several files are graded with --order; without it give one.")
     checks = [check_file(file, threshold=options["threshold"], **given) for file in files]
     found = convergence(checks) if options["order"] else checks[0]
-    if options["figure"] is not None:
-        from atlas.draw.files import save
-
-        save(found.scene(), {options["figure"]: options["figure"].suffix.lstrip(".")})
     if options["as_json"]:
         dump(found.record())
     else:
         click.echo(str(found))
-        if options["figure"] is not None:
-            click.echo(options["figure"])
+    picture(found, options["figure"], silent=options["as_json"])
     if options["order"]:
         return 0
     failed = [

@@ -109,7 +109,8 @@ def command(
     figure that can't be read at that width says so; `atlas list` tells which need more than a column.
 
     What was drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
-    others; then the exit status is 1.
+    others; then the exit status is 1. Beside a file that you edited, or put there, the new one is written, as
+    NAME.new.svg, and then the exit status is 2.
     """
     from atlas.build.figures import build_figures
     from atlas.scene import recipes
@@ -147,7 +148,10 @@ def command(
     if explain:
         show(explained([["figure", figure.name, figure.reason] for figure in figures]))
     sys.stdout.flush()
-    return warned(figures, renderer)
+    status = warned(figures, renderer)
+    if edited := [figure.edited for figure in figures if figure.edited]:
+        raise AtlasError(" ".join(edited))
+    return status
 
 
 def _check(names: tuple[str, ...]) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from atlas.cli.options import REAL, Command, Many, Place, examples
-from atlas.cli.present import dump
+from atlas.cli.present import dump, picture
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
 KINDS = ("rotation", "quaternion", "axis", "angular_velocity", "field_in_body", "signal")
@@ -59,10 +59,6 @@ def command(file: Path, **options: Any) -> int:
     found = fit(
         t, options["family"], sigma=sigma, params=params, loss=options["loss"], epoch=float(options["epoch"]), **data
     )
-    if options["figure"] is not None:
-        from atlas.draw.files import save
-
-        save(found.scene(), {options["figure"]: options["figure"].suffix.lstrip(".")})
     record = {"file": file.name, **found.record()} if options["as_json"] else {}
     lines = [f"{file.name}: {found.report()}"]
     for time in map(float, options["predict"]):
@@ -76,8 +72,7 @@ def command(file: Path, **options: Any) -> int:
         dump(record)
     else:
         click.echo("\n".join(lines))
-        if options["figure"] is not None:
-            click.echo(options["figure"])
+    picture(found, options["figure"], silent=options["as_json"])
     return 1 if found.doubts else 0
 
 

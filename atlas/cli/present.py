@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from itertools import chain
+from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -43,6 +44,17 @@ class Printout:
 def explained(reasons: Sequence[Sequence[str]]) -> Printout:
     """Return what says of each part of a build, by kind and name, why it was made or taken."""
     return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
+
+
+def picture(found: Any, file: Path | None, *, silent: bool) -> None:
+    """Draw what was found into the file that was asked for, if one was, and say where it is."""
+    if file is None:
+        return
+    from atlas.draw.files import save
+
+    save(found.scene(), {file: file.suffix.lstrip(".")}, kept=True)
+    if not silent:
+        click.echo(file)
 
 
 def show(printout: Printout) -> None:

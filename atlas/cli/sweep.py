@@ -23,7 +23,8 @@ the right ones. A row takes microseconds, of the family general some tens of the
 file has units in its heading, as in k [1/time]. Where a quantity has no value its cell is empty, and the column missing
 says why. What is done is kept in the folder OUT.parts: a sweep that was stopped goes on when it is called again. A
 folder or an address, as s3://bucket/table.parquet (with the package of fsspec for it), takes a Parquet data set: files
-that pandas and Dask read as one table.
+that pandas and Dask read as one table. Beside a file that you edited, or put there, the table is OUT.new.csv, and then
+the exit status is 2.
 """
 
 MOST = 10**7

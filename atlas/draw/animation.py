@@ -181,11 +181,12 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
 def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -> None:
     """Write an animation as an mp4, gif or apng, whole or not at all.
 
-    Raises AtlasError where `check` does, and OSError where the file can't be written.
+    Raises AtlasError where `check` does, and where the new file stands beside one that was edited, see
+    `atlas.files.keeping`; OSError where the file can't be written.
     """
     check(kind, fps)
     writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
-    with files.named(path), files.replacing(path) as part:
+    with files.named(path), files.keeping(path) as part:
         try:
             moving.save(part, writer=writer, dpi=dpi)
         except CalledProcessError as error:

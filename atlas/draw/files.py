@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from atlas.errors import AtlasError
-from atlas.files import replacing
+from atlas.files import keeping, replacing
 from atlas.scene.layers import Image, Scene, Space
 from atlas.targets import Target
 
@@ -31,6 +31,8 @@ def save(
     renderer: str = "vector",
     style: Any = None,
     target: Target | None = None,
+    *,
+    kept: bool = False,
 ) -> "Figure":
     """Draw a scene once, for a target if one is given, and write it into each path in its kind: svg, pdf, png or pgf.
 
@@ -39,7 +41,8 @@ def save(
     Where no GL library can draw, and for scenes without a panel in space, the vector renderer takes over; see `choose`.
     Missing folders are made. Raises AtlasError for an unknown kind or renderer, for a shaded figure that is not a PNG,
     for a map of values as PGF, for a style that cannot be used, and for a scene that can't be read at its target;
-    OSError where a file cannot be written.
+    OSError where a file cannot be written. With ``kept`` a file that was not written here, or edited since, stays, the
+    new one is beside it, and AtlasError says so.
     """
     from atlas.draw.panels import to_figure
     from atlas.draw.style import context
@@ -57,7 +60,7 @@ def save(
     with context(style, target), _formulas_parsed_once(), ExitStack() as stack:
         figure = to_figure(scene, style, shaded=used == "shaded", target=target)
         for path, kind in files.items():
-            place = stack.enter_context(replacing(path))
+            place = stack.enter_context((keeping if kept else replacing)(path))
             _write(figure, place, kind, scene)
             if target and kind == "png":
                 _opaque(place)

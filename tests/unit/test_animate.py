@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image
+from tests_support import names
 
 import atlas
 from atlas import AtlasError, ElementaryMotion
@@ -147,7 +148,7 @@ def test_a_file_has_the_frames(tmp_path: Path, kind: str) -> None:
     """So many frames as asked for, which differ, and nothing else in the folder."""
     done = run(f"cone --over azimuth=0:80:3 --fps 10 --format {kind}", tmp_path)
     assert done.output == f"{tmp_path / f'cone.{kind}'}\n"
-    assert [one.name for one in tmp_path.iterdir()] == [f"cone.{kind}"]
+    assert names(tmp_path) == [f"cone.{kind}"]
     with Image.open(tmp_path / f"cone.{kind}") as picture:
         assert picture.n_frames == 3
         frames = []
@@ -166,7 +167,7 @@ def test_an_mp4_is_what_ffmpeg_makes_of_the_frames(tmp_path: Path, monkeypatch: 
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     done = run("cone --over azimuth=0:80:2 --format mp4", out)
     assert done.exit_code == 0, done.exception
-    (file,) = out.iterdir()
+    (file,) = (out / name for name in names(out))
     width, height = (2 * int(length / 25.4 * 40 / 2) for length in recipes.load("cone").scene().size)
     assert abs(file.stat().st_size / (2 * 4 * width * height) - 1) < 0.05
 

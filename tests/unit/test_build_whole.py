@@ -116,7 +116,7 @@ def test_an_edited_file_stays_and_the_new_one_is_beside_it(tmp_path: Path, *, li
     (place / "s" / "c.tex").write_text("mine")
     (place / "a.new.tex").write_text("mine too")
     for version in (b"2", b"3"):
-        with pytest.raises(AtlasError, match=r"a\.tex was edited: the new text is a\.new\.new\.tex"):
+        with pytest.raises(AtlasError, match=r"a\.tex is not as atlas wrote it: the new one is a\.new\.new\.tex"):
             replace(place, {"a.tex": version, "b.tex": version})
         found = {name: content for name, content in state(place).items() if name != WRITTEN}
         assert found == {
@@ -136,7 +136,7 @@ def test_a_pdf_or_a_page_beside_the_folder_is_kept_by_the_same_rule(tmp_path: Pa
     assert (tmp_path / "plain.pdf").read_bytes() == b"2"
     (tmp_path / "plain.pdf").write_text("mine")
     for version in ("3", "4"):
-        with pytest.raises(AtlasError, match=r"plain\.pdf was edited: the new text is plain\.new\.pdf"):
+        with pytest.raises(AtlasError, match=r"plain\.pdf is not as atlas wrote it: the new one is plain\.new\.pdf"):
             publish(made(version, "c.html"), tmp_path, "plain")
         assert (tmp_path / "plain.pdf").read_text() == "mine"
         assert (tmp_path / "plain.new.pdf").read_text() == (tmp_path / "plain" / "a.html").read_text() == version

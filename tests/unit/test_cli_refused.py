@@ -31,6 +31,7 @@ FILES: dict[str, str | bytes] = {
     "short.csv": "t,x\n\n1,2\n\n3\n",
     "word.csv": "t,x\n1,2\n\n3,two\n",
     "ratios.csv": "ratio\n0.5\n",
+    "cone.csv": "mine",
     "bad.toml": "family =\n",
     "deep.toml": "a = " + "[" * 3000,
     "nul.toml": 'family = "elementary"\nquantities = ["k"]\nout = "a\\u0000.csv"\n',
@@ -189,6 +190,7 @@ CASES = [
     ("figure loop --all", "name the figures, or say --all"),
     ("figure {place}/one.py {place}/sub/one.py", "have the same name"),
     ("figure loop --set field", "--set takes KEY=VALUE"),
+    ("figure cone --format csv --out {place}", "cone.csv is not as atlas wrote it: the new one is cone.new.csv"),
     ("report atlas --out {place}/ratios.csv/new", "ratios.csv' is a file"),
     ("report atlas --out {place}/lost", "lost' is a link to nothing"),
 ]  # fmt: skip

@@ -61,6 +61,16 @@ def test_a_full_disk_names_the_file_that_was_meant(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+def test_a_process_that_has_ended_does_not_run() -> None:
+    """One is alive until it has ended, and not while it waits for a parent that does not ask."""
+    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE, stderr=subprocess.DEVNULL) as one:
+        assert files.alive(one.pid)
+        one.kill()
+        os.waitid(os.P_PID, one.pid, os.WEXITED | os.WNOWAIT)
+        assert not files.alive(one.pid)
+    assert not files.alive(one.pid)
+
+
 SWEEP = "sweep quadric --set ratio=0.5:2:99 --set B2=1 --set B3=2 --quantity beta -j 1 --out t.csv"
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from tests_support import names
 
 import atlas
 from atlas.cli.app import atlas as program
@@ -47,7 +48,7 @@ def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: st
     assert sweep(tmp_path / f"b{suffix}", jobs=2) == alone
     with ThreadPoolExecutor(2) as pool:
         assert sweep(tmp_path / f"c{suffix}", executor=pool) == alone
-    assert len(list(tmp_path.iterdir())) == 3
+    assert len(names(tmp_path)) == 3
 
 
 def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from tests_support import names
 
 import atlas
 from atlas.cli.app import atlas as program
@@ -75,7 +76,7 @@ def test_a_sweep_that_was_stopped_goes_on_from_there(
     sweep(tmp_path / "t.csv")
     assert starts == STARTS[3:]
     assert (tmp_path / "t.csv").read_bytes() == whole
-    assert list(tmp_path.iterdir()) == [tmp_path / "t.csv"]
+    assert names(tmp_path) == ["t.csv"]
 
 
 def test_any_rows_are_those_of_the_table() -> None:
@@ -127,7 +128,7 @@ def test_parts_under_wrong_names_are_not_taken(tmp_path: Path, whole: bytes, mon
         made(monkeypatch)
         sweep(tmp_path / "t.csv")
         assert (tmp_path / "t.csv").read_bytes() == whole
-        assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+        assert names(tmp_path) == ["t.csv"]
         (tmp_path / "t.csv").unlink()
 
 
@@ -143,7 +144,7 @@ def test_rows_that_are_in_two_parts_are_taken_once(
             run.make(Plan.of("elementary", GRID, NAMES), start, stop, table)
     sweep(tmp_path / "t.csv")
     assert (tmp_path / "t.csv").read_bytes() == whole
-    assert list(tmp_path.iterdir()) == [tmp_path / "t.csv"]
+    assert names(tmp_path) == ["t.csv"]
 
 
 def test_parts_of_another_sweep_or_another_program_are_not_taken(
@@ -253,7 +254,7 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
             limit, before = 10**9, limit
             given, rows = [(GRID, 80), (other, 80), (GRID, 154)][before % 3]
             atlas.sweep("elementary", given, NAMES, f"{tmp_path}/{name}", rows=rows, jobs=1)
-            assert {path.name for path in tmp_path.iterdir()} == {name.rstrip("/")}
+            assert names(tmp_path) == [name.rstrip("/")]
             limit = before + 1
     assert limit > 3
 
@@ -284,7 +285,7 @@ def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_f
     assert subprocess.run([sys.executable, "-c", kill], check=False).returncode == -signal.SIGKILL
     assert lock.exists()
     sweep(tmp_path / "t.csv")
-    assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+    assert names(tmp_path) == ["t.csv"]
     lock.write_text("mine")
     with pytest.raises(AtlasError, match="something else"):
         sweep(tmp_path / "t.csv")

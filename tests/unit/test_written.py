@@ -8,10 +8,14 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
+from tests_support import names
 
+import atlas
 from atlas import files
 from atlas.build.publish import replace
+from atlas.cli import main
 
 REPORT = """
 name = "small"
@@ -67,8 +71,57 @@ def test_what_is_in_the_way_stays(tmp_path: Path, words: str, name: str) -> None
         assert done.returncode == 0, done.stderr
     else:
         one_line(done, 1, f"out/{name}")
-    assert [path.name for path in (tmp_path / "out").iterdir()] == [name]
+    assert names(tmp_path / "out") == [name]
     assert (tmp_path / "out" / name / "own.txt").read_text() == "mine"
+
+
+LONE = {
+    "figure trochoids --format csv --set speeds={}": "out/trochoids.csv",
+    "animate trochoids --over turns=1:{}:2 --dpi 20": "out/trochoids.gif",
+    "sweep ball --set inertia=1 larmor={} m2=1 m3=1 --quantity gamma --out out/t.csv": "out/t.csv",
+    "check run2.csv --threshold {} --figure out/c.svg": "out/c.svg",
+    "fit run{}.csv --figure out/f.svg": "out/f.svg",
+}
+"""Commands that write one file, with a number that changes it."""
+
+
+@pytest.mark.parametrize(("words", "name"), LONE.items(), ids=[words.split()[0] for words in LONE])
+def test_a_file_that_was_edited_or_is_foreign_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, name: str
+) -> None:
+    """What a command wrote it replaces; what somebody else put there stays, the new one is beside it, status 2."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ATLAS_CACHE", str(tmp_path / "cache"))
+    t, motion = np.linspace(0, 9, 40), atlas.ElementaryMotion(1.5, (1, 2), 0.7)
+    noise = np.random.default_rng(0).normal(0, 0.01, (40, 9))
+    head = "# ratio = 1.5\n# field = 1 2\n# omega2 = 0.7\nt," + ",".join(f"R{i}{j}" for i in "123" for j in "123")
+    for number in (2, 3):
+        table = np.column_stack([t, motion.rotation(t).reshape(-1, 9) + number * noise])
+        np.savetxt(f"run{number}.csv", table, delimiter=",", header=head, comments="")
+    file, new = Path(name), Path(name).with_suffix(f".new{Path(name).suffix}")
+    more = ["--out", "out"] if "out/" not in words else []
+
+    def called(number: int) -> int:
+        with pytest.raises(SystemExit) as ended:
+            main([*words.format(number).split(), *more])
+        return int(ended.value.code or 0)
+
+    file.parent.mkdir()
+    file.write_text("foreign")
+    assert called(2) == 2
+    assert (file.read_text(), new.exists()) == ("foreign", True)
+    first = new.read_bytes()
+    file.unlink()
+    assert called(2) in {0, 1}
+    assert file.read_bytes() == first
+    assert called(3) in {0, 1}
+    assert file.read_bytes() != first
+    with file.open("ab") as own:
+        own.write(b" ")
+    edited = file.read_bytes()
+    assert called(2) == 2
+    assert file.read_bytes() == edited
+    assert new.read_bytes() == first
 
 
 @pytest.mark.parametrize("words", [words for words in WRITERS if not words.startswith("figure")])

@@ -16,6 +16,7 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 
+from atlas import files
 from atlas.core.arithmetic.machine import processors
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
@@ -75,7 +76,8 @@ def sweep(
     null in .parquet, no text), and the column `missing` says why.
 
     Raises AtlasError for what is unknown, missing or outside the domain of the family, with the row that it is in; for
-    a table that another sweep is writing, with who that is; and for a folder that is not of a sweep.
+    a table that another sweep is writing, with who that is; for a folder that is not of a sweep; and for a file that is
+    not as it was written, which stays: the table is beside it then.
     """
     if rows is not None and rows < 1:
         raise AtlasError(f"A part has at least one row, not {rows}.")
@@ -86,13 +88,15 @@ def sweep(
     with table.held():
         try:
             names = _compute(plan, table, rows, executor, width(executor, jobs), progress)
+            beside: Mapping[str, str] = {}
             if table.whole is None:
-                write(Path(table.place), plan, [table.path(name) for name in names])
+                beside = write(Path(table.place), plan, [table.path(name) for name in names])
             else:
                 table.move(names)
             table.parts.clear(table.parts.names())
         finally:
             table.parts.clear([])
+    files.tell(Path(table.place).parent, beside)
     return table.place
 
 

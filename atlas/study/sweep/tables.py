@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
-from atlas.files import replacing
+from atlas.files import settle, turn, unfinished
 from atlas.libraries import of_sweeps
 from atlas.study.sweep.families import empty
 from atlas.study.sweep.plan import Plan
@@ -65,10 +65,12 @@ PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array
 """How the rows of a part are kept, by the ending of its file and of the table."""
 
 
-def write(out: Path, plan: Plan, parts: Parts) -> None:
-    """Write a table from its parts into its place."""
-    with replacing(out) as file:
+def write(out: Path, plan: Plan, parts: Parts) -> Mapping[str, str]:
+    """Write a table from its parts into its place, or beside what is there, see `atlas.files.settle`."""
+    with unfinished(out) as file:
         WRITERS[out.suffix[1:]](file, plan, parts)
+        with turn(out.parent):
+            return settle({out.name: file}, out.parent)
 
 
 def write_csv(out: Path, plan: Plan, parts: Parts) -> None:
