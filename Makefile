@@ -66,6 +66,7 @@ bench: $(VENV)/.bench
 	@cd tests && env -u OPENBLAS_CORETYPE ../$(BIN)/python -m benchmarks.run   # so that OpenBLAS chooses the kernels of this processor
 
 stress: $(VENV)/.test $(VENV)/.bench
+	@$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m slow
 	@cd tests && ../$(BIN)/python -m stress --record --anew
 	@cd tests && for kind in $(KINDS); do OPENBLAS_CORETYPE=$$kind ../$(BIN)/python -m stress --record || test $$? -gt 127; done   # beyond 127: no such instructions here
 	@cd tests && ../$(BIN)/python -m stress --arrays
@@ -92,8 +93,8 @@ lint: $(VENV)/.test
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
-	@echo 'the tests: about 12 minutes on two cores'
-	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(JOBS) --dist worksteal -rs   # with reasons for what is skipped; without bytecode, each of their programs is compiled
+	@echo 'the tests: some minutes on two cores; make stress runs the slow ones'
+	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(JOBS) --dist worksteal -rs -m 'not slow'   # with reasons for what is skipped; without bytecode, each of their programs is compiled
 
 # The sdist and the wheel of a tag, from what the tag holds and nothing else.
 release: $(VENV)/.test

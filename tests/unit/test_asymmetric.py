@@ -59,6 +59,7 @@ def turn(axis: Any, angle: arb) -> Any:
     )
 
 
+@pytest.mark.slow
 def test_thirty_digits_at_t_100_are_those_of_taylor_series() -> None:
     """R(100), reduced modulo the periods, holds an integration of (12), (16) to 30 digits; so does R(3)."""
     motion = Balls(BODY, FIELD, OMEGA)

@@ -149,6 +149,7 @@ def test_plane_pendulums_have_the_values_of_the_rays_and_their_stability() -> No
             assert (departed(M, K) > 1e4) != stable
 
 
+@pytest.mark.slow
 def test_the_isolated_focus_has_monodromy_and_a_regular_value_has_none() -> None:
     """Round it one period comes back with the other added; the same loop beside it brings both back."""
     one = Bifurcation(BODY, 1.0, 0.8)

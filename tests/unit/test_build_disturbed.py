@@ -110,6 +110,7 @@ def _alive(group: int) -> bool:
     return False
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loading", [True, False])
 def test_workers_killed_at_random_moments_stop_nothing(
     undisturbed: dict[str, str], tmp_path: Path, *, loading: bool
@@ -143,6 +144,7 @@ def _children(parent: int) -> list[int]:
     return [int(child) for child in Path(f"/proc/{parent}/task/{parent}/children").read_text().split()]
 
 
+@pytest.mark.slow
 def test_damaged_entries_of_the_cache_are_made_again(undisturbed: dict[str, str], copy: Path) -> None:
     """Whatever is altered, cut or removed in the cache, the next build ends in the same bytes."""
     words, chance = command(copy), random.Random(3)  # noqa: S311  reproducible, not secret
@@ -162,6 +164,7 @@ def test_damaged_entries_of_the_cache_are_made_again(undisturbed: dict[str, str]
     assert content(copy) == undisturbed
 
 
+@pytest.mark.slow
 def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, str], tmp_path: Path) -> None:
     """Elsewhere, one figure at a time, in another language and time zone, the bytes are the same."""
     folder = tmp_path / "another place"

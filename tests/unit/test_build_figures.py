@@ -228,6 +228,7 @@ def test_what_changed_is_told_by_name(tmp_path: Path, monkeypatch: pytest.Monkey
     assert new.reason == "drawn: changed: libraries"
 
 
+@pytest.mark.slow
 def test_whatever_the_cache_has_lost_the_files_are_the_same(tmp_path: Path) -> None:
     """Any one entry of a drawing removed, or all but one, it is drawn as a whole, with what moves and what turns."""
     kinds, cache = ("svg", "narrow", "scene", "moves"), Cache(tmp_path)
@@ -256,6 +257,7 @@ def test_a_figure_that_fails_does_not_stop_the_others(tmp_path: Path, jobs: int)
     assert drawn.contents
 
 
+@pytest.mark.slow
 def test_a_worker_that_dies_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """When a worker is killed, the figures that were not finished are drawn by another."""
     cache, killed = Cache(tmp_path), list[int]()
@@ -302,6 +304,7 @@ def test_compressed_data_are_the_data(tmp_path: Path) -> None:
     assert one.contents["csv.gz"][:10] == b"\x1f\x8b\x08\0\0\0\0\0\x02\xff"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) -> None:
     """A scene that ends the process that draws it is told of; the rest is drawn."""

@@ -189,6 +189,7 @@ def test_the_pdf_has_the_same_content(built: Built) -> None:
     assert not re.search(r"\\[a-z]{2,}|\$|@mf", whole)
 
 
+@pytest.mark.slow
 def test_the_same_file_gives_the_same_bytes(built: Built, toml: Path, tmp_path: Path) -> None:
     """A second build in another folder gives the same files with the same bytes."""
     again = build_report(toml, tmp_path / "elsewhere")

@@ -52,6 +52,7 @@ def report(folder: Path, title: str) -> Path:
     return file
 
 
+@pytest.mark.slow
 def test_a_failing_pdf_leaves_the_last_good_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """If the PDF can't be set, no page is replaced either, and nothing is left lying about."""
     out = tmp_path / "out"
@@ -79,6 +80,7 @@ def test_a_killed_build_leaves_the_last_good_report(tmp_path: Path) -> None:
     assert "New" in made.index.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_what_is_stale_goes_and_what_is_foreign_stays(tmp_path: Path) -> None:
     """Pages that a report no longer has are removed from its folder; files of the user stay, in it and beside it."""
     out, file = tmp_path / "out", report(tmp_path, "T")
@@ -150,6 +152,7 @@ def test_a_pdf_or_a_page_beside_the_folder_is_kept_by_the_same_rule(tmp_path: Pa
     assert (tmp_path / "other.pdf").read_text() == "of somebody"
 
 
+@pytest.mark.slow
 def test_a_report_that_lost_its_record_is_built_again(tmp_path: Path) -> None:
     """Any file of a built report may be lost, also the one by which it is known as a report."""
     out = tmp_path / "out"

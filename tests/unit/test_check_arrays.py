@@ -48,6 +48,7 @@ def written(path: Path, t: np.ndarray, R: np.ndarray, *more: np.ndarray) -> Path
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", MOTIONS)
 def test_arrays_are_graded_as_files_are(tmp_path: Path, options: str) -> None:
     """The command prints the object, which has the same numbers, for every class of motions."""

@@ -85,6 +85,7 @@ def test_an_error_of_such_a_body_is_measured_by_balls(tmp_path: Path, of_body: n
     assert max(found.errors["R"]) == pytest.approx(2.0**-30, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_its_quaternion_of_either_sign(tmp_path: Path, of_body: np.ndarray) -> None:
     """Both signs are right, and in each row another component that is off by 2^-30 is found."""
     signs = np.array([1, -1, 1, -1])[:, None]
@@ -150,6 +151,7 @@ def test_what_is_no_motion_is_refused(tmp_path: Path, of_body: np.ndarray, given
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_the_command_takes_both(tmp_path: Path, of_body: np.ndarray, of_top: np.ndarray) -> None:
     """`atlas check` with three moments, and with the direction of a top; a failed column is status 1."""
     for rows, options, worst in (

@@ -50,6 +50,7 @@ def reduced(tau: np.ndarray) -> None:
     assert (abs(x) <= np.array([[0.5, 1.0], [1.0, 1.0]]) * (1 + 1e-9)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_the_closed_form_is_found_and_proved(name: str) -> None:
     """And it is the certified twin at a time that nobody has tried."""
@@ -73,6 +74,7 @@ def test_real_periods_have_no_imaginary_part(case: tuple[tuple[float, ...], ...]
             assert abs(float(x.imag.mid())) < 1e-30 * max(abs(float(y.real.mid())) for y in period[:2])
 
 
+@pytest.mark.slow
 def test_periods_too_long_to_be_gone_are_an_error_in_one_line() -> None:
     """Moments of a ball but for a billionth: times up to a limit have an answer, and it is said why no others have."""
     motion = atlas.AsymmetricMotion((1.0, 1 + 2.0**-30, 1 + 1.75 * 2.0**-30), (0.5, -1.0, 0.25), (0.25, 1.0, -0.5))

@@ -114,6 +114,7 @@ def test_a_slip_of_a_part_in_1e40_is_in_the_bounds(
     np.testing.assert_allclose(bounds / size, apart, rtol=1e-3, atol=1e-2)
 
 
+@pytest.mark.slow
 def test_the_bounds_of_a_body_whose_times_are_complex() -> None:
     """Nearly a ball, where forms are large far from the real times: slips in K and N, and the size of N's factor."""
     body = (1.0, 1.00390625, 1.006640625), (-0.41, -1.04, 0.92), (-0.65, -1.37, 0.32)
@@ -169,6 +170,7 @@ def test_coefficients_of_a_defect_obey_their_law() -> None:
     assert compared > 10
 
 
+@pytest.mark.slow
 def test_more_starts_on_the_torus_prove_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     """From four states of the cell, to which Taylor's series goes, the bound is as good; a wrong state is noticed.
 
@@ -214,6 +216,7 @@ def state(theta: ThetaMotion, t: acb, g: acb) -> tuple[list[acb], list[acb]]:
     return found.M, found.K
 
 
+@pytest.mark.slow
 def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """A denominator that has a zero in the cell, and errors that might grow to the size of the motion, are refused."""
     theta = made()

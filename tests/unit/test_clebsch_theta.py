@@ -253,6 +253,7 @@ def test_frequencies_are_those_of_the_motion() -> None:
     assert np.abs(rest).max() < 1e-8 * np.abs(K).max()
 
 
+@pytest.mark.slow
 def test_the_third_frequency_is_that_about_the_field() -> None:
     """Across B, R turns with f3 and with sums n1 f1 + n2 f2, |n| <= 8, alone; the digits of balls are the same."""
     one = motion()

@@ -52,6 +52,7 @@ def numbers(*words: str) -> dict[str, Any]:
     return {name: value for name, value in json.loads(out).items() if name != "parameters"}
 
 
+@pytest.mark.slow
 def test_points_and_tesla_are_moments_and_rates(tmp_path: Path) -> None:
     """Moved as a whole the points have their moments; B of 100, 200, 2000 T at 1e-3 C/kg is B' = (0.05, 0.1, 1) /s."""
     typed = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
@@ -87,6 +88,7 @@ def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> N
     assert [float(x) for x in out.partition("--inertia ")[2].split()[:3]] == pytest.approx([3, 5, 6], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_points_without_charges_are_a_body(tmp_path: Path) -> None:
     """They serve with --field."""
     file = written(tmp_path, names="x,y,z,mass")
@@ -116,6 +118,7 @@ def test_frequencies_or_why_there_are_none() -> None:
     assert found["missing"]["frequencies"].startswith("There is no torus with three frequencies")
 
 
+@pytest.mark.slow
 def test_a_tensor_in_any_axes_is_that_of_its_principal_axes(tmp_path: Path) -> None:
     """Points turned by 30 degrees about z, or their tensor, in a field turned with them: the turned motion."""
     c, s = np.sqrt(3) / 2, 0.5

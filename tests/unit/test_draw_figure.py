@@ -64,6 +64,7 @@ def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, kind: str, make:
     assert len(first) > 1000
 
 
+@pytest.mark.slow
 def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
     """The seed of hashing, the locale, the time zone, a reader's settings and other figures before do not matter."""
     program = (

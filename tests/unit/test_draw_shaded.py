@@ -101,6 +101,7 @@ def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
     assert sizes[0] == sizes[1]
 
 
+@pytest.mark.slow
 def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path: Path) -> None:
     """A figure has the same bytes as the first of a process and after another one, of another size."""
     program = (

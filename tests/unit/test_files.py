@@ -74,6 +74,7 @@ def test_a_process_that_has_ended_does_not_run() -> None:
 SWEEP = "sweep quadric --set ratio=0.5:2:99 --set B2=1 --set B3=2 --quantity beta -j 1 --out t.csv"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "name"), [(SWEEP, "t.csv.parts"), ("report mine.toml --out out", "cache")])
 def test_a_full_disk_is_told_with_the_file_that_did_not_fit(tmp_path: Path, words: str, name: str) -> None:
     """One line, which says where there is no room: beside the output or in the cache."""

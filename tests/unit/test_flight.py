@@ -72,6 +72,7 @@ def test_the_velocity_is_the_derivative_of_the_path() -> None:
     assert np.abs(flight.velocity(AROUND[3]) - slope(flight.position(AROUND))).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_the_points_feel_the_lorentz_force_and_no_other() -> None:
     """Six points that make the body, each on its flight, gain the angular momentum and the momentum of their forces."""
     # Unit masses on the principal axes: 1.32 is diag(1.5, 1.5, 0.5), the inertia diag(2, 2, 3), as in ARGUMENTS.

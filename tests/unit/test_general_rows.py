@@ -218,6 +218,7 @@ def test_no_motions_have_no_scalars() -> None:
     assert none.rotation(1.0).shape == (0, 3, 3)
 
 
+@pytest.mark.slow
 def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytest.MonkeyPatch) -> None:
     """An array of extreme and ordinary rows is within every promise; were the sums cut short, R would not be."""
 

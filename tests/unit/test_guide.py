@@ -27,6 +27,7 @@ def blocks() -> list[tuple[str, str, str]]:
     return [(slug, *found) for slug, text in texts for found in BLOCK.findall(text)]
 
 
+@pytest.mark.slow
 def test_every_block_of_the_guide_gives_what_it_shows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -219,12 +219,14 @@ def test_a_figure_from_the_store_loads_nothing_that_draws(room: Room) -> None:
     assert room.run("figure lssc --format svg --out twice", 0) == {"numpy", "multiprocessing"}
 
 
+@pytest.mark.slow
 def test_a_page_with_other_digits_loads_nothing_that_draws(room: Room) -> None:
     """Its figures are there, so the process that workers are forks of is not started."""
     room.run("page --ratio 1.5 --field 1 2", 0)
     assert room.run("page --ratio 1.5 --field 1 2 --digits 12", 0) == set(PAGES.split())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
 def test_a_report_loads_what_its_change_needs(room: Room) -> None:
     """A page rebuilt without changed figures loads no drawing library in any process, a 2-D figure no VTK or SymPy."""

@@ -31,6 +31,7 @@ def outputs(ran: Any) -> list[tuple[str, list[Any], str]]:
     return [(cell.source, cell.outputs, text) for cell, text in zip(ran.cells, below, strict=True) if "outputs" in cell]
 
 
+@pytest.mark.slow
 def test_cells_print_what_stands_below_them(ran: Any) -> None:
     """A block of text below a cell is what it prints."""
     printed = 0

@@ -156,6 +156,7 @@ def ball(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return [Path(x) for x in page(BALL, tmp_path_factory.mktemp("ball"))]
 
 
+@pytest.mark.slow
 def test_a_page_made_twice_is_the_same(ball: list[Path], tmp_path: Path) -> None:
     """Another folder, the same bytes of page, PDF and report file."""
     first, other = ball, [Path(x) for x in page(BALL, tmp_path)]

@@ -134,6 +134,7 @@ def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     assert (first.command, second.command) == ("make bench", "")
 
 
+@pytest.mark.slow
 def test_an_option_is_not_broken_at_its_hyphens(tmp_path: Path) -> None:
     """No line of the PDF ends with one or two hyphens, however long the words before; in the page it is kept whole."""
     said = "\n\n".join("a" * n + " b" * 40 + " `--option 1` " + "c " * 9 for n in range(1, 25))
