@@ -124,7 +124,7 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
 
 
 def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
-    """Say the same in words alone."""
+    """Say what the plot shows, in words alone."""
     view = components(field)
     shape = "two branches of a hyperbola" if all(view) and body_name(ratio) != "ball" else "straight lines"
     unstable_words = (

@@ -79,7 +79,7 @@ def words(found: Monodromy) -> str:
 
 
 def plain_words(found: Monodromy) -> str:
-    """Return the same for a sentence without TeX."""
+    """Return what becomes of g3, for a sentence without TeX."""
     m, n, _ = found.matrix[2]
     return f"g3 comes back as g3 with {plain(m)} of g1 and {plain(n)} of g2"
 

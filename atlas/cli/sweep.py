@@ -197,7 +197,7 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
 
 
 def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
-    """Return the same of a body with three moments; of a tensor along its principal axes."""
+    """Return moments, field and start of a body with three moments; of a tensor along its principal axes."""
     if body.given_tensor(options) is not None:
         found = in_principal_axes(motion_in_given_axes(options))
         click.echo(f"The axes are principal ones: {found.axes} in those of the body that were given.", err=True)

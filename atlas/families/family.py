@@ -75,7 +75,7 @@ class Quantity:
     slow: bool = False
 
     def value(self, made: Any, *, exact: bool = False) -> Any:
-        """Return it of an object of kernels or, if `exact`, of balls."""
+        """Return the value of the quantity of an object of kernels or, if `exact`, of balls."""
         return ((exact and self.exact) or self.get or attrgetter(self.name))(made)
 
     @property
@@ -118,7 +118,7 @@ class Sampled:
 
     @property
     def columns(self) -> dict[str, Callable[[Any, Any], Any]]:
-        """Return its components in a table, each as a function of an object and the time."""
+        """Return the components in a table, each as a function of an object and the time."""
         if self.matrix:
             return {f"{self.name}{i}{j}": partial(_entry, i, j) for i in (1, 2, 3) for j in (1, 2, 3)}
         return {f"{self.name}{x}": partial(_component, self.method, i) for i, x in enumerate(self.components or "123")}

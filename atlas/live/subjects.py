@@ -129,7 +129,7 @@ class OfRecipe:
         return found
 
     def scene(self, values: Mapping[str, float]) -> Scene:
-        """Return its scene."""
+        """Return the scene of the figure."""
         return self.recipe.scene(**self.parameters(values))
 
     def command(self, values: Mapping[str, float]) -> str:

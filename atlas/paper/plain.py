@@ -45,7 +45,7 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, left: bool =
 
 
 def html_table(title: str, heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return the same for a notebook."""
+    """Return the table as HTML, for a notebook."""
     lines = [("th", heading), *(("td", row) for row in rows)]
     cells = ("".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in row) for tag, row in lines)
     return f"<table><caption>{escape(title)}</caption>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"

@@ -274,7 +274,7 @@ def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
 
 
 def _of_other_bodies(asked: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield the same in a ball and in a disk or loop."""
+    """Yield the object with a ball and with a disk or loop for its body."""
     ratio = _case(asked).ratio
     shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
     if asked.body and "density" in asked.options:

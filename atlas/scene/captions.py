@@ -84,5 +84,5 @@ def tex_setting(ratio: Any, field: Sequence[float], *, first: str = "a") -> str:
 
 
 def plain_setting(ratio: Any, field: Sequence[float]) -> str:
-    """Return the same without TeX."""
+    """Return "a loop with I = 2 in the field B' = (0, 1, 2)", for an alternative text."""
     return f"a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field B' = {plain_vector((0.0, *field))}"

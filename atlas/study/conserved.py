@@ -88,7 +88,7 @@ def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
 
 
 class AnyBody:
-    """The same for a body of any inertia tensor (3, 3) in the field B' (3,).
+    """What a body of any inertia tensor (3, 3) in the field B' (3,) conserves: H, F, (M,K), K^2 and T.
 
     Deviations are from the values of `start`, Omega and K, else from those of the first row of all.
     """
@@ -111,7 +111,7 @@ class AnyBody:
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
-    """Yield the same of a top: orthogonality, the norm, and the constants h, M3 and p in units of its moment I2."""
+    """Yield how far a top is off in orthogonality, the norm, and the constants h, M3, p in units of its moment I2."""
     columns, R, Omega = _read(block)
     yield from _rigid(columns, R)
     if R is None or Omega is None:

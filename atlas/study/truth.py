@@ -81,7 +81,7 @@ class Truth:
 
 
 class KernelTruth:
-    """The same of other motions, by the kernels: to a few units in the last place of a double."""
+    """R, Omega and the quaternion of other motions, by the kernels: to a few units in the last place of a double."""
 
     uncertainty = 1e-14
     """Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate."""

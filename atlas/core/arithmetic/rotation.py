@@ -96,7 +96,7 @@ def generators(axis: Axis) -> FloatArray:
 
 
 def extended(axis: Axis) -> NDArray[np.longdouble]:
-    """Return the same with the digits of a long double."""
+    """Return the four matrices of an axis with the digits of a long double."""
     n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (words(n, 2) for n in axis))
     dyad = np.outer([n1, n2, n3], [n1, n2, n3])
     across = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])

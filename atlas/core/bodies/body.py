@@ -80,7 +80,7 @@ class SymmetricBody:
         return np.array_equal(self.I2, other.I2) and np.array_equal(self.I3, other.I3)
 
     def _repr_html_(self) -> str:
-        """Return its moments and a small picture, for a notebook."""
+        """Return the moments of the body and a small picture, for a notebook."""
         found: str = notebook("show").body(self)
         return found
 

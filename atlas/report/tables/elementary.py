@@ -158,7 +158,7 @@ class Motion(StrictStruct, frozen=True):
 
 
 class Samples(StrictStruct, frozen=True):
-    """The same, and times in s."""
+    """The motion by its omega2, in 1/s, and times in s; `omega3` where the hyperbola leaves it free."""
 
     omega2: float
     times: tuple[float, ...]

@@ -77,7 +77,7 @@ def levitated(request: Request) -> Data:
 
 
 class Lines(Dipole, frozen=True):
-    """The same for one spin, and the least amplitude of a line."""
+    """A ball with a dipole, its rates of spin, and the least amplitude of a line."""
 
     least: float = 1e-3
 

@@ -138,7 +138,7 @@ class Motion(StrictStruct, frozen=True):
 
 
 class Samples(Motion, frozen=True):
-    """The same, and times."""
+    """A body in a field, its initial angular velocity, and times."""
 
     times: tuple[float, ...]
 

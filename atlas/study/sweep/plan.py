@@ -84,7 +84,7 @@ class Plan:
 
     @property
     def headings(self) -> list[str]:
-        """The same as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
+        """Names of the columns as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
         units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 

@@ -54,7 +54,7 @@ def error(made: ElementaryMotion, p: Any) -> FloatArray:
 
 
 def plain_error(made: ElementaryMotion, p: Any) -> FloatArray:
-    """Return the same of the formula as anyone would write it. DomainError for B2 = 0."""
+    """Largest error in any entry of R(t) by the formula as anyone would write it. DomainError for B2 = 0."""
     if np.any(p["B2"] == 0):
         raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")
     rows, near = _rows(made, p)
