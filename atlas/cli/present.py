@@ -58,7 +58,7 @@ def picture(found: Any, file: Path | None, *, silent: bool) -> None:
 
 
 def show(printout: Printout) -> None:
-    """Print a printout as wide as the terminal, wider where digits would be cut; in a file or a pipe as wide as it needs."""
+    """Print a printout as wide as the terminal, and wider where digits would be cut; in a pipe as wide as it needs."""
     from rich import box
     from rich.console import Console
     from rich.table import Table

@@ -119,7 +119,7 @@ UNTIED = {
             ("trace", "the curve of third_axis, in test_notebook"),
         )
     },
-    "AsymmetricMotion.curve": "compared with proven digits, in test_spectral_curve",
+    "AsymmetricMotion.curve": "compared with proven digits, in test_torus",
     "ElementaryMotion.omega": GIVEN,
     "Flight.rotation": "the matrix of its motion in other axes: compared with it in test_flight",
     "Quadric.of_top": "compared with the paper's quadric and with Taylor series of a top, in test_top_quadric",

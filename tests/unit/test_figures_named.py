@@ -10,8 +10,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
+from atlas import AtlasError, ElementaryMotion, GeneralMotion
 from atlas.draw.panels import to_figure
-from atlas.scene import Curve, Plane, Scene, recipes
+from atlas.scene import Curve, Image, Plane, Points, Scene, recipes
 
 DOTS, LEAST, SEEN, WORDS = 100, 30, 25, 60
 """Pixels an inch, how many must differ where a layer is taken away, and by how much of 255; words of a caption."""
@@ -82,3 +83,100 @@ def test_the_name_of_a_curve_belongs_to_its_last_point_that_is_seen() -> None:
     ends = {text.get_text(): text.xy for text in figure.axes[0].texts if isinstance(text, Annotation)}
     assert ends["long"] == pytest.approx((1.0, 0.5))
     assert ends["short"] == pytest.approx((0.2, 0.9))
+
+
+def scene(name: str, **parameters: Any) -> Any:
+    """Return a figure as data."""
+    return recipes.load(name).scene(**parameters)
+
+
+def roles(made: Any) -> set[str]:
+    """Return the roles of all curves."""
+    return {layer.role for panel in made.panels for layer in panel.layers if isinstance(layer, Curve)}
+
+
+def test_a_flight_has_at_most_two_hundred_turns() -> None:
+    """All three angles together, k t, phi t and that of the cyclotron motion, make 200 turns at the last time drawn."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), -1.5)
+    longest = 200 * 2 * np.pi / (abs(motion.k) + abs(motion.phi) + 2 * 5**0.5)
+    assert scene("flight", stop=longest * (1 - 1e-9))
+    with pytest.raises(AtlasError, match="makes 200 turns, and more than 200 cannot"):
+        scene("flight", stop=longest * (1 + 1e-9))
+    with pytest.raises(AtlasError, match="makes 300 turns"):
+        scene("flight", stop=1.5 * longest)
+
+
+@pytest.mark.parametrize(
+    ("name", "last", "first"),
+    [
+        ("ball_torus", {"ratios": (2.5,), "turns": (2.0,)}, {"ratios": (2.5,), "turns": (160.01,)}),
+        ("frequencies", {"order": 8}, {"order": 9}),
+        ("kinds_of_quadric", {"cells": 60}, {"cells": 59}),
+        ("kinds_of_quadric", {"cells": 61}, {"cells": 2001}),
+    ],
+)
+def test_the_last_is_drawn_and_the_next_refused(name: str, last: dict[str, Any], first: dict[str, Any]) -> None:
+    """The bounds are those that the refusal names."""
+    assert scene(name, **last).panels
+    with pytest.raises(AtlasError, match=f"figure {name}|number of cells"):
+        scene(name, **first)
+
+
+def test_a_trace_of_too_many_turns_is_left_out() -> None:
+    """The second trace is drawn while the faster of both angles stays below 400."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    most = 400.0 / max(abs(motion.k), abs(motion.phi)) * abs(motion.k) / (2 * np.pi)
+    assert "second_trace" in roles(scene("motion_sphere", turns=most * (1 - 1e-9)))
+    assert "second_trace" not in roles(scene("motion_sphere", turns=most * (1 + 1e-9)))
+
+
+FIELD, REACH, CELLS = (1.0, 0.3), 2.5, 60
+
+
+def test_the_motion_map_has_the_hyperbola_and_what_is_special_on_it() -> None:
+    """Its views have reach |B'| to each side of -B'; lines are elementary motions, 1e-9; rest and -2B' are marked."""
+    scene = made("motion_map", field=FIELD, reach=REACH, cells=CELLS)
+    half = REACH * np.hypot(*FIELD)
+    bars = []
+    for panel, I in zip(scene.panels, (2.0, 1.5, 1.0, 0.5), strict=True):
+        assert np.allclose((panel.x_limits, panel.y_limits), [(-B - half, -B + half) for B in FIELD], rtol=1e-14)
+        (image,) = (layer for layer in panel.layers if isinstance(layer, Image))
+        assert image.values.shape == (CELLS, CELLS)
+        assert np.nanmin(image.values) >= 0.0
+        assert image.limits[1] - 10.0 < np.nanmax([one.layers[0].values for one in scene.panels]) <= image.limits[1]
+        bars.append(bool(image.label))
+        lines = [layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "map_curve"]
+        assert len(lines) >= 2 * (I != 1.0) + (I == 1.0)
+        for line in lines:
+            omega2, omega3 = line[np.abs(line[:, 0] + FIELD[0]) > 0.05].T  # beside the pole
+            if omega2.size:
+                assert np.allclose(ElementaryMotion(I, FIELD, omega2).omega3, omega3, atol=1e-9 * half)
+        marked = {layer.role: layer.points for layer in panel.layers if isinstance(layer, Points)}
+        assert np.array_equal(marked["rest"], [[0.0, 0.0]])
+        assert np.allclose(marked["special"], [[-2 * B for B in FIELD]], rtol=1e-14)
+    assert bars == [False, True, False, False]
+
+
+def loops(I: float, omega2: float, omega3: float) -> bool:
+    """Return whether the axis goes round B' in both senses within a nutation, from the motion itself."""
+    motion = GeneralMotion(I, FIELD, (0.0, omega2, omega3))
+    t = np.linspace(0.0, motion.period, 801)
+    up = np.array([0.0, *FIELD]) / np.hypot(*FIELD)
+    axis = motion.rotation(t)[..., 2]
+    turn = np.einsum("ni,ni->n", np.cross(axis[:-1], axis[1:]), np.broadcast_to(up, (800, 3)))
+    return bool((turn > 0).any() and (turn < 0).any())
+
+
+def test_the_dotted_edge_of_the_motion_map_is_between_loops_and_waves() -> None:
+    """On one side of it, half a pixel away, the axis draws loops, on the other it does not."""
+    scene = made("motion_map", field=FIELD, reach=REACH, cells=CELLS, ratios=(1.5,))
+    (panel,) = scene.panels
+    borders = [layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "map_border"]
+    step = 2 * REACH * np.hypot(*FIELD) / CELLS
+    assert borders
+    assert min(map(len, borders)) > 8
+    for line in borders:
+        for i in (len(line) // 4, len(line) // 2):
+            along = line[i + 2] - line[i - 2]
+            across = np.array([-along[1], along[0]]) / np.hypot(*along)
+            assert {loops(1.5, *(line[i] + side * step * across)) for side in (-0.6, 0.6)} == {True, False}

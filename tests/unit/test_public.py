@@ -1,13 +1,18 @@
 """The public interface: names, what they take, in which order, and what is taken where something is left out."""
 
+import ast
 import inspect
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import lines
 from syrupy.assertion import SnapshotAssertion
 
 import atlas
+from atlas.places import folder
 
 
 def taken(call: Callable[..., Any]) -> str:
@@ -33,3 +38,49 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
 def test_public_functions_take_what_they_took(snapshot: SnapshotAssertion) -> None:
     """A line for each: a change here is one for every user."""
     assert [name + taken(call) for name, call in dict(public()).items()] == snapshot.use_extension(lines.Lines)
+
+
+ROOT = folder("figures").parent
+RIGHT = """
+import atlas
+
+motion = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7)
+reveal_type(motion)
+reveal_type(motion.rotation(1.0))
+reveal_type(atlas.GeneralMotion)
+"""
+WRONG = """
+import atlas
+
+atlas.GeneralMotionn(3)
+atlas.ElementaryMotion(1.5, (1.0, 2.0), omega_2=0.7)
+"""
+
+
+def checked(path: Path, text: str) -> str:
+    """Return what mypy says of a file, with the cache of `make lint`."""
+    path.write_text(text, encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--follow-imports", "silent", str(path)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout
+
+
+def test_each_public_name_has_the_type_of_its_home() -> None:
+    """The stub names all that `atlas` exports, each from the module that it is loaded from."""
+    nodes = ast.parse((ROOT / "atlas" / "__init__.pyi").read_text("utf-8")).body
+    stub = {one.name: node.module for node in nodes if isinstance(node, ast.ImportFrom) for one in node.names}
+    assert stub == atlas._HOMES
+
+
+def test_a_type_checker_sees_classes_and_arrays(tmp_path: Path) -> None:
+    """A motion is one of its class, and its matrices are arrays of floats."""
+    said = checked(tmp_path / "mine.py", RIGHT)
+    assert '"atlas.core.motions.elementary.ElementaryMotion"' in said
+    assert "float64" in said
+    assert "Any" not in said.splitlines()[0]
+
+
+def test_a_type_checker_refuses_what_is_not_there(tmp_path: Path) -> None:
+    """A misspelt class and a misspelt argument are errors."""
+    said = checked(tmp_path / "mine.py", WRONG)
+    assert "GeneralMotionn" in said
+    assert "omega_2" in said

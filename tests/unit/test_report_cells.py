@@ -280,5 +280,5 @@ def test_no_table_is_left_out() -> None:
     tested |= {"charges", "companions", "diamagnetism", "sizes", "radiation"}
     elsewhere = {"tops", "monodromy", "coats", "swings", "properties", "closed"}  # test_report_tables, test_page
     elsewhere |= {"elliptic", "periods", "asymmetric"}  # test_three_moments
-    elsewhere |= {"levitated", "lines", "inferred", "beyond_larmor"}  # test_laboratory_tables
+    elsewhere |= {"levitated", "lines", "inferred", "beyond_larmor"}  # test_laboratory
     assert set(TABLES) - words == tested | elsewhere
