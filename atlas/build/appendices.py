@@ -22,7 +22,7 @@ from atlas.report.blocks.reference import Reference
 from atlas.report.blocks.table import Recorded
 from atlas.report.definition import Report
 from atlas.report.digits import Number
-from atlas.report.tables.table import Column, Data
+from atlas.report.tables.table import Data, heads
 from atlas.sources import PACKAGE
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
@@ -97,15 +97,15 @@ def _trial() -> dict[str, Data]:
             totals[key]["entries"] += 1
             totals[key][verdicts[name].verdict if name in verdicts else "undecided"] += 1
     totals["All"] = totals.pop("all")
-    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds))
+    columns = heads("Section", "Entries", *(kind.capitalize() for kind in kinds))
     rows: list[tuple[str | Number, ...]] = []
     for key, count in totals.items():
         numbers = (Number(str(count[name])) for name in ("entries", *kinds))
         rows.append((_SECTIONS.get(key, key), *numbers))
     return {
-        "totals": Data(tuple(map(Column, heads)), tuple(rows), "The trial in numbers."),
+        "totals": Data(columns, tuple(rows), "The trial in numbers."),
         "slips": Data(
-            (Column("What is wrong"), Column("Slips"), Column("Entries")),
+            heads("What is wrong", "Slips", "Entries"),
             tuple(
                 (
                     grade.capitalize(),
@@ -129,21 +129,21 @@ def _bench() -> dict[str, Data]:
     line = f"{benchmark.measured(stored, stored.versions)} {stored.machine.system}, `{stored.command}`."
     rows: tuple[tuple[str | Number, ...], ...]
     rows = tuple((_words(x.says), _words(x.wanted), _three(x.found), x.verdict) for x in stored.limits)
-    limits = Data(tuple(map(Column, ("What", "Wanted", "Found", "Verdict"))), rows, "Limits of speed.", (line,))
+    limits = Data(heads("What", "Wanted", "Found", "Verdict"), rows, "Limits of speed.", (line,))
     found = {"Limits of speed": limits}
     for case in dict.fromkeys(run.case for run in stored.runs):
         best: defaultdict[str, dict[float, float]] = defaultdict(dict)
         for run in benchmark.runs_of(stored, case):
             best[run.method][run.horizon] = min(best[run.method].get(run.horizon, math.inf), run.error or 0.0)
         times = sorted({time for errors in best.values() for time in errors})
-        columns = ("Largest error to t =", *(_words(f"{time:.0e}") for time in times))
+        columns = heads("Largest error to t =", *(_words(f"{time:.0e}") for time in times))
         rows = tuple(
             (_words(benchmark.title(method)), *(_three(errors.get(time)) for time in times))
             for method, errors in best.items()
         )
         title = f"Error against horizon: {case}"
         note = "Of an integrator the best tolerance that came through in time."
-        found[title] = Data(tuple(map(Column, columns)), rows, f"{title}.", (note, line))
+        found[title] = Data(columns, rows, f"{title}.", (note, line))
     return found
 
 
@@ -165,7 +165,7 @@ def _stress() -> dict[str, Data]:
         f"Worst of {record['values']:,} values as on {len(record['processors'])} kinds of x86 processors, rounded up. "
         "Half a unit is on record where less was found."
     )
-    columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
+    columns = heads("Quantity", ("Worst error", "ulp"), ("Limit", "ulp"), "Met where")
     return {"worst errors": Data(columns, tuple(rows), "Worst errors on record.", (note,))}
 
 

@@ -18,7 +18,7 @@ from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.table import RATE, Column, Data, Request
+from atlas.report.tables.table import RATE, Data, Request, heads
 
 RATIO, TILT = 1.5, 2.0
 """I3/I2 of the body and B3/B2 of the field, those of the short solenoid in the oblique field."""
@@ -45,15 +45,15 @@ def sizes(request: Request) -> Data:
         warmth = moment_of_inertia(e / mu, r) * b * b / BOLTZMANN
         rows.append(tuple(map(two, (*values, off_the_field(b), warmth))))
     return Data(
-        (
-            Column("$r$", "m"),
-            Column("$e$", "C"),
-            Column("$e/e_0$"),
-            Column(r"$\mu$", "C kg$^{-1}$"),
-            Column("$b$", RATE),
-            Column(r"$2\pi/b$", "s"),
-            Column(r"$\delta$", "rad"),
-            Column(r"$I_2b^2/k_{\mathrm{B}}$", "K"),
+        heads(
+            ("$r$", "m"),
+            ("$e$", "C"),
+            "$e/e_0$",
+            (r"$\mu$", "C kg$^{-1}$"),
+            ("$b$", RATE),
+            (r"$2\pi/b$", "s"),
+            (r"$\delta$", "rad"),
+            (r"$I_2b^2/k_{\mathrm{B}}$", "K"),
         ),
         tuple(rows),
         f"Balls of {asked.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
@@ -82,11 +82,11 @@ def radiation(request: Request) -> Data:
         )
         rows.append((two(r), *(two(time / YEAR) for time in times)))
     return Data(
-        (
-            Column("$r$", "m"),
-            Column("flight, electric dipole", "years"),
-            Column("rotation, magnetic dipole", "years"),
-            Column("rotation, electric quadrupole", "years"),
+        heads(
+            ("$r$", "m"),
+            ("flight, electric dipole", "years"),
+            ("rotation, magnetic dipole", "years"),
+            ("rotation, electric quadrupole", "years"),
         ),
         tuple(rows),
         "How long the bodies of @tab:real-sizes would take to radiate their energy away: that of the flight at the "
@@ -141,12 +141,8 @@ def charges(request: Request) -> Data:
             )
         rows.append((body.title, *(two(value) for value in (body.mass, body.radius, charge, field))))
     return Data(
-        (
-            Column("Body"),
-            Column("$m_0$", "kg"),
-            Column("$r$", "m"),
-            Column(r"$e=\mu m_0$", "C"),
-            Column(r"$e/4\pi\varepsilon_0r^2$", "V m$^{-1}$"),
+        heads(
+            "Body", ("$m_0$", "kg"), ("$r$", "m"), (r"$e=\mu m_0$", "C"), (r"$e/4\pi\varepsilon_0r^2$", "V m$^{-1}$")
         ),
         tuple(rows),
         "The charges of the bodies, and the field of a point charge as large at the distance of the radius.",
@@ -181,10 +177,10 @@ def diamagnetism(request: Request) -> Data:
         by_charge = (body.I3 - body.I2) * hypot(*one.components) ** 2 / 2
         rows.append((title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
     return Data(
-        (
-            Column("Body"),
-            Column(r"by the charge, $(I_3-I_2)b^2/2$", "J"),
-            Column(r"by the magnetisation, $-\chi_m^2m_0B^2\,\Delta N/2\mu_0\rho$", "J"),
+        heads(
+            "Body",
+            (r"by the charge, $(I_3-I_2)b^2/2$", "J"),
+            (r"by the magnetisation, $-\chi_m^2m_0B^2\,\Delta N/2\mu_0\rho$", "J"),
         ),
         tuple(rows),
         r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with "
@@ -221,10 +217,7 @@ def coats(request: Request) -> Data:
         values = (body.I3 / body.I2, across, along, across - along, A)
         rows.append((one.name, *(Number(f"{value + 0.0:.3f}") for value in values)))
     return Data(
-        (
-            Column("Body"),
-            *map(Column, ("$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$")),
-        ),
+        heads("Body", "$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$"),
         tuple(rows),
         r"Bodies whose charge is not spread like their mass, $b=eB/2m_0c$ with the whole charge: gyromagnetic factors "
         r"across and along the axis, and what stands in @theorem-every-top. For one charge-to-mass ratio throughout "
@@ -253,15 +246,15 @@ def swings(request: Request) -> Data:
         values = (2 * pi / b, rates[0], periods[0], rates[1], periods[1], excess)
         rows.append((title, *map(_three, values)))
     return Data(
-        (
-            Column("Body"),
-            Column(r"$2\pi/b$", "s"),
+        heads(
+            "Body",
+            (r"$2\pi/b$", "s"),
             *(
-                Column(f"{head}, {what}", unit)
+                (f"{head}, {what}", unit)
                 for what in ("charge alone", "magnetised")
                 for head, unit in ((r"$\sqrt{\lvert A\rvert}$", RATE), ("$T$", "s"))
             ),
-            Column(r"quotient of both $\lvert A\rvert$"),
+            r"quotient of both $\lvert A\rvert$",
         ),
         tuple(rows),
         r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "

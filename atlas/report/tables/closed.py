@@ -8,7 +8,7 @@ from atlas.families import FAMILIES
 from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.properties import Thing
-from atlas.report.tables.table import RATE, Column, Data, Request, certified, column, quantity
+from atlas.report.tables.table import RATE, Data, Request, certified, column, heads, quantity
 
 MANY, LARGEST = 6, 10_000
 """As many fractions as are shown, and the largest denominator."""
@@ -34,10 +34,7 @@ def closed(request: Request) -> Data:
     period = certified(lambda: made.period, request.digits)
     times = column([q * period for _, q in fractions], request.digits)
     return Data(
-        (
-            Column("Turns", ""), Column("Nutations"), Column("Time", thing.unit("time")),
-            Column("Turns a nutation, less the fraction"),
-        ),
+        heads("Turns", "Nutations", ("Time", thing.unit("time")), "Turns a nutation, less the fraction"),
         tuple(
             (Number(str(p)), Number(str(q)), time, miss)
             for (p, q), time, miss in zip(fractions, times, misses, strict=True)
@@ -64,9 +61,9 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
         raise DomainError("No closed motion of the hyperbola (67) lies near.")
     rate = thing.unit("1/time")
     return Data(
-        (
-            Column(r"$\phi/k$"), Column(r"$\omega_2$", rate), Column(r"$\omega_2$ less that of this motion", rate),
-            Column("Closes after", thing.unit("time")), Column(r"$\phi/k$ less the fraction"),
+        heads(
+            r"$\phi/k$", (r"$\omega_2$", rate), (r"$\omega_2$ less that of this motion", rate),
+            ("Closes after", thing.unit("time")), r"$\phi/k$ less the fraction",
         ),
         tuple(rows),
         rf"The nearest closed motions, @theorem-closed: best fractions of $\phi/k$ = "
@@ -122,13 +119,13 @@ def companions(request: Request) -> Data:
     columns = [column(values, request.digits) for values in zip(*found, strict=True)]
     given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in asked.motions]
     return Data(
-        (
-            Column(r"$\mathbf{B}'$", RATE),
-            Column(r"$\omega_2$", RATE),
-            Column(r"$\theta$", "degrees"),
-            Column(r"$\sqrt c$", RATE),
-            Column(r"$\theta_+$", "degrees"),
-            Column(r"$\theta_-$", "degrees"),
+        heads(
+            (r"$\mathbf{B}'$", RATE),
+            (r"$\omega_2$", RATE),
+            (r"$\theta$", "degrees"),
+            (r"$\sqrt c$", RATE),
+            (r"$\theta_+$", "degrees"),
+            (r"$\theta_-$", "degrees"),
         ),
         tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
         f"Steady precessions of a body with $I={plain(asked.ratio)}$ that others leave and come back to: the angle "

@@ -8,7 +8,7 @@ from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.table import RATE, Column, Data, Request, certified, column
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, column, heads
 
 NONE = "–"
 """What stands where a body has no such quantity."""
@@ -31,8 +31,8 @@ def side_by_side(
     The numbers of a row have as many decimals as give the largest of them the digits that are asked for.
     """
     titles = [one.body_record.title if one.body_record else "body" for one in request.cases]
-    heads = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
-    columns = (Column("Quantity"), Column("Symbol"), *map(Column, heads), Column("Unit"))
+    values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
+    columns = heads("Quantity", "Symbol", *values_of, "Unit")
     rows = []
     for same in zip(*bodies, strict=True):
         name, symbol, _, unit = same[0]
@@ -128,14 +128,14 @@ def points(request: Request) -> Data:
         for x, value, *numbers in zip(order, values, *columns, strict=True)
     )
     return Data(
-        (
-            Column("Point"),
-            Column(r"$\omega_2$", RATE),
-            Column(r"$\omega_3$", RATE),
-            Column("$k$", RATE),
-            Column(r"$\phi$", RATE),
-            Column(r"$\nu_n^2$", r"s$^{-2}$"),
-            Column("Nutation"),
+        heads(
+            "Point",
+            (r"$\omega_2$", RATE),
+            (r"$\omega_3$", RATE),
+            ("$k$", RATE),
+            (r"$\phi$", RATE),
+            (r"$\nu_n^2$", r"s$^{-2}$"),
+            "Nutation",
         ),
         rows,
         r"Points of the hyperbola @(67), frequencies of precession $k$ and of proper rotation $\phi$, @(72), and the "
@@ -213,10 +213,8 @@ def samples(request: Request) -> Data:
     values = certified(lambda: [(*made.angular_velocity(t), *made.third_axis(t)) for t in asked.times], request.digits)
     columns = [column(one, request.digits) for one in zip(*values, strict=True)]
     return Data(
-        (
-            Column("$t$", "s"),
-            *(Column(rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)),
-            *(Column(rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3)),
+        heads(
+            ("$t$", "s"), *((rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)), *((rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3))
         ),
         tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "

@@ -13,7 +13,7 @@ from atlas.report import toml
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.properties import cited
-from atlas.report.tables.table import Column, Data, Request
+from atlas.report.tables.table import Data, Request, heads
 from atlas.targets import ANY, TARGETS, Target
 
 Row = tuple[str, str, str, str, str | Number]
@@ -27,14 +27,7 @@ def quantities(request: Request) -> Data:
         for place, row in enumerate(_rows(one)):
             rows.append((f"`{one.name}`" if place == 0 else "", *row))
     return Data(
-        (
-            Column("Family"),
-            Column("Name"),
-            Column("What it is"),
-            Column("Unit"),
-            Column("Equation"),
-            Column("Error"),
-        ),
+        heads("Family", "Name", "What it is", "Unit", "Equation", "Error"),
         tuple(rows),
         "The families of motions and surfaces: what each is given and what follows from it, by the names of the "
         "commands and of `atlas sweep`.",
@@ -69,10 +62,9 @@ def _promise(one: Family, checked: str) -> str | Number:
 def targets(request: Request) -> Data:
     """List the targets of figures with width and height, type, lines, resolution, what is asked, and the source."""
     request.take(StrictStruct)
-    columns = ("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi")
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
-        tuple(map(Column, columns)),
+        heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),
         tuple((f"`{name}`", *_sizes(one)) for name, one in TARGETS.items()),
         "What `atlas figure NAME --for TARGET` makes: width and greatest height, size of all type, least and "
         "greatest width of lines, resolution of pictures.",
@@ -100,7 +92,7 @@ def roles(request: Request) -> Data:
             dash = " ".join(f"{x:g}" for x in one.dash)
             look = (f"`{one.colour}`", f"{one.width:g}", dash, one.marker and f"`{one.marker}` {one.size:g}")
         looks.setdefault(look, []).append(name)
-    columns = (Column("Role"), Column("Colour"), Column("Width", "pt"), Column("Dashes", "pt"), Column("Marker", "pt"))
+    columns = heads("Role", "Colour", ("Width", "pt"), ("Dashes", "pt"), ("Marker", "pt"))
     return Data(
         columns,
         tuple((_names(tuple(names)), *look) for look, names in looks.items()),
@@ -153,7 +145,7 @@ def layers(request: Request) -> Data:
 def _explained(first: str, kinds: Mapping[str, type], last: str, says: str) -> Data:
     """Return a table of classes: name, first sentence, and what they hold, what is needed in bold."""
     rows = [(name, _first(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
-    return Data((Column(first), Column("What it is"), Column(last)), tuple(rows), says)
+    return Data(heads(first, "What it is", last), tuple(rows), says)
 
 
 def _first(kind: type) -> str:

@@ -11,7 +11,7 @@ from atlas.core.bodies.units import BOLTZMANN, ELECTRIC_CONSTANT, ELEMENTARY_CHA
 from atlas.core.motions.top import TopMotion
 from atlas.report.digits import MINUS, Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.table import Column, Data, Request
+from atlas.report.tables.table import Data, Request, heads
 
 GRAVITY, MOLECULE, WARM = 9.81, 4.65e-26, 300.0
 """In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
@@ -59,9 +59,9 @@ def levitated(request: Request) -> Data:
         found = 1 / made.period, made.precession_rate / (2 * pi) if spin else 0.0
         rows.append((Number(f"{spin:g}"), *map(_three, (found[0], small, found[1], slow))))
     return Data(
-        (
-            Column("Spin", "Hz"), Column("Nutation", "Hz"), Column(r"$\sqrt{dE/I}/2\pi$", "Hz"),
-            Column("Precession", "Hz"), Column(r"$dE/4\pi^2I\,\text{spin}$", "Hz"),
+        heads(
+            ("Spin", "Hz"), ("Nutation", "Hz"), (r"$\sqrt{dE/I}/2\pi$", "Hz"),
+            ("Precession", "Hz"), (r"$dE/4\pi^2I\,\text{spin}$", "Hz"),
         ),
         tuple(rows),
         rf"A ball of the radius {asked.radius * 1e6:g} µm and {asked.density:g} kg m$^{{-3}}$ with a dipole of "
@@ -104,10 +104,7 @@ def lines(request: Request) -> Data:
                 )
             )
     return Data(
-        (
-            Column("Spin", "Hz"), Column("Line", "Hz"), Column("Turns"), Column("across the field"),
-            Column("along it"),
-        ),
+        heads(("Spin", "Hz"), ("Line", "Hz"), "Turns", "across the field", "along it"),
         tuple(rows),
         f"Lines of the axis of the ball, down to {asked.least:g} of the whole: amplitudes of the dipole's components.",
         ("Three digits, and a dash below a thousandth of the least.",),
@@ -139,7 +136,7 @@ def inferred(request: Request) -> Data:
         J = np.stack([np.cross(one, made.column(3, t)).ravel() for one in scaled], -1) / asked.noise
         columns.append([*_deviations(J)[:4], _deviations(np.delete(J, 2, axis=1))[2]])
     return Data(
-        (Column("What"), *(Column(f"spin {spin:g} Hz") for spin in asked.spins)),
+        heads("What", *(f"spin {spin:g} Hz" for spin in asked.spins)),
         tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
         f"Standard deviations that {asked.samples} looks at the axis within {asked.seconds:g} s, each with a noise of "
         f"{asked.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
@@ -199,12 +196,11 @@ def beyond_larmor(request: Request) -> Data:
         pressure = abs(own) / (2 * pi) / drag
         turns = (b / (2 * pi), own / (2 * pi), both / (2 * pi))
         rows.append(tuple(map(_three, (r, *turns, both / own, offset, pressure))))
-    heads = (
-        ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("beyond it, by the charge", "Hz"), ("by both", "Hz"),
-        ("quotient", ""), (r"offset $\delta$", "m"), ("pressure", "Pa"),
-    )  # fmt: skip
     return Data(
-        tuple(Column(*head) for head in heads),
+        heads(
+            ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("beyond it, by the charge", "Hz"), ("by both", "Hz"),
+            "quotient", (r"offset $\delta$", "m"), ("pressure", "Pa"),
+        ),
         tuple(rows),
         rf"Spheroids of $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:-1]}$ and {asked.density:g} "
         rf"kg m$^{{-3}}$, {asked.aspect:g} times as high as wide, charged to "

@@ -8,7 +8,7 @@ from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct, Vector
-from atlas.report.tables.table import RATE, Column, Data, Request, certified, column, quantity, scaled
+from atlas.report.tables.table import RATE, Data, Request, certified, column, heads, quantity, scaled
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
@@ -42,7 +42,7 @@ def particle(request: Request) -> Data:
     frequency = column([omega], request.digits)[0].tex().strip("$")
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
     return Data(
-        (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
+        heads(("$t$", "s"), *((f"$y_{j}$", unit) for j in (1, 2, 3))),
         tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         "The path of the particle, @(101), in the laboratory frame.",
         (
@@ -80,7 +80,7 @@ def ball(request: Request) -> Data:
         ("", r"$\hat k_3$", k_hat[1], "1"),
     )
     return Data(
-        (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
+        heads("Quantity", "Symbol", "Value", "Unit"),
         tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
         r"The general motion of the ball, @(28), in a field along $\mathbf{e}_3$.",
     )
@@ -109,10 +109,8 @@ def flight(request: Request) -> Data:
     values = certified(lambda: [(*made.position(t), *whole.position(t)) for t in asked.times], request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     return Data(
-        (
-            Column("$t$", "s"),
-            *(Column(f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)),
-            *(Column(f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3)),
+        heads(
+            ("$t$", "s"), *((f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)), *((f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3))
         ),
         tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         r"The flight of the centre of mass $\mathbf{y}_0$, @(101), and of the point $\mathbf{y}_N$ of the body.",

@@ -13,7 +13,7 @@ from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import MINUS, Number, plain
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.elementary import NONE
-from atlas.report.tables.table import RATE, Column, Data, Request, certified, quantity
+from atlas.report.tables.table import RATE, Data, Request, certified, heads, quantity
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
@@ -97,10 +97,7 @@ def properties(request: Request) -> Data:
     rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
     says, given = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
     return Data(
-        (
-            Column("Quantity"), Column("Name"), Column("Value"), Column("Unit"), Column("Equation"),
-            Column("Proven"),
-        ),
+        heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
         tuple(rows),
         f"{says[:1].upper()}{says[1:]}: {given}.",
         ("Numbers that are given are taken as the doubles nearest to them, and these as exact.",),
@@ -242,7 +239,7 @@ def body_and_field(request: Request) -> Data:
         for words, symbol, value, unit in _derived(one, request.digits)
     ]
     return Data(
-        (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit"), Column("")),
+        heads("Quantity", "Symbol", "Value", "Unit", ""),
         tuple(rows),
         f"The {body.title} in the {field.title}, and what follows from them by @(32) and @(33).",
         (

@@ -22,6 +22,11 @@ class Column:
     unit: str = ""
 
 
+def heads(*columns: str | tuple[str, str]) -> tuple[Column, ...]:
+    """Return columns by their heads, each alone or with its unit."""
+    return tuple(Column(one) if isinstance(one, str) else Column(*one) for one in columns)
+
+
 @dataclass(frozen=True)
 class Data:
     """A table, the caption it has unless the report gives another, and the sentences below it."""

@@ -4,7 +4,7 @@ from typing import Any
 
 from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.table import Column, Data, Request, certified, column
+from atlas.report.tables.table import Data, Request, certified, column, heads
 
 
 class Top(StrictStruct, frozen=True):
@@ -58,9 +58,9 @@ def tops(request: Request) -> Data:
         for one in asked
     ]
     return Data(
-        (
-            *map(Column, ("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$")),
-            *map(Column, ("$T$", r"$\Delta\psi$", r"$\Delta\chi$")),
+        heads(
+            *("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$"),
+            *("$T$", r"$\Delta\psi$", r"$\Delta\chi$"),
         ),
         tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
         r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
@@ -109,7 +109,7 @@ def monodromy(request: Request) -> Data:
             )
         )
     return Data(
-        (*map(Column, ("Top", "$I$", "$M_3$", "$p$", "least $T$", "largest $T$", "matrix", "step", "radius")),),
+        heads("Top", "$I$", "$M_3$", "$p$", "least $T$", "largest $T$", "matrix", "step", "radius"),
         tuple(rows),
         r"Rows of the matrix: what $\mathbf{g}_1$, $\mathbf{g}_2$, $\mathbf{g}_3$ have become after one round. With it "
         r"the largest change of $\Delta\psi/2\pi$ or $\Delta\chi/2\pi$ from one point to the next, which must be less "
@@ -153,9 +153,8 @@ def elliptic(request: Request) -> Data:
         lambda: [(m.v, *m.omega, m.splitting, m.period, m.precession_per_period) for m in motions], request.digits
     )
     columns = [column(one, request.digits) for one in zip(*values, strict=True)]
-    heads = ("$v$", r"$\omega_1$", r"$\omega_2$", r"$\omega_3$", "$C/D^2$", "$T$", r"$\Theta$")
     return Data(
-        (Column("$z$"), *map(Column, heads), Column("Motion")),
+        heads("$z$", "$v$", *(rf"$\omega_{i}$" for i in (1, 2, 3)), "$C/D^2$", "$T$", r"$\Theta$", "Motion"),
         tuple(
             (Number.as_given(z), *row, m.stability)
             for (z, _), row, m in zip(asked.places, zip(*columns, strict=True), motions, strict=True)
@@ -181,7 +180,7 @@ def periods(request: Request) -> Data:
     found = torus.periods(bits(request.digits) + 64)
     columns = [column(values, request.digits) for values in zip(*((x.H, x.F, x.angle) for x in found), strict=True)]
     return Data(
-        (Column("Pair"), Column("$T_H$"), Column("$T_F$"), Column(r"$\theta$")),
+        heads("Pair", "$T_H$", "$T_F$", r"$\theta$"),
         tuple((f"$r_{n}$", *row) for n, row in enumerate(zip(*columns, strict=True), 1)),
         rf"Periods of the torus of the motion from $\boldsymbol\omega={_row(asked.omega)}$, "
         rf"$I_i={_row(asked.inertia)}$, $\mathbf{{B}}'={_row(asked.field)}$: times of the flows of $H$ and $F/2$ after "
@@ -201,7 +200,7 @@ def asymmetric(request: Request) -> Data:
     )
     columns = [column(one, request.digits) for one in zip(*values, strict=True)]
     return Data(
-        (Column("$t$"), *(Column(rf"$R_{{{i}3}}$") for i in (1, 2, 3)), Column(r"$\Omega_3$")),
+        heads("$t$", *(rf"$R_{{{i}3}}$" for i in (1, 2, 3)), r"$\Omega_3$"),
         tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
         rf"The motion from $\boldsymbol\omega={_row(asked.omega)}$ of the body with $I_i={_row(asked.inertia)}$ in "
         rf"$\mathbf{{B}}'={_row(asked.field)}$: its third axis in the laboratory and its spin about it.",
