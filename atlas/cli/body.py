@@ -1,14 +1,13 @@
 """The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from math import hypot, pi
-from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from atlas.cli.measured import RATE, WANTED
-from atlas.cli.options import REAL, Measured, Typed, exactly, stack
+from atlas.cli.options import FILE, REAL, Measured, Typed, exactly, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.errors import nearest
 
@@ -41,6 +40,13 @@ ROD_REASON = (
     "is not determined; give it a radius with --shape solid-cylinder."
 )
 
+
+def points_option(axes: str) -> Callable[[F], F]:
+    """Return the option for point masses, with what is said of their axes."""
+    says = f"Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge{axes}."
+    return click.option("--points", type=FILE, metavar="FILE", help=says)
+
+
 shape_options: Callable[[F], F] = stack(
     click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
     click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
@@ -54,12 +60,7 @@ shape_options: Callable[[F], F] = stack(
 body_options: Callable[[F], F] = stack(
     click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
     shape_options,
-    click.option(
-        "--points",
-        type=click.Path(exists=True, dir_okay=False, path_type=Path),
-        metavar="FILE",
-        help="Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge.",
-    ),
+    points_option(""),
 )
 
 
@@ -101,13 +102,7 @@ def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
 field_options: Callable[[F], F] = field_options_of("B2 B3")
 any_body_options: Callable[[F], F] = stack(
     click.option("--inertia", type=REAL, nargs=3, metavar="I1 I2 I3", help="Principal moments of inertia."),
-    click.option(
-        "--points",
-        type=click.Path(exists=True, dir_okay=False, path_type=Path),
-        metavar="FILE",
-        help="Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge; x, y, z are "
-        "principal axes.",
-    ),
+    points_option("; x, y, z are principal axes"),
     shape_options,
     field_options_of("B1 B2 B3", " along the principal axes at t = 0"),
 )
@@ -152,7 +147,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
 
     Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
     """
-    _one_body(options)
+    one_of(options, "body", (*BODY, "tensor"))
     sizes = {name: options[name] for name in SIZES if options[name] is not None}
     if sizes and options["shape"] is None:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
@@ -191,7 +186,7 @@ def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
 
     Raises click.UsageError unless one of them is given, and for points whose axes x, y, z are not principal.
     """
-    given = _one_body(options)
+    given = one_of(options, "body", (*BODY, "tensor"))
     if given == "inertia":
         return tuple(options["inertia"])
     if given == "points":
@@ -203,7 +198,7 @@ def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
 def given_tensor(options: Mapping[str, Any]) -> Any:
     """Return the inertia tensor (3, 3) of --tensor, or of --points whose axes are not principal; None for others."""
     if options.get("tensor") is not None:
-        _one_body(options)
+        one_of(options, "body", (*BODY, "tensor"))
         a, b, c, d, e, f = options["tensor"]
         return [[a, d, e], [d, b, f], [e, f, c]]
     return oblique_tensor(options["points"]) if options.get("points") is not None else None
@@ -220,13 +215,13 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
     return Rotation.from_quat(options["attitude"]).as_matrix()
 
 
-def _one_body(options: Mapping[str, Any]) -> str:
-    """Return which option says what body it is. Raises click.UsageError unless it is one."""
-    given = [name for name in (*BODY, "tensor") if options.get(name) is not None]
+def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
+    """Return which of some options says what it is. Raises click.UsageError unless it is one."""
+    given = [name for name in names if options.get(name) is not None]
     if len(given) != 1:
-        known = [f"--{name}" for name in (*BODY, "tensor") if name in options]
+        known = [f"--{name}" for name in names if name in options]
         found = " and ".join(f"--{name}" for name in given) or "none"
-        raise click.UsageError(f"the body is one of {', '.join(known)}; found {found}.")
+        raise click.UsageError(f"the {what} is one of {', '.join(known)}; found {found}.")
     return given[0]
 
 

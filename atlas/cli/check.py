@@ -7,19 +7,13 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
+from atlas.cli.options import FILE, REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.present import dump, picture
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Options that only a top has."""
 
-file_argument: Callable[[Any], Any] = click.argument(
-    "files",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    metavar="FILE.csv...",
-    nargs=-1,
-    required=True,
-)
+file_argument: Callable[[Any], Any] = click.argument("files", type=FILE, metavar="FILE.csv...", nargs=-1, required=True)
 graded_options: Callable[[Any], Any] = stack(
     click.option(
         "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import REAL, Command, Many, Place, examples
+from atlas.cli.options import FILE, REAL, Command, Many, Place, examples
 from atlas.cli.present import dump, picture
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
@@ -23,7 +23,7 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
         "atlas fit mine.csv --predict 1000 --horizon 0.1 --json",
     ),
 )
-@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv")
+@click.argument("file", type=FILE, metavar="FILE.csv")
 @click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions.")
 @click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, where there are several kinds.")
 @click.option("--sigma", type=REAL, help="Standard error of each number, of attitudes and axes in radians.")

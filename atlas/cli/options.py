@@ -386,6 +386,10 @@ output_options: Callable[[F], F] = stack(
 )
 
 
+FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
+"""A file that is there."""
+
+
 def out_option(standard: str) -> Callable[[F], F]:
     """Return the option for the folder that files go to."""
     kind = Place(file_okay=False, path_type=Path)

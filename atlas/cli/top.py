@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.body import SECONDS, SIZES, F
+from atlas.cli.body import SECONDS, SIZES, F, one_of
 from atlas.cli.options import REAL, stack
 from atlas.cli.points import columns_of
 
@@ -125,7 +125,7 @@ def _body(options: Mapping[str, Any]) -> Any:
     """Return the body of --inertia, --shape or --points."""
     from atlas.core.bodies.body import SymmetricBody, from_shape
 
-    _one_of(options, "body", BODY)
+    one_of(options, "body", BODY)
     _goes_with(options, SIZES, ("shape", "coat"))
     if options["points"] is not None:
         if options["mass"] is not None:
@@ -143,7 +143,7 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     """Return the moments of the charges of --charged, --coat or --points, of a body held so far from its centre."""
     from atlas.core.bodies.charge import ChargeMoments
 
-    _one_of(options, "charge", CHARGES)
+    one_of(options, "charge", CHARGES)
     _goes_with(options, ("charge",), ("coat",))
     if options["points"] is not None:
         columns = _points(options["points"])
@@ -154,14 +154,6 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     _needs(options, "charge", "--coat")
     coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **_sizes(options))
     return coat + ChargeMoments(options["charge"] * (length or 0.0) ** 2, 0.0)
-
-
-def _one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> None:
-    """Refuse none of some options, and more than one."""
-    given = [f"--{name}" for name in names if options[name] is not None]
-    if len(given) != 1:
-        found = " and ".join(given) or "none"
-        raise click.UsageError(f"the {what} is one of {', '.join(f'--{name}' for name in names)}; found {found}.")
 
 
 def _sizes(options: Mapping[str, Any]) -> dict[str, float]:
