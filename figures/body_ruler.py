@@ -81,7 +81,7 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
     layers: list[Layer] = []
     for place, (name, I) in zip(places, some, strict=True):
         layers += body(name, I, place, fine)
-        layers.append(Label(place + NAMES * E3, name, body_role(I), (0.0, 0.0)))
+        layers.append(Label(place + NAMES * E3, name, body_role(I)))
         foot = place + (NAMES - 0.3) * E3
         layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
         layers.append(Points(on_scale(I)[None], "point"))
@@ -95,8 +95,8 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
     for mark in np.arange(start, stop + 0.25, 0.25):
         layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))
         if 2 * mark == round(2 * mark):
-            layers.append(Label(on_scale(mark, -4 * TICK), f"${mark:g}$", "label", (0.0, 0.0)))
-    layers += [Label(on_scale(I, -9 * TICK), kind, "note", (0.0, 0.0)) for I, kind in KINDS if start <= I <= stop]
+            layers.append(Label(on_scale(mark, -4 * TICK), f"${mark:g}$"))
+    layers += [Label(on_scale(I, -9 * TICK), kind, "note") for I, kind in KINDS if start <= I <= stop]
     layers.append(Label(on_scale(start), "$I$", "label", (-10.0, 0.0)))
     return tuple(layers)
 

@@ -104,13 +104,13 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         Curve(np.stack(wells.cusps(cusps), axis=1), "reference"),
         Points(ends, "point"),
         Points(places, "start"),
-        Label(np.array([-0.3 * far, 0.55 * high + 0.45 * low]), "loops", "note", (0.0, 0.0)),
+        Label(np.array([-0.3 * far, 0.55 * high + 0.45 * low]), "loops", "note"),
         *(Label(end, "spin", "note", (side, 0.0)) for end, side in zip(ends, (-8.0, 9.0), strict=True)),
     ]
     beside = np.array([0.0, 0.08 * (high - low)])
     for name, top, place in zip("abc", tops, places, strict=False):
         side = -1 if trace(top) == "waves" else 1
-        layers.append(Label(place + side * beside, name, "label", (0.0, 0.0)))
+        layers.append(Label(place + side * beside, name))
     return Plane(
         tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)", (-far, far), (low - pad, high + pad),
         title=f"({letter}) energies",

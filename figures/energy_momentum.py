@@ -118,7 +118,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers += [Label(np.array(spin[:2]), what, "note", (5, 6)) for spin in spins[:1]]
-    layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note", (0.0, 0.0)))
+    layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note"))
     layers.append(Label(np.array([-0.95 * reach * scale, low + 0.04 * (high - low)]), "no motion", "note", (20.0, 0.0)))
     return Plane(
         tuple(layers),

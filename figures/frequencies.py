@@ -175,7 +175,7 @@ def quotients(
             layers.append(Points(at[None], "point"))
             if min(float(np.hypot(*((at - one) * scale))) for one in named) > APART:
                 named.append(at)
-                layers.append(Label(at - away, f"${r}$", "label", (0.0, 0.0)))
+                layers.append(Label(at - away, f"${r}$"))
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
     return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

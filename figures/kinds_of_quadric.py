@@ -62,13 +62,13 @@ def scene(
                     continue
                 taken.append(place)
                 layers += [Curve(piece, "main") for piece in beside(line, place)]
-                layers.append(Label(place, f"${value:g}$", "main", (0.0, 0.0)))
+                layers.append(Label(place, f"${value:g}$", "main"))
         if k == 0:
-            layers.append(Label(np.array([1.0, 0.92 * RIGHT]), "cone", "label", (0.0, 0.0)))
+            layers.append(Label(np.array([1.0, 0.92 * RIGHT]), "cone"))
         if k == 1:
             layers += [
-                Label(np.array([0.32, 0.92 * RIGHT]), "one sheet", "label", (0.0, 0.0)),
-                Label(np.array([1.55, 0.92 * RIGHT]), "two sheets", "label", (0.0, 0.0)),
+                Label(np.array([0.32, 0.92 * RIGHT]), "one sheet"),
+                Label(np.array([1.55, 0.92 * RIGHT]), "two sheets"),
             ]
         name = rf"({'abc'[k]}) $C_{k + 1}/|\mathbf{{B}}'|$"
         y_label = r"$\beta$ (degrees)" if k == 0 else ""

@@ -95,8 +95,8 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
             Label(place, f"{number}", "label", (-5.0 if place[0] < 0 else 5.0, 5.0))
             for number, place in enumerate(places, 1)
         ),
-        Label(np.array([0.5 * (at - wide), 0.25 * high]), "one sheet", "note", (0.0, 0.0)),
-        Label(np.array([0.5 * (at + wide), 0.25 * high]), "two sheets", "note", (0.0, 0.0)),
+        Label(np.array([0.5 * (at - wide), 0.25 * high]), "one sheet", "note"),
+        Label(np.array([0.5 * (at + wide), 0.25 * high]), "two sheets", "note"),
     ]
     return Plane(
         tuple(layers), r"$(A_0+a_0/n_3)/b^2$", r"$k_3/Ik_2$", (-wide, wide), (low, high), title="(b) all tops",

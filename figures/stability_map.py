@@ -42,9 +42,9 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     ]
     for rate in rates:
         growing = level(-(rate**2), -1)
-        unstable += [Curve(growing, "map_curve"), Label(growing[len(growing) // 2], f"${rate:g}$", "label")]
+        unstable += [Curve(growing, "map_curve"), Label(growing[len(growing) // 2], f"${rate:g}$")]
         for line in filter(len, (level(rate**2, side) for side in (-1, 1))):
-            stable += [Curve(line, "map_curve"), Label(on(line, rate), f"${rate:g}$", "label")]
+            stable += [Curve(line, "map_curve"), Label(on(line, rate), f"${rate:g}$")]
     stable += [Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), UP]), name) for I, name in BODIES]
     views = ((0.0, 1.0), (0.0, EDGE)), ((0.0, 2.0), (0.0, TOP))
     names = "(a) greatest rate of growth", "(b) least nutation frequency"

@@ -75,7 +75,7 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         down = 0.11 if line[1, 1] == reach else 0.25
         at, gap = down * line[0] + (1 - down) * line[1], GAP * reach * (line[1] - line[0]) / np.ptp(line[:, 1])
         layers += [Curve(np.stack([line[0], at - gap]), "component"), Curve(np.stack([at + gap, line[1]]), "component")]
-        layers.append(Label(at, f"${tex(nu)}$", "note", (0.0, 0.0)))
+        layers.append(Label(at, f"${tex(nu)}$", "note"))
     layers.append(Curve(envelope(M3, reach), "main"))
     if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
         layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))
@@ -83,8 +83,8 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note"))
     if last:
         layers += [
-            Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", "label", (0.0, 0.0)),
-            Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", "label", (0.0, 0.0)),
+            Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops"),
+            Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies"),
         ]
     return Plane(
         tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),

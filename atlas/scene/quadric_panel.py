@@ -228,6 +228,6 @@ def cells(members: Sequence[Member], scale: float, azimuth: float, below: float 
             curve = quadrics.hyperbola(one.matrix, surface, tolerance(3 * scale))
             layers += [Curve(points + shift, "hyperbola") for points in curve]
         low = one.centre + shift - below * scale * E3
-        layers.append(Label(np.asarray(low), one.name, one.role, (0.0, 0.0)))
+        layers.append(Label(np.asarray(low), one.name, one.role))
         found.append(layers)
     return found
