@@ -12,7 +12,7 @@ FUZZ_EXAMPLES ?= 10000
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress lint clean setup lock newest lowest release FORCE
+.PHONY: help report test figures picture accessibility verify bench stress lint clean setup gl lock newest lowest release FORCE
 
 help:
 	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
@@ -117,6 +117,13 @@ unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX PIP_USER
 # Runs a command in silence; where it fails, says in a line what could not be done, and below it what the command said.
 quietly = said=$$({ $(1); } 2>&1) || { echo "atlas: $(strip $(2)):"; printf '%s\n' "$$said" | tail -n 5; exit 2; } >&2
 
+# Installs the GL libraries that are missing, where we may; what can't be had is told by the first report.
+gl:
+	@said=$$($(BIN)/python -P -m atlas.draw.gl) || exit 2; case "$$ATLAS_GL$$said" in "no GL"*apt-get*) \
+	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then export DEBIAN_FRONTEND=noninteractive; \
+	    ($(call quietly,apt-get update -qq && apt-get install -y -qq --no-install-recommends libegl1 libgl1-mesa-dri,apt-get could not install libegl1 libgl1-mesa-dri)) && \
+	    echo 'installed libegl1 libgl1-mesa-dri for the shaded figures' || true; fi;; esac
+
 # Makes a target alone: under the lock of this folder, which goes with the process. One that is not there yet needs so many MB.
 alone = $(PYTHON) -I -S -c "$$ALONE" $@ $(1) $(MAKE) -s HELD=yes $@
 define ALONE
@@ -185,7 +192,7 @@ else
 	@mkdir -p $(VENV)/checkout && ln -sfn ../../atlas $(VENV)/checkout/atlas
 	@$(BIN)/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../checkout\n")'
 	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands, and of its libraries alone.\nunset PYTHONPATH PYTHONHOME\nexec "$$(dirname -- "$$(readlink -f -- "$$0")")/python" -P -m atlas "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
-	@echo '  GL libraries for shaded figures' && $(BIN)/python -P -m atlas.draw.gl --install
+	@echo '  GL libraries for shaded figures' && $(MAKE) -s gl
 	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -P -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista'   # writes their bytecode, without which each worker compiles them for 1.5 s
 	@pwd -P >$@
 endif

@@ -3,7 +3,7 @@
 Without one the first off-screen picture kills the process, so the question is put to a child, and the answer remembered
 until something changes that it depends on: the libraries installed, their drivers, the environment.
 
-``python -m atlas.draw.gl`` prints the answer; with ``--install`` it first installs what is missing, where it may.
+``python -m atlas.draw.gl`` prints the answer.
 """
 
 import hashlib
@@ -31,7 +31,6 @@ DRIVERS = (
     "/usr/lib64/dri",
     *(f"/usr/lib/{machine}-linux-gnu/dri" for machine in ("x86_64", "aarch64")),
 )
-PACKAGES = ("libegl1", "libgl1-mesa-dri")
 
 _PROBE = """
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderer
@@ -44,7 +43,6 @@ window.Render()
 print(window.GetClassName())
 """
 _TIMEOUT = 60
-_APT = "/usr/bin/apt-get"
 
 
 @cache
@@ -83,17 +81,11 @@ def prepare() -> str | None:
 
 def advice() -> str:
     """Return the line that says what is left out without GL, and which command installs it."""
+    vtk, packages = f"{sys.executable} -m pip install pyvista vtk", "sudo apt-get install libegl1 libgl1-mesa-dri"
+    command = vtk if _vtk() is None else packages
     return (
-        "no GL library can draw off-screen: shaded figures are drawn by the vector renderer; to have them: "
-        f"{_install_command()}"
+        f"no GL library can draw off-screen: shaded figures are drawn by the vector renderer; to have them: {command}"
     )
-
-
-def _install_command() -> str:
-    """Return the command that installs what is missing."""
-    if _vtk() is None:
-        return f"{sys.executable} -m pip install pyvista vtk"
-    return f"sudo apt-get install {' '.join(PACKAGES)}"
 
 
 def _vtk() -> str | None:
@@ -133,43 +125,15 @@ def _answer_file() -> Path | None:
     return folder / f"gl-{key}.json" if folder else None
 
 
-def _may_install() -> bool:
-    """Return whether we are root on a machine with apt-get."""
-    return sys.platform.startswith("linux") and os.geteuid() == 0 and Path(_APT).exists()
-
-
-def _install() -> bool:
-    """Install the GL libraries where we may; return whether that was done, and say why it was not."""
-    if not _may_install():
-        return False
-    environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
-    for words in (["update", "-qq"], ["install", "-y", "-qq", "--no-install-recommends", *PACKAGES]):
-        apt = subprocess.run([_APT, *words], env=environment, capture_output=True, text=True, check=False)  # noqa: S603  fixed words
-    if apt.returncode:
-        reason = (apt.stderr.strip() or "it does not say why").splitlines()[-1]
-        print(f"atlas: apt-get could not install {' '.join(PACKAGES)}: {reason}", file=sys.stderr)  # noqa: T201  the one line
-    return apt.returncode == 0
-
-
-def main(arguments: list[str]) -> int:
-    """Print in one line what can draw; with --install, install it first if possible. Only a misspelt choice fails."""
+def main() -> int:
+    """Print in one line what can draw. Only a misspelt choice fails."""
     try:
-        found = library()
+        print(library() or advice())  # noqa: T201  the answer
     except AtlasError as error:
         print(f"atlas: {error}", file=sys.stderr)  # noqa: T201  the one line
         return 2
-    if found is None and "--install" in arguments and _vtk() is not None and CHOICE not in os.environ and _install():
-        library.cache_clear()
-        file = _answer_file()
-        if file:
-            file.unlink(missing_ok=True)
-        found = library()
-        if found:
-            print(f"installed {' '.join(PACKAGES)} for the shaded figures ({found})")  # noqa: T201  the one line
-    if "--install" not in arguments:  # there the first report says what it lacks
-        print(found or advice())  # noqa: T201  the answer
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -4,9 +4,8 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -95,24 +94,16 @@ def test_a_child_that_opens_another_window_means_no(monkeypatch: pytest.MonkeyPa
     assert gl.library() is None
 
 
-def run(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run the command as at set-up."""
-    return subprocess.run(
-        [sys.executable, "-m", "atlas.draw.gl", *words],
-        env=dict(os.environ, **environment),
+def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it() -> None:
+    """The command ends well: the first report says it, too."""
+    done = subprocess.run(
+        [sys.executable, "-m", "atlas.draw.gl"],
+        env=dict(os.environ, **{gl.CHOICE: "none"}),
         capture_output=True,
         text=True,
         check=False,
     )
-
-
-def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it() -> None:
-    """The command ends well, and set-up is quiet: the first report says it. 'none' is the user's choice: no install."""
-    quiet, done = run("--install", **{gl.CHOICE: "none"}), run(**{gl.CHOICE: "none"})
-    assert (quiet.returncode, quiet.stdout, quiet.stderr) == (0, "", "")
-    assert done.returncode == 0
-    assert done.stderr == ""
-    assert len(done.stdout.splitlines()) == 1
+    assert (done.returncode, done.stderr, len(done.stdout.splitlines())) == (0, "", 1)
     assert "drawn by the vector renderer" in done.stdout
     assert "libegl1 libgl1-mesa-dri" in done.stdout
 
@@ -133,66 +124,42 @@ def test_a_choice_that_is_no_library_is_told(module: str, tmp_path: Path) -> Non
     assert list(tmp_path.iterdir()) == []
 
 
-def test_with_gl_nothing_is_said_at_set_up() -> None:
-    """Set-up is quiet where there is nothing to tell."""
-    done = run("--install", **{gl.CHOICE: "egl"})
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-
-
 @pytest.mark.usefixtures("fresh")
 def test_without_vtk_the_line_names_what_is_missing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """No VTK, no trial: the command is pip's."""
     monkeypatch.setattr(gl, "_vtk", lambda: None)
-    assert gl.main([]) == 0
+    assert gl.main() == 0
     (line,) = capsys.readouterr().out.splitlines()
     assert "pip install pyvista vtk" in line
 
 
-def installing(
-    monkeypatch: pytest.MonkeyPatch, answers: Callable[[list[Any]], bool], complaint: str = ""
-) -> list[list[str]]:
-    """Pretend to be root on Debian; what apt-get is told is returned; it fails if it has a complaint."""
-    told = []
-
-    def apt(command: list[str], **_options: Any) -> subprocess.CompletedProcess[str]:
-        told.append(command[1:])
-        return subprocess.CompletedProcess(command, 100 if complaint else 0, "", complaint)
-
-    monkeypatch.setattr(gl, "_may_install", lambda: True)
-    monkeypatch.setattr(gl, "_draws", lambda _name: answers(told))
-    monkeypatch.setattr(gl.subprocess, "run", apt)
-    return told
-
-
-@pytest.mark.usefixtures("fresh")
-def test_as_root_on_debian_what_is_missing_is_installed(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """After that it draws, and one line says so."""
-    told = installing(monkeypatch, answers=lambda told: len(told) == 2)
-    assert gl.main(["--install"]) == 0
-    assert told[1][-2:] == ["libegl1", "libgl1-mesa-dri"]
-    (line,) = capsys.readouterr().out.splitlines()
-    assert line.startswith("installed libegl1 libgl1-mesa-dri")
-
-
-@pytest.mark.usefixtures("fresh")
-def test_an_installation_that_does_not_help_is_no_failure(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Nothing is said to be installed; the first report says what it lacks."""
-    installing(monkeypatch, answers=lambda _told: False)
-    assert gl.main(["--install"]) == 0
-    assert capsys.readouterr().out == ""
-    assert gl.library() is None
-
-
-@pytest.mark.usefixtures("fresh")
-def test_why_apt_get_failed_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    """One line with its last word; the set-up goes on without GL."""
-    installing(monkeypatch, answers=lambda _told: False, complaint="W: a warning\nE: no network today\n")
-    assert gl.main(["--install"]) == 0
-    told = "atlas: apt-get could not install libegl1 libgl1-mesa-dri: E: no network today\n"
-    assert capsys.readouterr().err == told
+@pytest.mark.parametrize(
+    ("answer", "apt", "says"),
+    [
+        ("no GL library: sudo apt-get install", "true", "installed libegl1 libgl1-mesa-dri for the shaded figures\n"),
+        (
+            "no GL library: sudo apt-get install",
+            "echo 'E: no network today'; false",
+            "atlas: apt-get could not install libegl1 libgl1-mesa-dri:\nE: no network today\n",
+        ),
+        ("egl", "echo never asked; false", ""),
+    ],
+)
+def test_set_up_installs_what_is_missing_where_it_may(tmp_path: Path, answer: str, apt: str, says: str) -> None:
+    """As root on Debian `make setup` brings the libraries and says so; where it can't it says why, and goes on."""
+    for name, text in {"python": f"echo '{answer}'", "id": "echo 0", "apt-get": apt}.items():
+        (tmp_path / name).write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+        (tmp_path / name).chmod(0o755)
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS", gl.CHOICE))}
+    done = subprocess.run(
+        ["make", "-s", "gl", f"BIN={tmp_path}"],  # noqa: S607  whichever make there is
+        cwd=Path(__file__).parents[2],
+        env=own | {"PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (0, says)
