@@ -119,7 +119,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
     kind = "figure*" if any(one.size[0] > TARGETS["aps"].width for one in figure.pictures) else "figure"
     graphics = "\n".join(rf"\includegraphics{{{file}}}" for file in files)
     return (
-        f"\\begin{{{kind}}}[{'tb' if kind == 'figure*' else 'htb'}]\n\\centering\n{graphics}\n"
+        f"\\begin{{{kind}}}[{'tb' if kind == 'figure*' else '!htb'}]\n\\centering\n{graphics}\n"
         f"\\caption{{{texts[figure.caption]}}}\\label{{{figure.id}}}\n\\end{{{kind}}}\n"
     )
 
@@ -227,7 +227,7 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
         begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{columns}}}", caption + r"\\"]
         again = [*head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule", r"\endfoot"]
         return "\n".join([*begin, *again, *rows, r"\end{longtable*}", *note, r"\endgroup", ""])
-    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT or any(shares) else ("table", "[htb]")
+    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT or any(shares) else ("table", "[!htb]")
     begin = [rf"\begin{{{kind}}}{place}", caption, r"\centering\footnotesize"]
     tabular, end = [rf"\begin{{tabular}}{{{columns}}}"], [r"\bottomrule", r"\end{tabular}"]
     if sum(letters) > LETTERS and kind == "table":

@@ -253,7 +253,7 @@ def test_a_formula_that_pages_refuse_is_refused_here(formula: str, tmp_path: Pat
     ("letters", "count", "says"),
     [
         ((20, 22), 1, r"{table}"),  # 46 letters with two between columns: in a column of the page, and no more
-        ((20, 23), 1, r"\begin{table}[htb]"),  # 84 letters do where it is made smaller
+        ((20, 23), 1, r"\begin{table}[!htb]"),  # 84 letters do where it is made smaller
         ((20, 23), 1, r"\resizebox"),
         ((39, 41), 1, r"{table}"),
         ((39, 42), 1, r"{table*}"),
