@@ -125,9 +125,9 @@ def lattice(name: str, found: Monodromy, first: bool) -> Plane:
     steps = np.arange(-4, 5)
     corners = start + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
     grid = corners[(np.abs(corners - middle) <= half).all(axis=1)]
-    ways = [Curve(track + corner - start, "fine_trajectory") for corner in corners]
+    ways = [track + corner - start for corner in corners]
     layers: list[Layer] = [
-        *ways,
+        *(Curve(way, "fine_trajectory") for way in ways if (np.abs(way - middle) <= half).all(axis=1).any()),
         Points(grid, "sample"),
         Curve(track, "trajectory"),
         Arrow(start, end, "component"),
