@@ -40,6 +40,9 @@ for (const query of ["I=3/2", "I = 3/2", "omega2", "ω2", "Ω3", "g-factor", "(7
   }
 }
 for (const query of ["equation 72", "eq. 72", "(72)"]) holds((await hits(page, query))[0].title.includes("(72)"), query, "is that equation first");
+const meant = {quaternion: /quaternion/i, quaterion: /quaternion/i, precesion: /precession/i, uncertainty: /Uncertainties/, action: /actions/, thread: /threads/,
+  jax: /jax/, "type hints": /type hints/, density: /A body of one/, "proof of equation 48": /ledger/, asteroid: /asteroid/};
+for (const [query, title] of Object.entries(folder.endsWith("/guide") ? meant : {})) holds((await hits(page, query)).slice(0, 2).some(hit => title.test(hit.title)), query, "is found first or second");
 holds((await hits(page, "TopMotion"))[0].title.startsWith("atlas.TopMotion(") || !folder.endsWith("/guide"), "a public name is found by itself");
 const across = (await hits(page, "slips found in the paper")).filter(({ href }) => href.startsWith(`file://${other}/`));
 holds(across.length > 0, "what only the other volume has is found");

@@ -10,6 +10,7 @@ import click
 
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
+from atlas.cli.measured import split
 from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, pair, stack
 from atlas.cli.points import columns_of
 from atlas.cli.present import bar
@@ -26,6 +27,9 @@ folder or an address, as s3://bucket/table.parquet (with the package of fsspec f
 that pandas and Dask read as one table. Beside a file that you edited, or put there, the table is OUT.new.csv, and then
 the exit status is 2.
 """
+
+OPTIONS = {"I": "inertia", "B": "field", "omega": "omega"}
+"""Options by the names of their components in a table."""
 
 MOST = 10**7
 """Values of one parameter that a range may have."""
@@ -111,6 +115,8 @@ def swept(
     else:
         wanted = read(toml)
         wanted = wanted._replace(out=out or wanted.out)
+    typed = [x.strip() for text in settings for x in re.split("[,:]", text.partition("=")[2])]
+    in_seconds = any(map(split, typed))
     columns = columns_of(wanted.listing) if wanted.listing else {}
     _once([*columns, *wanted.parameters], f"{wanted.listing} and elsewhere")
     if wanted.out is None:
@@ -126,7 +132,7 @@ def swept(
             rows=wanted.rows,
             jobs=jobs,
             progress=lambda done, total: tell(done, total, ""),
-            time=body.units_of(options).get("time", "time"),
+            time="s" if in_seconds else body.units_of(options).get("time", "time"),
         )
     click.echo(str(path))
 
@@ -149,11 +155,19 @@ def of_three_moments() -> click.Command:
         "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
         "atlas sweep elementary --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3 "
         "--set omega2=-0.7:2:271 --quantity k --out ring.csv",
+        "atlas sweep general --ratio 1.5 --field 1 2 --set omega1=0 omega2=0 omega3=1kHz:2MHz:100:log --quantity "
+        "precession_rate --out spins.csv",
         "atlas sweep asymmetric --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --quantity f1 --out f.csv",
         "atlas sweep --file sweep.toml --out table.parquet/",
     ),
 )
-@options_of(body.body_options, body.field_options)
+@options_of(
+    body.body_options,
+    body.field_options,
+    body.start_option,
+    body.spin_option,
+    click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion."),
+)
 def command(**options: Any) -> None:
     """Sweep over symmetric bodies."""
     swept(**options)
@@ -193,7 +207,10 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
         if set(found) - {*body.BODY, *body.SIZES}
         else {}
     )
-    return ({} if ratio is None else {"ratio": float(ratio)}) | B
+    start, second = body.start_of(options, needed=False), options["omega2"]
+    omega = {} if start is None else dict(zip(("omega1", "omega2", "omega3"), map(float, start), strict=True))
+    omega |= {} if second is None else {"omega2": float(second)}
+    return ({} if ratio is None else {"ratio": float(ratio)}) | B | omega
 
 
 def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
@@ -273,12 +290,13 @@ def _values(name: str, given: Any) -> Any:
 
     if not isinstance(given, str):
         return given
+    option = click.Option([f"--{OPTIONS.get(name.strip().rstrip('123'), name.strip())}"])  # which says the unit
     if ":" not in given:
-        return [float(REAL.convert(x.strip(), None, None)) for x in given.split(",")]
+        return [float(REAL.convert(x.strip(), option, None)) for x in given.split(",")]
     start, stop, *rest = given.split(":")
     if not rest or rest[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", rest[0], re.ASCII):
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {given!r}.")
-    first, last = (float(REAL.convert(x.strip(), None, None)) for x in (start, stop))
+    first, last = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
     if len(rest) == 2 and first * last <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {given!r}.")
     # no more digits are read than a count can have

@@ -67,17 +67,19 @@ const sections = async () => {
 let search;
 const engine = () => (search ??= sections().then(rows => {
   const made = new MiniSearch({
-    fields: ["title", "text"], storeFields: ["file", "anchor", "title", "text", "nearness"], tokenize: pieces, processTerm: term => term,
-    searchOptions: {boost: {title: 3}, boostDocument: (id, term, {nearness, title}) => nearness * (term.startsWith("(") && title.includes(term) ? 4 : 1), combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
+    fields: ["name", "title", "text"], storeFields: ["file", "anchor", "title", "text", "nearness"], tokenize: pieces, processTerm: term => term,
+    searchOptions: {boost: {name: 3, title: 0.3}, boostDocument: (id, term, {nearness, title}) => nearness * (term.startsWith("(") && title.includes(term) ? 4 : 1), combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
   });
-  made.addAll(rows.map((row, id) => ({id, ...row})));
+  made.addAll(rows.map((row, id) => ({id, name: row.title.replace(/^\.|(?<=\w)\(.*\)/g, ""), ...row})));  // without arguments
   return made;
 }));
-// "Equation 84" is (84). Where no place has all the words, those that have most, but for words that any sentence has.
+// "Equation 84" is (84). Words with a slip are found where there is none as typed; where no place has all the words,
+// those that have most, but for words that any sentence has.
 const EQUATION = /\b(?:eq|eqs|eqn|equations?)\b\.?\s*\(?(\d{1,3})\b\)?/gi, COMMON = /^(?:an?|and|can|do|does|for|from|get|how|i|in|is|it|make|my|of|on|own|the|to|what|where|which|with|you)$/;
+const SOME = {combineWith: "OR", tokenize: text => pieces(text).filter(word => !COMMON.test(word))};
 const find = (made, words) => {
-  const asked = words.replace(EQUATION, "($1)"), whole = made.search(asked);
-  return whole.length ? whole : made.search(asked, {combineWith: "OR", tokenize: text => pieces(text).filter(word => !COMMON.test(word))});
+  const asked = words.replace(EQUATION, "($1)");
+  return [{fuzzy: false}, {}, SOME].reduce((hits, options) => hits.length ? hits : made.search(asked, options), []);
 };
 const look = async () => {
   const asked = box.value.trim(), made = await engine();

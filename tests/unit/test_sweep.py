@@ -274,6 +274,7 @@ def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> 
         ("ball --set inertia --quantity gamma --out x.csv", "NAME=VALUES"),
         ("ball --set inertia=1:2 --quantity gamma --out x.csv", "START:STOP:COUNT"),
         ("ball --set inertia=-1:2:5:log --quantity gamma --out x.csv", "one sign"),
+        ("general --set omega3=1kg:2kg:3 --quantity k --out x.csv", "--omega is in rad/s"),
         ("ball --set inertia=a --quantity gamma --out x.csv", "not a finite number"),
         ("ball --list nowhere.csv --quantity gamma --out x.csv", "cannot be read"),
         ("ball --set inertia=1:2:² --quantity gamma --out x.csv", "START:STOP:COUNT"),
@@ -385,3 +386,18 @@ def test_errors_at_rest_are_zero() -> None:
     found = atlas.sweep("elementary", rows, ["error", "plain_error"])
     assert found["error"].tolist() == [0.0, 0.0]
     assert (found["plain_error"] <= 4 * np.finfo(float).eps).all()
+
+
+def test_ranges_have_units_and_starts_are_options(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In hertz a range is of turns a second, its rates are in 1/s; a spin and omega2 stand for their components."""
+    monkeypatch.chdir(tmp_path)
+    words = "--ratio 1.5 --field 1 2 --quantity precession_rate --out"
+    for start, out in (("--set omega1=0 omega2=0 omega3=1Hz:2Hz:2", "a.csv"), ("--spin 1Hz", "b.csv")):
+        assert CliRunner().invoke(program, f"sweep motion {words} {out} {start}".split()).exit_code == 0
+    first, second = ([line.split(",") for line in Path(name).read_text().splitlines()] for name in ("a.csv", "b.csv"))
+    assert first[:2] == second
+    assert "omega3 [1/s]" in first[0]
+    assert [float(row[first[0].index("omega3 [1/s]")]) for row in first[1:]] == pytest.approx([2 * np.pi, 4 * np.pi])
+    words = "sweep motion --ratio 1.5 --field 1 2 --quantity k --out c.csv --omega2 0.7"
+    assert CliRunner().invoke(program, words.split()).exit_code == 0
+    assert Path("c.csv").read_text().startswith("ratio,B2 [1/time],B3 [1/time],omega2 [1/time]")
