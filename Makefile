@@ -83,6 +83,7 @@ accessibility: report
 	@$(LOOK) tests/accessibility.mjs build/report/trial build/accessibility
 	@$(LOOK) tests/accessibility.mjs build/report/guide build/accessibility
 	@$(LOOK) tests/search.mjs build/report/atlas build/report/trial build/accessibility
+	@$(LOOK) tests/search.mjs build/report/guide build/report/atlas build/accessibility
 	@$(LOOK) tests/scenes.mjs build/report/atlas build/accessibility
 
 lint: $(VENV)/.test
