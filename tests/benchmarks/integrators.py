@@ -76,7 +76,7 @@ def integrators() -> tuple[Integrator, ...]:
     scipy = (Integrator(name, _scipy(name)) for name in ("RK45", "DOP853", "LSODA", "Radau"))
     return (
         *scipy,
-        Integrator("DOP853_7", _scipy("DOP853", _compiled), quaternions=True),
+        Integrator("DOP853_7", _scipy("DOP853", _compiled), tolerances=(1e-7, 1e-10, 1e-14), quaternions=True),
         Integrator("heyoka", partial(_heyoka, np.float64), "heyoka"),
         Integrator("heyoka_own", partial(_heyoka, np.float64), "heyoka", OWN),
         Integrator("heyoka_7", partial(_heyoka, np.float64), "heyoka", OWN, quaternions=True),
