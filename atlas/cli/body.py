@@ -1,7 +1,7 @@
 """The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import hypot, pi
+from math import pi
 from typing import Any, TypeVar
 
 import click
@@ -30,9 +30,6 @@ LIKE = {
     "loop": "ring", "ellipsoid": "spheroid", "solenoid": "cylindrical-shell",
 }  # fmt: skip
 """Other names of shapes."""
-
-UNIT = 1e-6
-"""By how much the length of a quaternion that is typed may differ from 1."""
 
 ROD = "thin-rod"
 ROD_REASON = (
@@ -205,14 +202,12 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
-    """Return the matrix R(0) of --attitude, None where it is not given. Raises click.UsageError for no unit length."""
+    """Return the matrix R(0) of --attitude, None where it is not given. Raises AtlasError for no unit length."""
     if options.get("attitude") is None:
         return None
-    from scipy.spatial.transform import Rotation
+    from atlas.core.arithmetic.quaternions import rotation_of
 
-    if abs((length := hypot(*options["attitude"])) - 1) > UNIT:
-        raise click.UsageError(f"--attitude is a quaternion of the length 1, x y z w, not of {length:.6g}.")
-    return Rotation.from_quat(options["attitude"]).as_matrix()
+    return rotation_of(options["attitude"], "--attitude")
 
 
 def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:

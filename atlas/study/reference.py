@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import arb
 
+from atlas.core.arithmetic.quaternions import rotation_of
 from atlas.core.bodies.body import SymmetricBody, moments
 from atlas.core.bodies.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray
@@ -28,10 +29,6 @@ Given: TypeAlias = Mapping[str, Any]
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Parameters that only a top has."""
-
-
-UNIT = 1e-6
-"""By how much the length of a quaternion that is typed may differ from 1."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +103,8 @@ def _any_body(known: Given, start: Given, file: str) -> Reference:
             "inertia is started by omega, three components."
         )
     if start and (len(given) > 3 or "attitude" in known):
-        return _in_given_axes(motion(tensor, field, start["omega"], _attitude(known, file)))
+        R = rotation_of(known["attitude"], f"{file}: attitude") if "attitude" in known else None
+        return _in_given_axes(motion(tensor, field, start["omega"], R))
     if not start:
         return Reference("any inertia tensor", shown, AnyBody(tensor, field))
     omega = np.array(start["omega"], dtype=float)
@@ -121,18 +119,6 @@ def _moments(known: Given, file: str) -> tuple[float, ...]:
         return ()
     I2, I3 = moments(_body(known, file))
     return (float(I2), float(I2), float(I3))
-
-
-def _attitude(known: Given, file: str) -> Any:
-    """Return R(0) of a quaternion x y z w, None where there is none."""
-    from scipy.spatial.transform import Rotation
-
-    if "attitude" not in known:
-        return None
-    q = np.array(known["attitude"], dtype=float)
-    if abs(np.linalg.norm(q) - 1) > UNIT:
-        raise AtlasError(f"{file}: attitude is a quaternion of the length 1, x y z w, not of {np.linalg.norm(q):.6g}.")
-    return Rotation.from_quat(q).as_matrix()
 
 
 def _top(known: Given, file: str) -> Reference:

@@ -1,11 +1,17 @@
 """Unit quaternions (x, y, z, w), the scalar last, of rotation matrices and of products of rotations."""
 
+from collections.abc import Sequence
+from math import hypot
 from typing import Any
 
 import numpy as np
 
 from atlas.core.inputs import FloatArray
+from atlas.errors import AtlasError
 from atlas.formulas.numbers import quaternion_products
+
+ROUNDED = 1e-6
+"""By how much the length of a quaternion that is typed may differ from 1."""
 
 
 def of_matrix(R: Any) -> FloatArray:
@@ -30,3 +36,12 @@ def product(p: FloatArray, q: FloatArray) -> FloatArray:
 def between(left: FloatArray, right: FloatArray) -> FloatArray:
     """Return the matrix (4, 4) that takes a row q to p q r, p and r the quaternions of two rotation matrices."""
     return product(product(of_matrix(left), np.eye(4)), of_matrix(right))
+
+
+def rotation_of(typed: Sequence[float], name: str) -> FloatArray:
+    """Return the rotation matrix (3, 3) of a typed quaternion, which has a name; AtlasError for no unit length."""
+    from scipy.spatial.transform import Rotation
+
+    if abs((length := hypot(*typed)) - 1) > ROUNDED:
+        raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
+    return np.asarray(Rotation.from_quat(typed).as_matrix())
