@@ -10,6 +10,7 @@ _LETTERS = [[*"xyzuvwabcdefghijklmnopqrst"], [*"XYZUVWABCDEFGHIJKLMNOPQRST"]]
 SAME = (
     (r"\lambda_{AB}[x_A^i-x_1^i]", "a dummy index: the multipliers are symmetric"),
     (r"\lambda_{AB}[\mathbf{y}_A-\mathbf{y}_1]", "a dummy index: the multipliers are symmetric"),
+    (r"\{K_x,K_j\}", "another name of a free index"),
     (r"q''(-\nu_0)", "q has no cubic term, so that its second derivative is even"),
     (r"e_\pm=-\nu_0\mp", "both roots stand in a product"),
     (r"e_\mp =-\nu_0\pm", "both roots stand in a product"),

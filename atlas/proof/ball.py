@@ -6,12 +6,11 @@ from functools import cache
 import sympy
 
 from atlas.proof import euler_poisson as general
-from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, rodrigues, rotation_symbols, turn, vector
 from atlas.proof.notation import parse
+from atlas.proof.particle import SIGNED, TRAJECTORY, trajectory_model
 from atlas.proof.particle import SIGNS as PARTICLE_SIGNS
-from atlas.proof.particle import TRAJECTORY, trajectory_model
-from atlas.proof.trial import Falsehood, Part, Trial, read
+from atlas.proof.trial import Falsehood, Part, Trial, mended, read
 
 SIGNS = {r"\mathbf{B}": "Bf", r"\hat{k}_2": "k2", r"\hat{k}_3": "k3", r"\hat{\mathbf{k}}": "axis"}
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
@@ -19,7 +18,7 @@ I0, mu, c = sympy.symbols("I0 mu c", positive=True)
 alpha, gamma, t, k2, k3, m2, m3 = sympy.symbols("alpha gamma t k2 k3 m2 m3", real=True)
 ca, sa, cg, sg, p, q, h = sympy.symbols("ca sa cg sg p q h", real=True)
 size = sympy.Symbol("s", positive=True)
-E3 = sympy.Matrix([0, 0, 1])
+E3, ANY = sympy.Matrix([0, 0, 1]), vector("m")
 
 LARMOR = {ca: -alpha * sa, sa: alpha * ca}
 TURNING = {cg: -gamma * sg, sg: gamma * cg}
@@ -66,14 +65,7 @@ def ball_model() -> Model:
     columns = {n + 1: R.col(n) for n in range(3)}
     letters = {"R": R, "column": columns, "Bf": Bf, "mu": mu, "c": c, "I0": I0, "Omega": Omega, "m": I0 * R * Omega}
     flow = dict(zip([*R, *Omega], [*(R * hat(Omega)), *rate], strict=True))
-    return Model(letters, ROTATION, flow, units=units.BALL)
-
-
-@cache
-def momentum_flow_model() -> Model:
-    """Any vector m that obeys (22)."""
-    m = vector("m")
-    return Model({"m": m, "Bf": Bf}, flow=dict(zip(m, -mu / (2 * c) * cross(Bf, m), strict=True)))
+    return Model(letters, ROTATION, flow)
 
 
 @cache
@@ -82,7 +74,7 @@ def larmor_model() -> Model:
     b = sympy.Symbol("b", positive=True)
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
     where = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
-    model = Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)}, units=units.BALL)
+    model = Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)})
     model.letters["about_B"] = model.about(E3)
     return model
 
@@ -94,13 +86,13 @@ def larmor_frequency_model() -> Model:
     field = sympy.Matrix([0, 0, b])
     dm = -mu / (2 * c) * cross(field, m)
     rate = -cross(m, dm)[2] / (m[0] ** 2 + m[1] ** 2)
-    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "Bf": field}, units=units.BALL)
+    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "Bf": field})
 
 
 def _motion(spin: Value, where: list[tuple[Value, Value]]) -> Model:
     letters = {"alpha": alpha, "gamma": gamma, "t": t, "k2": k2, "k3": k3, "I0": I0, "m": spin, "m2": m2, "m3": m3}
     phases = {alpha * t: (ca, sa), gamma * t: (cg, sg)}
-    model = Model(letters, where, {**LARMOR, **TURNING}, START, phases, units=units.BALL)
+    model = Model(letters, where, {**LARMOR, **TURNING}, START, phases)
     model.letters |= {"about_B": model.about(E3), "about_k": model.about(sympy.Matrix([0, k2, k3]))}
     return model
 
@@ -127,7 +119,7 @@ def constants_model() -> tuple[Model, Model]:
     known = {"alpha": alpha, "I0": I0}
     anywhere = {**known, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
     rest = {**known, "m2": sympy.Integer(0), "m3": -alpha * I0}
-    return Model(anywhere, domains=UPRIGHT, units=units.BALL), Model(rest, domains=UPRIGHT, units=units.BALL)
+    return Model(anywhere, domains=UPRIGHT), Model(rest, domains=UPRIGHT)
 
 
 @cache
@@ -146,7 +138,7 @@ def parallel_model(sign: int = 1) -> Model:
     """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of (29)."""
     known = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
     letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **known}
-    return Model(letters, domains=UPRIGHT, units=units.BALL)
+    return Model(letters, domains=UPRIGHT)
 
 
 @cache
@@ -155,7 +147,7 @@ def parallel_motion_model() -> Model:
     angle = m3 * t / I0
     flow = {cg: -m3 / I0 * sg, sg: m3 / I0 * cg}
     letters = {"m3": m3, "I0": I0, "t": t, "m": sympy.Matrix([0, 0, m3])}
-    return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)}, units=units.BALL)
+    return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)})
 
 
 def _turned(line: str) -> str:
@@ -193,7 +185,7 @@ def any_momentum_model() -> Model:
     spin = R.T * m / I0
     letters = {"Omega": spin, "m": m, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
     flow = dict(zip([*R, *m], [*(R * hat(spin)), *rate], strict=True))
-    return Model(letters, ROTATION, flow, units=units.BALL)
+    return Model(letters, ROTATION, flow)
 
 
 @cache
@@ -201,7 +193,7 @@ def along_model() -> Model:
     """Model gamma of text-ball-parallel, solved for m3."""
     letters = {"t": t, "m3": I0 * (gamma - alpha), "I0": I0}
     letters["R"] = rodrigues(E3, ca, -sa) * rodrigues(-E3, cg, -sg)
-    return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)}, units=units.BALL)
+    return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)})
 
 
 @cache
@@ -229,9 +221,7 @@ TRIALS = (
         ),
     ),
     Trial(
-        name="(19)",
-        model=uniform_ball_model,
-        follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$",
+        name="(19)", model=uniform_ball_model, follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$"
     ),
     Trial(
         name="text-ball-centre",
@@ -241,8 +231,7 @@ TRIALS = (
         defines=("y",),
         solves=TRAJECTORY,
         corrected_model=trajectory_model,
-        corrected_tex=r"\mathbf{y}_0(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
-        r"\mathbf{B}\rvert}{c}}",
+        corrected_tex=mended("text-ball-centre", {}, SIGNED),
         grade="sign of the charge",
         slip="(97)",
         note="The centre of any body with one charge-to-mass ratio does, not only that of a ball; for a negative "
@@ -261,24 +250,12 @@ TRIALS = (
             model=kinematic_model,
         ),
     ),
-    Trial(
-        name="(20)",
-        model=general.poisson_model,
-        follows="@(12)",
-    ),
-    Trial(
-        name="(21)",
-        model=ball_model,
-        follows="@(16) with $g = I_0/2$",
-    ),
-    Trial(
-        name="(22)",
-        model=ball_model,
-        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
-    ),
+    Trial(name="(20)", model=general.poisson_model, follows="@(12)"),
+    Trial(name="(21)", model=ball_model, follows="@(16) with $g = I_0/2$"),
+    Trial(name="(22)", model=ball_model, follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)"),
     Trial(
         name="(23)",
-        model=momentum_flow_model,
+        model=lambda: Model({"m": ANY, "Bf": Bf}, flow=dict(zip(ANY, -mu / (2 * c) * cross(Bf, ANY), strict=True))),
         follows="@(22)",
     ),
     Trial(
@@ -314,9 +291,7 @@ TRIALS = (
         grade="missing case",
         slip="text-affirmation",
         corrected_model=lambda: (orthogonal_model(), orthogonal_model(-1)),
-        corrected_tex=(
-            r"-\frac{\boxed{\det R}}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}"
-        ),
+        corrected_tex=mended("text-linear-poisson", {r"-\frac{1}": r"-\frac{\boxed{\det R}}"}),
         note="Said of all orthogonal matrices, it holds for the rotations; for the determinant $-1$ the sign "
         "changes. With "
         "$R(0) = 1$ no such matrix occurs.",
@@ -328,11 +303,7 @@ TRIALS = (
         model=ball_model,
         follows=r"@(20) and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
     ),
-    Trial(
-        name="(25)",
-        model=ball_model,
-        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
-    ),
+    Trial(name="(25)", model=ball_model, follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)"),
     Trial(
         name="text-ball-frame",
         model=frame_model,

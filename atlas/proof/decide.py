@@ -13,10 +13,9 @@ from typing import Any
 
 import sympy
 
-from atlas.proof.dimensions import unbalanced
 from atlas.proof.identity import ordered, positive, resolved, vanishes
 from atlas.proof.model import COMMON, Model, functions
-from atlas.proof.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
+from atlas.proof.notation import NoMeaningError, Reader, Relation, is_zero, letters_of, parse, write
 from atlas.proof.verdict import Decision
 
 Value = Any
@@ -47,7 +46,7 @@ class Outcome:
     counterexample: dict[str, str] = field(default_factory=dict)
 
 
-def decide(  # noqa: PLR0911  one return for each way in which a line fails
+def decide(
     line: str,
     cases: Model | Sequence[Model],
     *,
@@ -66,11 +65,8 @@ def decide(  # noqa: PLR0911  one return for each way in which a line fails
     models = [cases] if isinstance(cases, Model) else list(cases)
     methods: list[str] = []
     for model in models:
-        wrong = unbalanced(line, model.units) if model.units else {}
-        if wrong:
-            return Outcome("refuted", "dimensions", wrong)
         try:
-            relations, letters, where = _read(line, model, tuple(defines), solves)
+            relations, letters, where = understood(line, model, tuple(defines), solves)
         except NoMeaningError as reason:
             return Outcome("refuted", "indices", reason.example)
         here = replace(model, letters=letters, where=where)
@@ -80,7 +76,7 @@ def decide(  # noqa: PLR0911  one return for each way in which a line fails
         )
         if found:
             return Outcome("refuted", "exact counterexample", found)
-        idle = _unknown(trees, model, defines) or _idle(
+        idle = _unknown(trees, here, defines) or _idle(
             relations, here, tuple(defines), f"{line}; {solves}" if solves else line
         )
         if idle:
@@ -93,7 +89,7 @@ def decide(  # noqa: PLR0911  one return for each way in which a line fails
     return Outcome("undecided", "neither proved nor refuted")
 
 
-def _read(
+def understood(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     """Return the relations to be checked, and the model's letters and `where` with what the line defines."""
@@ -109,14 +105,14 @@ def _understand(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     letters, where = dict(model.letters), list(model.where)
-    kept, defined = [], set()
+    kept, already = [], set[str]()
     for tree in parse(line):
         letters |= _function(tree, defines, Reader(letters, model.ranges))
-        name = _defined(tree, defines)
-        if name in defined:
+        name = defined(tree, defines)
+        if name in already:
             raise NoMeaningError(f"{name} is defined twice")
         if name:
-            defined.add(name)
+            already.add(name)
             tree.left, tree.ops = tree.comparators.pop(0), tree.ops[1:]
             value = Reader(letters, model.ranges).value(tree.left, {})
             where, letters[name] = _meant(name, value, letters) + where, value
@@ -128,7 +124,7 @@ def _understand(
     return relations + (reader.relations(solves) if solves else []), letters, new
 
 
-def _defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
+def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
     """Return the letter that a relation defines, which is put on its left; empty if it defines none."""
     every = [tree.left, *tree.comparators]
     if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
@@ -151,7 +147,7 @@ def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[
 
 def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> dict[str, Value]:
     """Return the function that d(u)^2 = Q(u) = u^4 + a defines, with its derivatives, and leave d(u)^2 = u^4 + a."""
-    every = [tree.left, *tree.comparators]
+    every = [tree.left, *tree.comparators] if all(isinstance(sign, ast.Eq) for sign in tree.ops) else []
     for place, side in enumerate(every):
         match side:
             case ast.Call(func=ast.Name(id=name), args=[ast.Name(id=variable)]) if name in defines:
@@ -173,10 +169,40 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
     strange = {name for tree in trees for name in letters_of(tree)} - known
     if strange:
         return f"unreadable: {', '.join(sorted(strange))} means nothing here"
-    every = [ast.dump(tree) for tree in trees]
-    sides = [[ast.dump(side) for side in (tree.left, *tree.comparators)] for tree in trees]
-    twice = any(len(set(one)) < len(one) for one in (every, *sides))
-    return "it says the same twice, or of something that it is itself" if twice else ""
+    calls = [part for tree in trees for part in ast.walk(tree) if isinstance(part, ast.Call)]
+    pairs = [call.args for call in calls if _name(call) in {"br", "cross"}]  # zero, whatever stands in them
+    every: list[Sequence[ast.AST]] = [trees, *([tree.left, *tree.comparators] for tree in trees), *pairs]
+    if any(len(set(map(ast.dump, one))) < len(one) for one in every):
+        return "it says the same twice, or of something that it is itself"
+    return next((reason for tree in trees if (reason := _empty(tree, model))), "")
+
+
+def _empty(tree: ast.Compare, model: Model) -> str:
+    """Say why a bracket or a derivative that is zero says less than it seems to; empty if it does not.
+
+    What is zero for every index is so for each one, and letters that are independent have no derivatives.
+    """
+    if not is_zero(tree.comparators[-1]) or not isinstance(tree.ops[-1], ast.Eq):
+        return ""
+    if isinstance(tree.left, ast.Call) and _name(tree.left) == "d2":
+        rate = ast.Compare(ast.Call(ast.Name("d"), tree.left.args, []), [ast.Eq()], [ast.Constant(0)])
+        if all(_prove(relation, model) for relation in Reader(model.letters, model.ranges).relations(write([rate]))):
+            return f"{ast.unparse(tree.left)} is the rate of what is zero itself"
+    calls = [part for part in ast.walk(tree) if isinstance(part, ast.Call) and _name(part) in {"br", "partial"}]
+    for call in calls:
+        if any(isinstance(part, ast.Subscript) and isinstance(part.slice, ast.Constant) for part in ast.walk(call)):
+            return f"{ast.unparse(call)} is said of one index only"
+        first = getattr(call.args[0], "value", call.args[0])
+        value = model.letters.get(getattr(first, "id", ""))
+        vectors = list(value.values()) if isinstance(value, dict) else [value]
+        bare = isinstance(vectors[0], sympy.MatrixBase) and all(entry.is_Symbol for entry in vectors[0])
+        if _name(call) == "partial" and bare:
+            return f"{ast.unparse(first)} depends on nothing"
+    return ""
+
+
+def _name(call: ast.Call) -> str:
+    return getattr(call.func, "id", "")
 
 
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
@@ -187,8 +213,8 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
     if not relations:
         return "nothing in it is checked"
     named = {name for relation in relations for name in relation.letters}
-    reached = _reached([side for relation in relations for side in (*relation.left, *relation.right)], model)
-    named |= {str(symbol) for symbol, _ in model.where if symbol in reached}
+    all_reached = reached([side for relation in relations for side in (*relation.left, *relation.right)], model)
+    named |= {str(symbol) for symbol, _ in model.where if symbol in all_reached}
     for tree in reversed(parse(line)):  # a letter may be used in the definition of another one
         name = getattr(tree.left, "id", None)
         if name in defines and name not in named:
@@ -198,7 +224,7 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
     return ""
 
 
-def _reached(values: Iterable[Value], model: Model) -> set[Value]:
+def reached(values: Iterable[Value], model: Model) -> set[Value]:
     """Return the symbols on which values depend, also through `where` and through the rates of what moves."""
     found: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     rules = [*model.where, *model.flow.items()]
@@ -209,7 +235,7 @@ def _reached(values: Iterable[Value], model: Model) -> set[Value]:
         found = more
 
 
-def _parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
+def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
     """Return the free parameters on which the relations and the letters with these names depend."""
     values = [side for relation in relations for side in (*relation.left, *relation.right)]
     values += [
@@ -274,10 +300,9 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
 
     names  the letters to be shown, where they have a value at that point
     """
-    parameters = _parameters(relations, model, names)
     valued = [False] * len(relations)
     free: dict[Value, Value] = {}
-    for free in points(parameters, model):
+    for free in points(parameters(relations, model, names), model):
         values = completed(free, model)
         for number, relation in enumerate(relations):
             for entry in range(len(relation.left)):
@@ -285,7 +310,7 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
                 valued[number] |= broken is not None
                 if broken:
                     if shrink:
-                        values = _simplest(relation, entry, free, model)
+                        values = simplest(relation, entry, free, model)
                     return _describe(relation, entry, model, names, values)
     for number, relation in enumerate(relations):
         if not valued[number] and relation.left:
@@ -303,7 +328,7 @@ def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool |
     return _violated(relation.sign, difference)
 
 
-def _simplest(relation: Relation, entry: int, free: dict[Value, Value], model: Model) -> dict[Value, Value]:
+def simplest(relation: Relation, entry: int, free: dict[Value, Value], model: Model) -> dict[Value, Value]:
     """Replace the parameters of a counterexample one by one by 0, 1, 2, as far as it stays one."""
     for symbol in free:
         for value in _SIMPLE[_domain(symbol, model)]:

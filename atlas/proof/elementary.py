@@ -4,13 +4,12 @@ from functools import cache
 
 import sympy
 
-from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, rodrigues, turn, vector
 from atlas.proof.notation import sides
 from atlas.proof.quadric import SIGNS as QUADRIC_SIGNS
 from atlas.proof.quadric import I, constant_omega3, omega1, omega2, omega3
 from atlas.proof.tex import UnreadableError
-from atlas.proof.trial import Falsehood, Part, Trial, read
+from atlas.proof.trial import Falsehood, Part, Trial, mended, read
 
 b, I2 = sympy.symbols("b I2", positive=True)
 B2, B3 = sympy.symbols("B2 B3", positive=True)
@@ -60,7 +59,7 @@ PROPER = sympy.Matrix([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
 def _model(
     letters: dict[str, Value], where: list[tuple[Value, Value]], flow: dict[Value, Value] | None = None
 ) -> Model:
-    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS, units=units.ELEMENTARY)
+    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS)
 
 
 @cache
@@ -75,16 +74,14 @@ def row_model() -> Model:
     """Model A row of any turning matrix: dR/dt = R hat(Omega)."""
     Omega, row = vector("Omega"), vector("gamma")
     rate = (row.T * hat(Omega)).T
-    letters = {f"gamma{n + 1}": row[n] for n in range(3)} | {f"dgamma{n + 1}": rate[n] for n in range(3)}
-    letters |= {f"Omega{n + 1}": Omega[n] for n in range(3)} | {"gamma": row, "Omega": Omega, "dgamma": rate}
-    return Model({**letters, "omega3": Omega[2]})
+    return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})
 
 
 @cache
 def integral_model() -> Model:
     """Any row that obeys (75) with Omega of (73); c is what (76) says at that state."""
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
-    letters = {f"Omega{n + 1}": SPIN[n] for n in range(3)} | {f"gamma{n + 1}": gamma[n] for n in range(3)}
+    letters = {"Omega": SPIN, "gamma": gamma}
     letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
     return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD], {**FLOW, **rows})
 
@@ -101,8 +98,7 @@ def ratio_model() -> Model:
 def rows_model() -> Model:
     """Model the constant c of (76) for the three rows of R(0) = 1."""
     value = SPIN.subs(START)
-    letters = {f"c{n + 1}": [value[0], value[1], hB3 * omega2 / hB2][n] for n in range(3)}
-    return _model(letters, [*FIELD])
+    return _model({"c": sympy.Matrix([value[0], value[1], hB3 * omega2 / hB2])}, [*FIELD])
 
 
 def _third(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
@@ -124,7 +120,7 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
 def solution_model() -> Model:
     """Model the row of (78) and (80), for any constants."""
     row = _row(c, amplitude, (c0, s0))
-    letters = {f"gamma{n + 1}": row[n] for n in range(3)} | {"Omega1": SPIN[0], "Omega2": SPIN[1]}
+    letters = {"gamma": row, "Omega1": SPIN[0], "Omega2": SPIN[1]}
 
     def begin(constant: Value, size: Value, angle: Value) -> Value:
         phase = sympy.cos(angle), sympy.sin(angle)
@@ -167,12 +163,6 @@ def resting_row_model() -> Model:
     whole = row_model()
     rest = dict.fromkeys(whole.letters["Omega"], sympy.Integer(0))
     return Model({f"dgamma{n}": whole.letters[f"dgamma{n}"].xreplace(rest) for n in (1, 2, 3)})
-
-
-@cache
-def ball_limit_model() -> Model:
-    """I2 = I3."""
-    return _model({}, [*ON_HYPERBOLA, PHI, (I, sympy.Integer(1)), *FIELD])
 
 
 @cache
@@ -321,11 +311,7 @@ TRIALS = (
         ),
         note=_AT_REST,
     ),
-    Trial(
-        name="(79)",
-        model=integral_model,
-        follows="@(75), @(76) and @(78)",
-    ),
+    Trial(name="(79)", model=integral_model, follows="@(75), @(76) and @(78)"),
     Trial(
         name="(80)",
         model=solution_model,
@@ -385,12 +371,7 @@ TRIALS = (
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
         corrected_signs={r"\text{if}\quad\omega_2\ne0": ""},
         form=_rows,
-        corrected_tex=(
-            r"\begin{aligned} c&=0,&b&=-\hat{B}_2,&k_0&=\tfrac{\pi}{2};\\ "
-            r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
-            r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=\hat{B}_2^2,&k_0&=0\qquad\boxed{\text{if}\quad\omega_2\ne0} "
-            r"\end{aligned}"
-        ),
+        corrected_tex=mended("(83)", {"1-\\hat{B}_3^2=": ""}, r"\qquad\boxed{\text{if}\quad\omega_2\ne0}"),
         note=r"At $\omega_2 = 0$ all three constants $c$ are 0, and @(80) and @(81) do not reach the second and the "
         r"third row: the "
         "body is at rest, and @(84) says so.",
@@ -410,13 +391,7 @@ TRIALS = (
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
         false=Falsehood(r"$k$ is $\omega_2$ times $\hat{B}_2$", "omega2*Bl/Bl2", "omega2*Bl2/Bl"),
     ),
-    Trial(
-        name="(85)",
-        model=matrix_model,
-        follows="@(84)",
-        defines=("R",),
-        solves=_POISSON,
-    ),
+    Trial(name="(85)", model=matrix_model, follows="@(84)", defines=("R",), solves=_POISSON),
     Trial(
         name="text-precession",
         model=matrix_model,
@@ -436,16 +411,12 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-limit",
-        model=ball_limit_model,
+        model=lambda: _model({}, [*ON_HYPERBOLA, PHI, (I, sympy.Integer(1)), *FIELD]),
         signs={r"I_2=I_3\implies": ""},
         follows="@(71), @(72) with $I = 1$",
         false=Falsehood("There is no proper rotation, whatever the moments", model=velocity_model),
     ),
-    Trial(
-        name="(86)",
-        model=frequencies_model,
-        follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$",
-    ),
+    Trial(name="(86)", model=frequencies_model, follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$"),
     Trial(
         name="text-free-general",
         model=free_body_model,
@@ -464,7 +435,7 @@ TRIALS = (
     Trial(
         name="text-affirmation-free",
         model=free_model,
-        signs={r"\mathbf{m}": "J*at0(Omega)", r"\mathbf{B}": "Bp"},
+        signs={r"\mathbf{m}": "J*at0(Omega)", r"\mathbf{B}": "Bp", "B_2": "B2", "B_3": "B3"},
         follows="the launch of the free body",
         false=Falsehood(
             r"The free body is launched with an angular velocity along $\mathbf{B}$",
@@ -501,7 +472,7 @@ TRIALS = (
         grade="missing case",
         corrected_also=(Part(line="dm = 0", model=steady_momentum_model),),
         corrected_signs={r"\text{if}\quad I\ne1,\ \omega_2\ne0": ""},
-        corrected_tex=r"\dot{\mathbf{m}}\ne0\quad\boxed{\text{if}\quad I\ne1,\ \omega_2\ne0}",
+        corrected_tex=mended("text-momentum-moves", {}, r"\quad\boxed{\text{if}\quad I\ne1,\ \omega_2\ne0}"),
         note="For a ball, whose elementary motion is a steady turn about the field, and at rest it is conserved.",
         false=Falsehood("The angular momentum is conserved", "(I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2", "0"),
     ),
@@ -510,7 +481,7 @@ TRIALS = (
         model=matrix_model,
         signs={r"\Omega_3": "Omega[3]"},
         follows="@(73)",
-        corrected_tex=r"\Omega_3(t)=\boxed{\omega_3}=\text{const}",
+        corrected_tex=mended("text-constant-omega3", {r"\omega_2": r"\omega_3"}),
         grade="misprint",
         note="A wrong index.",
     ),
@@ -525,7 +496,7 @@ TRIALS = (
         model=matrix_model,
         signs={r"\mathbf{B}": "Bp"},
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$",
-        corrected_tex=r"(\mathbf{m}(t)\boxed{-\mathbf{m}(0)},\mathbf{B})=0",
+        corrected_tex=mended("text-momentum-plane", {"(t)": r"(t)\boxed{-\mathbf{m}(0)}"}),
         grade="wording",
         note=r"The projection is constant, not zero: only the tip of $\mathbf{m}$ stays in a plane orthogonal to "
         r"$\mathbf{B}$.",

@@ -4,11 +4,9 @@ from functools import cache
 
 import sympy
 
-from atlas.paper import EQUATIONS
-from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, hat, matrix, rotation, rotation_symbols, symmetric, vector
 from atlas.proof.notation import sides
-from atlas.proof.trial import Falsehood, Part, Trial, read
+from atlas.proof.trial import Falsehood, Part, Trial, mended, read
 
 SIGNS = {
     "c": "light",
@@ -48,7 +46,7 @@ def multiplier_model() -> Model:
     rest = skew.xreplace(dict.fromkeys(w, 0))
     solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * rest
     letters = {"A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved}
-    return Model({**COMMON, **letters, "ddR": R * (hat(Omega) ** 2 + hat(w))}, ROTATION, units=units.BODY)
+    return Model({**COMMON, **letters, "ddR": R * (hat(Omega) ** 2 + hat(w))}, ROTATION)
 
 
 @cache
@@ -59,18 +57,15 @@ def mirrored_model() -> Model:
     letters = {
         name: value.xreplace(minus) for name, value in whole.letters.items() if isinstance(value, sympy.MatrixBase)
     }
-    return Model({**whole.letters, **letters}, ROTATION, units=units.BODY)
+    return Model({**whole.letters, **letters}, ROTATION)
 
 
 @cache
 def magnetic_model() -> Model:
     """Model the magnetic force of (7) as the matrix A, and I times the rate of Omega from (11)."""
-    dR = R * hat(Omega)
-    A = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
-    model = multiplier_model()
-    free = model.letters["A"]
-    rate = model.letters["IdOmega"].xreplace(dict(zip(free, A, strict=True)))
-    return Model({**COMMON, "A": A, "dR": dR, "g": g, "I": moments, "IdOmega": rate}, ROTATION, units=units.BODY)
+    letters, dR = multiplier_model().letters, R * hat(Omega)
+    force = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
+    return Model({**letters, "dR": dR}, [*zip(letters["A"], force, strict=True), *ROTATION])
 
 
 def euler(tensor: Value, mass: Value, field: Value) -> Value:
@@ -94,7 +89,7 @@ def momentum_model() -> Model:
         "M": M,
         "m": R * M,
     }
-    return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION, units=units.BODY)
+    return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION)
 
 
 @cache
@@ -125,7 +120,6 @@ def diagonal_model() -> Model:
     K = vector("K")
     letters = {"g": diagonal, "I": tensor, "K": K, "Omega": Omega, "g1": g1, "g2": g2, "g3": g3}
     letters |= {f"I{n + 1}": tensor[n, n] for n in range(3)}
-    letters |= {f"K{n + 1}": K[n] for n in range(3)} | {f"Omega{n + 1}": Omega[n] for n in range(3)}
     return Model(letters)
 
 
@@ -161,7 +155,6 @@ def grioli_model() -> Model:
     return Model(
         {**COMMON, "I": moments, "g": g, "Bf": field, "G3": R.row(2).T, "IdOmega": euler(moments, g, R.T * field)},
         ROTATION,
-        units=units.BODY,
     )
 
 
@@ -204,13 +197,18 @@ def flight_model() -> Model:
     inertia = mass.trace() * sympy.eye(3) - mass
     E, y0, velocity, w = vector("E"), vector("y"), vector("v"), vector("w")
     letters = {**COMMON, "m": masses, "x": places, "E": E, "y0": y0, "w": w, "I": inertia}
-    letters |= {"y": {N: y0 + R * place for N, place in places.items()}, "IdOmega": euler(inertia, mass, R.T * Bf)}
+    letters["moved"] = {N: R * place for N, place in places.items()}
+    letters |= {
+        "y": {N: y0 + place for N, place in letters["moved"].items()},
+        "IdOmega": euler(inertia, mass, R.T * Bf),
+    }
     rates = [*velocity, *(mu * E + mu / c * cross(velocity, Bf)), *(R * hat(Omega)), *w]
     flow = dict(zip([*y0, *velocity, *R, *Omega], rates, strict=True))
-    return Model(letters, ROTATION, flow, ranges={"N": (1, 2, 3, 4)})
+    start = dict(zip(R, sympy.eye(3), strict=True))
+    return Model(letters, ROTATION, flow, start, ranges={"N": (1, 2, 3, 4)})
 
 
-_LAST = r"R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a"
+_LEFT, _RIGHT = r"R_{ia}(\mathbf{B}R\boldsymbol{\Omega})", r"(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a"
 _AFFIRMED = f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({RIGHT_OF_11})"
 
 TRIALS = (
@@ -234,7 +232,7 @@ TRIALS = (
         "start, one of the determinant $-1$ among them, for which the identity holds too.",
         grade="missing case",
         corrected_model=lambda: (multiplier_model(), mirrored_model()),
-        corrected_tex=r"\text{(10)},\ \boxed{R_{ij}(0)=\delta_{ij}}\iff\text{(11), (12)}",
+        corrected_tex=mended("text-affirmation", {r"\iff": r",\ \boxed{R_{ij}(0)=\delta_{ij}}\iff"}),
         false=Falsehood(
             "The Euler equations hold without their last term", " - 1/2*I[k, a]*eps[a, i, j]*A[b, i]*R[b, j]", ""
         ),
@@ -271,11 +269,7 @@ TRIALS = (
         note="For a plane body, the loop of Section IV, $g_3 = 0$. The Affirmation needs only that the inertia "
         "tensor be non-degenerate, which it is for every body that is no rod.",
     ),
-    Trial(
-        name="(11)",
-        model=multiplier_model,
-        follows="the symmetry of the multipliers in @(10)",
-    ),
+    Trial(name="(11)", model=multiplier_model, follows="the symmetry of the multipliers in @(10)"),
     Trial(
         name="(12)",
         signs={r"\dot R": "d(R)"},
@@ -321,24 +315,14 @@ TRIALS = (
         name="text-force-matrix",
         model=magnetic_model,
         follows="@(12) and $R R^T = 1$",
-        corrected_tex=(
-            EQUATIONS["text-force-matrix"]
-            .tex.replace(r"=\epsilon", r"=\boxed{-}\epsilon")
-            .replace(_LAST, r"\boxed{(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})}")
+        corrected_tex=mended(
+            "text-force-matrix", {r"=\epsilon": r"=\boxed{-}\epsilon", f"{_LEFT}-{_RIGHT}": f"{_RIGHT}-{_LEFT}"}
         ),
         grade="misprint",
         note="The minus of @(12) is lost at the first step and back in @(13).",
     ),
-    Trial(
-        name="(13)",
-        model=magnetic_model,
-        follows="@(7) and @(12)",
-    ),
-    Trial(
-        name="(14)",
-        model=magnetic_model,
-        follows="@(11) with the matrix $A$ of @(7)",
-    ),
+    Trial(name="(13)", model=magnetic_model, follows="@(7) and @(12)"),
+    Trial(name="(14)", model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
     Trial(
         name="(15)",
         signs={r"R^T\mathbf{B}": "K"},
@@ -354,11 +338,7 @@ TRIALS = (
             "The mass matrix may act on the angular velocity instead", "2*cross(g*K, Omega)", "2*cross(K, g*Omega)"
         ),
     ),
-    Trial(
-        name="(16)",
-        model=magnetic_model,
-        follows="@(11) with the matrix $A$ of @(7)",
-    ),
+    Trial(name="(16)", model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
     Trial(
         name="(17)",
         signs={r"\dot{\mathbf{m}}": "dm"},
@@ -383,7 +363,7 @@ TRIALS = (
     ),
     Trial(
         name="text-flight",
-        signs={r"\mathbf{y}_0": "y0", r"\mathbf{y}": "y[]", r"\mathbf{x}": "x[]"},
+        signs={r"\mathbf{y}_0": "y0", r"\mathbf{y}": "y[]", r"\mathbf{x}": "moved[]"},
         model=flight_model,
         follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "
         "force and the torque that are not those of the constraints",

@@ -1,14 +1,12 @@
 """The general motion of the symmetric body on trial: the top of Larmor's frame, and its sigma functions."""
 
-from collections.abc import Mapping
 from functools import cache
 
 import sympy
 
 from atlas.proof.clebsch import symmetric_model
-from atlas.proof.model import COMMON, Model, Value, dot, functions
-from atlas.proof.notation import Reader, parse, sides
-from atlas.proof.trial import Falsehood, Part, Trial, read
+from atlas.proof.model import Model, Value, dot, functions
+from atlas.proof.trial import Falsehood, Part, Trial, evaluated
 
 SIGNS = {
     "E'": "E",
@@ -34,11 +32,6 @@ QUARTIC = (1 - nu**2) * (g - A * nu**2) - (p - M3 * nu) ** 2
 G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
 
 
-def second_side(name: str, signs: Mapping[str, str], letters: Mapping[str, Value], side: int = 1) -> Value:
-    """Return the value of one side of the first relation of an entry of the ledger."""
-    return Reader({**COMMON, **letters}).value(parse(sides(read(name, signs))[side] + " = 0")[0].left, {})
-
-
 @cache
 def top_model() -> Model:
     """Model any state of the symmetric body in units of I2, K = b times a unit vector in stereographic coordinates."""
@@ -61,8 +54,8 @@ def letters_model() -> Model:
     names = ("E", "c5", "Bsquare")
     letters = {name: sympy.Symbol(name, real=True) for name in names}
     letters |= {"I": I, "b": b, "c3": c3, "H": H, "p": p, "u": u, "M3": I * c3, "nu": nu}
-    letters |= functions("Q", second_side("theorem-quartic", SIGNS | {"b^2": "Bsquare"}, letters, 2), u)
-    letters |= functions("q", second_side("theorem-top", SIGNS, letters, 2), nu)
+    letters |= functions("Q", evaluated("theorem-quartic", SIGNS | {"b^2": "Bsquare"}, letters, 2), u)
+    letters |= functions("q", evaluated("theorem-top", SIGNS, letters, 2), nu)
     return Model(letters, [(letters["Bsquare"], b**2)])
 
 
@@ -119,9 +112,13 @@ def sigma_model() -> Model:
 
     def zeta(at: Value) -> Value:
         """Return zeta of a place, or of t and a place."""
+        if at.coeff(t) == -1:
+            return -zeta(-at)
         place = next((symbol for symbol in known if at.has(symbol)), t)
         value, height, rate = known[place]
         sign = at.coeff(place)
+        if sign**2 != 1 or at not in {sign * place, t + sign * place}:
+            raise ValueError(f"the addition theorem does not give zeta of {at}")
         if not at.has(t):
             return sign * value
         return sympy.Symbol("zeta_t", real=True) + sign * value + (P1 - sign * rate) / (P - height) / 2

@@ -81,9 +81,13 @@ def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value
     return result
 
 
+def sign_forms(value: Value, *, strict: bool) -> list[bool]:
+    """Whether a function of symbols of known sign is positive (nonnegative): as it is, by factors, or term by term."""
+    factored = sympy.factor(sympy.together(value))
+    forms = value, factored, sympy.expand(sympy.numer(factored)) / sympy.expand(sympy.denom(factored))
+    return [bool(form.is_positive or (not strict and form.is_nonnegative)) for form in forms]
+
+
 def positive(value: Value, *, strict: bool) -> bool:
-    """Whether a function of symbols of known sign is positive (nonnegative): factor by factor, or term by term."""
-    forms = [value]
-    value = sympy.factor(sympy.together(value))
-    forms += [value, sympy.expand(sympy.numer(value)) / sympy.expand(sympy.denom(value))]
-    return any(form.is_positive or (not strict and form.is_nonnegative) for form in forms)
+    """Whether a function of symbols of known sign is positive (nonnegative)."""
+    return any(sign_forms(value, strict=strict))

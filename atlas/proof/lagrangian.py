@@ -12,10 +12,9 @@ from typing import Any
 import sympy
 
 from atlas.paper import EQUATIONS
-from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, matrix, vector
-from atlas.proof.notation import parse
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.notation import equations
+from atlas.proof.trial import Falsehood, Part, Trial, mended
 
 ALL, FRAME, REST = (1, 2, 3, 4, 5, 6), (2, 3, 4), (5, 6)
 RANGES = {"N": ALL, "A": FRAME, "B": FRAME, "alpha": REST, "beta": REST}
@@ -36,15 +35,15 @@ SIGNS = {
     r"\lambda": "lam[]",
     r"\dot R": "dR[]",
     # the limits of sums, which are those of RANGES
-    r"\sum_{N=1}^{n}": "",
-    r"\sum_{N=1}^n": "",
-    r"\sum_{A=2}^{4}": "",
-    r"\sum_{A=2}^4": "",
-    r"\sum_{B=2}^4": "",
-    r"\sum_{A,B=2}^{4}": "",
-    r"\sum_{A,B=2}^4": "",
-    r"\sum_{\beta=5}^{n}": "",
-    r"\sum_{\alpha=5}^n": "",
+    r"\sum_{N=1}^{n}": r"\sum_N",
+    r"\sum_{N=1}^n": r"\sum_N",
+    r"\sum_{A=2}^{4}": r"\sum_A",
+    r"\sum_{A=2}^4": r"\sum_A",
+    r"\sum_{B=2}^4": r"\sum_B",
+    r"\sum_{A,B=2}^{4}": r"\sum_{AB}",
+    r"\sum_{A,B=2}^4": r"\sum_{AB}",
+    r"\sum_{\beta=5}^{n}": r"\sum_\beta",
+    r"\sum_{\alpha=5}^n": r"\sum_\alpha",
 }
 
 m = {N: sympy.Symbol(f"m{N}", positive=True) for N in ALL}
@@ -91,7 +90,7 @@ def forces(*, equal: bool = True) -> dict[int, Value]:
 @cache
 def action_model() -> Model:
     """Letters of the action."""
-    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES, units=units.PARTICLES)
+    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES)
 
 
 @cache
@@ -111,7 +110,7 @@ def particles_model() -> Model:
     mass = sum(m.values())
     centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
     centre["ddy0"] = sum(found.values(), sympy.zeros(3, 1)) / mass
-    return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES, units=units.PARTICLES)
+    return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES)
 
 
 @cache
@@ -133,7 +132,7 @@ def relative_model(*, equal: bool = True) -> Model:
     letters = {"ddx": _components({N: found[N] / m[N] - a0 for N in ALL}), "x": _components(x), "dx": dx}
     letters |= {"y0": y0, "dy0": v0, "ddy0": whole / mass}
     letters["lami"] = {i + 1: sympy.cancel(one / mass) for i, one in enumerate(whole - mass * a0 - push)}
-    return Model({**COMMON, **letters}, ranges=RANGES, units=units.PARTICLES)
+    return Model({**COMMON, **letters}, ranges=RANGES)
 
 
 def _about(places: dict[int, Value]) -> dict[int, Value]:
@@ -169,6 +168,7 @@ def rotation_model() -> Model:
     spun = {N: R * push[N] + mu * m[N] * E + mu / c * m[N] * cross(dR * x[N], Bf) for N in ALL}
     letters = {
         "x": _components(x),
+        "moved": _components({N: R * x[N] for N in ALL}),
         "R": R,
         "dR": dR,
         "total": sum((m[N] * x[N] for N in ALL), sympy.zeros(3, 1)),
@@ -177,7 +177,7 @@ def rotation_model() -> Model:
         "ddRg": sum((spun[N] * x[N].T for N in ALL), sympy.zeros(3, 3)),
         "A": sympy.Matrix.hstack(*(-mu / c * cross(dR.col(a), Bf) for a in range(3))),
     }
-    return Model({**COMMON, **letters}, ranges=RANGES, units=units.PARTICLES)
+    return Model({**COMMON, **letters}, start=dict(zip(R, sympy.eye(3), strict=True)), ranges=RANGES)
 
 
 @cache
@@ -206,7 +206,7 @@ def spatial_model() -> Model:
 
 def _equivalent(line: str) -> str:
     """Return that X = 0 if and only if P = Q, as one is a multiple of the other: (1 + delta) X = P - Q."""
-    slope, held_ = parse(line)
+    slope, held_ = equations(line)
     left, right = (ast.unparse(side) for side in (held_.left, held_.comparators[0]))
     zero = ast.unparse(slope.comparators[0])
     return f"(1 + delta[A,B])*({ast.unparse(slope.left)} - {zero}) = {left} - {right}"
@@ -241,16 +241,8 @@ TRIALS = (
         follows="the sum of @(103) over the particles, with the potentials @(102)",
         definition=True,
     ),
-    Trial(
-        name="(3)",
-        model=particles_model,
-        follows="the variation of the action @(1), @(2) for six particles",
-    ),
-    Trial(
-        name="(4)",
-        model=particles_model,
-        follows="the sum of @(3) over six particles",
-    ),
+    Trial(name="(3)", model=particles_model, follows="the variation of the action @(1), @(2) for six particles"),
+    Trial(name="(4)", model=particles_model, follows="the sum of @(3) over six particles"),
     Trial(
         name="text-translation",
         model=free_model,
@@ -302,11 +294,10 @@ TRIALS = (
         },
         model=relative_model,
         follows="@(3) less $m_N$ times @(4), for six particles",
-        corrected_tex=(
-            EQUATIONS["(5)"]
-            .tex.replace(r"\mathbf{E}", r"\boxed{E^i}")
-            .replace(r"\mathbf{B}]", r"\mathbf{B}]\boxed{{}^i}")
-            .replace(r"\end{aligned}", r",\\ &\boxed{\lambda^i=-\mu E^i} \end{aligned}")
+        corrected_tex=mended(
+            "(5)",
+            {r"\mathbf{E}": "E^i", r"\mathbf{B}]": r"\mathbf{B}]\boxed{{}^i}"},
+            r",\\ &\boxed{\lambda^i=-\mu E^i}",
         ),
         grade="wording",
         note=r"The letter $\lambda^i$ is defined nowhere. As the multiplier that keeps the sum of $m_N \mathbf{x}_N$ "
@@ -322,6 +313,7 @@ TRIALS = (
             r"R^TR=\mathbf{1}": "",
             r"R(0)=\mathbf{1}": "",
         },
+        corrected_signs={"x": "moved[]"},
         model=rotation_model,
         follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
         "summed; the electric force kept",
@@ -341,6 +333,7 @@ TRIALS = (
     ),
     Trial(
         name="(8)",
+        signs={"x": "moved[]"},
         model=rotation_model,
         follows="the matrix that multiplies the second derivative of $R$ in @(6)",
         definition=True,
@@ -361,7 +354,7 @@ TRIALS = (
         },
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
-        corrected_tex=EQUATIONS["(9)"].tex.replace("-2x_1^{j}", r"\boxed{+}2x_1^{j}"),
+        corrected_tex=mended("(9)", {"-2x_1^{j}": r"\boxed{+}2x_1^{j}"}),
         grade="misprint",
         note=r"The last sign is wrong: the products of $\mathbf{x}_1$ with itself add.",
     ),

@@ -139,14 +139,14 @@ def functions(name: str, value: Value, variable: Value) -> dict[str, Callable[[V
 class Model:
     """What stands before a claim.
 
-    letters  what each name of the printed line stands for: expressions, vectors and matrices in symbols, or functions
+    letters  what each name of the printed line stands for: expressions, vectors and matrices in symbols, or functions;
+             of a vector K its components K1, K2, K3 too, unless these are something else
     where    what those symbols are in free parameters, in order: each may use the ones before it and the free ones
     flow     rates in time of the symbols that move; `d` and `d2` of a line follow from it
     start    values at t = 0 of the symbols that move; `at0` of a line follows from it
     phases   angles whose cosine and sine are symbols: angle -> (cosine, sine)
     domains  where the free parameters may lie: a key of `decide.DOMAINS`; real if not said
     ranges   the values of indices that count particles
-    units    dimensions of the letters as powers of (length, time, mass, charge)
     """
 
     letters: dict[str, Value]
@@ -156,20 +156,23 @@ class Model:
     phases: Mapping[Value, tuple[Value, Value]] = field(default_factory=dict)
     domains: Mapping[str, str] = field(default_factory=dict)
     ranges: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
-    units: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Add the letters that every formula may use."""
-        own = {
-            "d": entrywise(self.rate),
-            "d2": entrywise(lambda x: self.rate(self.rate(x))),
-            "at0": entrywise(lambda x: x.subs(dict(self.start), simultaneous=True)),
-        }
+        vectors = [(name, value) for name, value in self.letters.items() if getattr(value, "shape", ()) == (3, 1)]
+        own: dict[str, Value] = {}
+        if self.flow:
+            time = self.letters.get("t")
+            self.flow = {time: sympy.Integer(1), **self.flow} if isinstance(time, sympy.Symbol) else self.flow
+            own |= {"d": entrywise(self.rate), "d2": entrywise(lambda x: self.rate(self.rate(x)))}
+        if self.start:
+            own["at0"] = entrywise(lambda x: x.subs(dict(self.start), simultaneous=True))
         if self.phases:
             own["cos"] = entrywise(lambda angle: self._turned(angle)[0])
             own["sin"] = entrywise(lambda angle: self._turned(angle)[1])
             own["tan"] = entrywise(lambda angle: self._turned(angle)[1] / self._turned(angle)[0])
-        self.letters = {**COMMON, **self.letters, **own}
+        components = {f"{name}{n}": value[n - 1] for name, value in vectors for n in (1, 2, 3)}
+        self.letters = {**COMMON, **components, **self.letters, **own}
 
     def rate(self, value: Value) -> Value:
         """Rate in time along the flow."""

@@ -55,6 +55,14 @@ def parse(line: str) -> list[ast.Compare]:
     return trees
 
 
+def equations(line: str) -> list[ast.Compare]:
+    """Return the relations of a line, all of which are equations; NoMeaningError if one isn't."""
+    trees = parse(line)
+    if not all(isinstance(sign, ast.Eq) for tree in trees for sign in tree.ops):
+        raise NoMeaningError(f"{line} is not said with signs of equality")
+    return trees
+
+
 def write(trees: list[ast.Compare]) -> str:
     """Return the line of these syntax trees, the inverse of parse."""
     found = "; ".join(ast.unparse(tree) for tree in trees)
@@ -63,14 +71,14 @@ def write(trees: list[ast.Compare]) -> str:
 
 def sides(line: str) -> list[str]:
     """Return the sides of the first relation of a line."""
-    tree = parse(line)[0]
+    tree = equations(line)[0]
     return [write([ast.Compare(side, [ast.Eq()], [ast.Constant(0)])])[:-4] for side in (tree.left, *tree.comparators)]
 
 
 def conserved(line: str) -> str:
     """Return what a = c = b says of a conserved quantity: a = c, its rate is zero, and at t = 0 it is b."""
     found: list[str] = []
-    for tree in parse(line):
+    for tree in equations(line):
         sides = [ast.unparse(side) for side in (tree.left, *tree.comparators)]
         found += [f"{sides[0]} == {side}" for side in sides[1:-1]]
         found += [f"d({sides[0]}) == 0", f"at0({sides[-2]}) == {sides[-1]}"]
@@ -96,7 +104,8 @@ def factors(node: ast.expr) -> Iterator[tuple[ast.expr, bool]]:
         yield node, False
 
 
-def _is_sum(node: ast.expr) -> TypeGuard[ast.BinOp]:
+def is_sum(node: ast.expr) -> TypeGuard[ast.BinOp]:
+    """Whether a formula is a sum or a difference."""
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
 
 
@@ -115,7 +124,7 @@ class Reader:
             sides = [tree.left, *tree.comparators]
             free = sorted(self.free(tree.left) | (names(tree.left) & set(self.ranges)))
             for side in sides[1:]:
-                if not _is_zero(side) and self.free(side) != self.free(tree.left):
+                if not is_zero(side) and self.free(side) != self.free(tree.left):
                     raise NoMeaningError(
                         f"the indices of {ast.unparse(tree.left)} and {ast.unparse(side)} do not balance"
                     )
@@ -137,9 +146,9 @@ class Reader:
 
     def free(self, node: ast.expr) -> set[str]:
         """Return the free indices of a formula, particles apart; NoMeaningError if terms of a sum differ."""
-        if _is_sum(node):
+        if is_sum(node):
             left, right = self.free(node.left), self.free(node.right)
-            if left != right and not _is_zero(node.left) and not _is_zero(node.right):
+            if left != right and not is_zero(node.left) and not is_zero(node.right):
                 raise self._imbalance(node.left, node.right)
             return left
         if isinstance(node, ast.UnaryOp):
@@ -171,19 +180,20 @@ class Reader:
             if key not in self._fixed:
                 self._fixed[key] = self.value(node, {})
             return self._fixed[key]
-        if _is_sum(node):
+        if is_sum(node):
             left, right = self.value(node.left, bound), self.value(node.right, bound)
             return left + right if isinstance(node.op, ast.Add) else left - right
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             return -self.value(node.operand, bound)
         parts = list(factors(node))
-        here = set()
-        for name in names(node) - set(bound):
-            holders = [part for part, _ in parts if name in names(part)]
-            if len(holders) > 1 or not _is_sum(holders[0]):
-                here.add(name)
+        here = self.summed(parts, names(node) - set(bound))
         terms = list(self._products(parts, here, dict(bound), sympy.Integer(1)))
         return sum(terms[1:], terms[0]) if terms else sympy.Integer(0)
+
+    def summed(self, parts: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
+        """Return the indices over which a product of these factors is summed as a whole."""
+        holders = {name: [part for part, _ in parts if name in names(part)] for name in indices}
+        return {name for name, held in holders.items() if len(held) > 1 or not is_sum(held[0])}
 
     def _all(self, indices: list[str]) -> Iterator[dict[str, int]]:
         for choice in product(*(self.ranges.get(name, (1, 2, 3)) for name in indices)):
@@ -254,7 +264,8 @@ def letters_of(tree: ast.AST) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name.id for name in sorted(found, key=lambda name: name.col_offset)))
 
 
-def _is_zero(node: ast.expr) -> bool:
+def is_zero(node: ast.expr) -> bool:
+    """Whether a formula is the number 0."""
     return isinstance(node, ast.Constant) and node.value == 0
 
 

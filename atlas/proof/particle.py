@@ -6,9 +6,8 @@ from functools import cache
 
 import sympy
 
-from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, turn, vector
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial, evaluated, mended
 
 SIGNS = {
     r"\mathbf{B}": "Bf",
@@ -53,7 +52,7 @@ def lagrangian_model() -> Model:
     A0, A = dot(y, E), cross(B, y) / 2
     L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
     letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
-    letters |= {f"B{n + 1}": B[n] for n in range(3)} | {f"y{n + 1}": y[n] for n in range(3)}
+    letters |= {f"B{n + 1}": B[n] for n in range(3)}
     letters |= {"K": m * dot(v, v) / 2, "U": -(e * A0 + e / c * dot(A, v)), "acceleration": euler}
     letters["force"] = lambda U: -_gradient(U, y) + _gradient(U, v).jacobian(y) * v
     letters["grad"] = lambda scalar: _gradient(scalar, y)
@@ -64,7 +63,7 @@ def lagrangian_model() -> Model:
             field[1].diff(y[0]) - field[0].diff(y[1]),
         ]
     )
-    return Model(letters, units=units.PARTICLE)
+    return Model(letters)
 
 
 @cache
@@ -85,7 +84,7 @@ def velocity_model() -> Model:
     C = vector("C")
     letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
     flow = {t: sympy.Integer(1), **dict(zip(y, v, strict=True))}
-    return Model(letters, flow=flow, start={t: sympy.Integer(0)}, units=units.PARTICLE)
+    return Model(letters, flow=flow, start={t: sympy.Integer(0)})
 
 
 @cache
@@ -93,7 +92,7 @@ def fall_model() -> Model:
     """B = 0."""
     C, y0 = vector("C"), vector("yo")
     letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
-    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=units.PARTICLE)
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
 def _split() -> dict[str, Value]:
@@ -113,7 +112,7 @@ def split_model() -> Model:
     flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
     letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
     start = {t: sympy.Integer(0), parts["y"][2]: letters["ypar0"][2]}
-    return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"}, units=units.PARTICLE)
+    return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
 
 
 @cache
@@ -122,7 +121,7 @@ def parallel_model() -> Model:
     parts = _split()
     letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
     del letters["ypar"]
-    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=units.PARTICLE)
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
 @cache
@@ -130,7 +129,7 @@ def fall_along_model() -> Model:
     """(93)."""
     parts = _split()
     ypar = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
-    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)}, units=units.PARTICLE)
+    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
 @cache
@@ -150,23 +149,10 @@ def along_field_model() -> tuple[Model, Model]:
         Model(
             {"mu": sign * strength, "E": field, "y": y0 + C * t + sign * strength * field * t**2 / 2},
             flow={t: sympy.Integer(1)},
-            units=units.PARTICLE,
         )
         for sign in (1, -1)
     )
     return first, second
-
-
-@cache
-def any_vector_model() -> Model:
-    """Any vector beside B."""
-    return Model({"Eperp": vector("w"), "Bf": B})
-
-
-@cache
-def orthogonal_model() -> Model:
-    """Any vector orthogonal to B: a product of B with another."""
-    return Model({"Eperp": cross(B, vector("w")), "Bf": B})
 
 
 @cache
@@ -180,7 +166,8 @@ def shifted_model() -> Model:
     y2 = sympy.diag(1, 1, 0) * vector("z")
     rate2 = rate1.xreplace(dict(zip(parts["y"], y2 + second, strict=True)))
     flow = dict(zip([*y1[:2], *y2[:2]], [*rate1[:2], *rate2[:2]], strict=True))
-    return Model({**parts, "y1": y1, "y2": y2}, flow=flow, units=units.PARTICLE)
+    letters = {name: value for name, value in parts.items() if name not in {"y", "yperp"}}
+    return Model({**letters, "y1": y1, "y2": y2}, flow=flow)
 
 
 @cache
@@ -202,7 +189,7 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
         where = [(omega, strength * b / c), *angles]
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
-        cases.append(Model(letters, where, flow, start, phases, units=units.PARTICLE))
+        cases.append(Model(letters, where, flow, start, phases))
     return cases[0], cases[1]
 
 
@@ -216,7 +203,7 @@ def drift_model() -> tuple[Model, Model]:
         rate = case.letters["mu"] * (case.letters["Eperp"] + cross(velocity, case.letters["Bf"]) / case.letters["c"])
         solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
         letters = {**case.letters, "drift": velocity.subs(solved), "E": ACROSS + PARALLEL}
-        cases.append(Model(letters, case.where, units=case.units))
+        cases.append(Model(letters, case.where))
     return cases[0], cases[1]
 
 
@@ -225,28 +212,27 @@ def signed_model(choice: str = "any") -> tuple[Model, Model]:
     """Model the same with a frequency that has the sign of the charge."""
     first, second = charges_model(choice)
     where = [(omega, -strength * b / c), *second.where[1:]]
-    return first, Model(second.letters, where, second.flow, second.start, second.phases, units=units.PARTICLE)
+    return first, Model(second.letters, where, second.flow, second.start, second.phases)
+
+
+def _general(model: Model, **letters: Value) -> Value:
+    """Return the right side of (98) with other letters in it."""
+    return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 
 @cache
 def start_model() -> tuple[Model, Model]:
     """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
     first, second = (
-        Model({**model.letters, "yperp": _general(model)}, model.where, model.flow, model.start, units=units.PARTICLE)
+        replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
         for model in signed_model("origin")
     )
     return first, second
 
 
-def _general(model: Model) -> Value:
-    """Return the right side of (98) with omega0 = 0."""
-    constant = (cross(model.letters["Cperp"], ALONG_Z) + c * ACROSS) / (omega * b)
-    return constant + model.letters["mu"] * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
-
-
 _TURNING = "at0(d({})[2]) = -omega*a*sin(omega0)"
 _SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
-_SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
+SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
 _SENSE = (
     r"Said for any charge, it holds for $\mu > 0$ only; with $\omega = \mu |\mathbf{B}|/c$, of the sign of the "
     "charge, it holds for both."
@@ -258,34 +244,22 @@ def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
     """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
-        mu_ = model.letters["mu"]
-        along = (
-            sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + model.letters["Cpar"] * t + mu_ * PARALLEL * t**2 / 2
-        )
-        across = mu_ * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
-        letters = {**model.letters, "ypar": along, "yperp": across, "E": PARALLEL + ACROSS}
+        letters = {**model.letters, "ypar0": sympy.Symbol("z0", real=True) * ALONG_Z / b, "E": PARALLEL + ACROSS}
+        letters |= {"ypar": evaluated("(93)", SIGNS, letters), "yperp": evaluated("(99)", SIGNS, letters)}
         where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
-        cases.append(Model(letters, where, model.flow, model.start, model.phases, units=units.PARTICLE))
+        cases.append(Model(letters, where, model.flow, model.start, model.phases))
     return cases[0], cases[1]
 
 
 @cache
 def later_model() -> tuple[Model, Model]:
     """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
-    first, second = (replace(model, letters={**model.letters, "place": _place(model)}) for model in signed_model())
+
+    def place(model: Model) -> Callable[..., Value]:
+        return lambda at, constant, angle: _general(model, t=at, Cperp=constant, omega0=angle)
+
+    first, second = (replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model())
     return first, second
-
-
-def _place(model: Model) -> Callable[[Value, Value, Value], Value]:
-    """Return (98) as a function."""
-    sine, cosine = model.letters["sin"], model.letters["cos"]
-
-    def place(at: Value, constant: Value, angle: Value) -> Value:
-        turned = a * (e1 * sine(omega * at + angle) + e2 * cosine(omega * at + angle))
-        first = (cross(constant, ALONG_Z) + c * ACROSS) / (omega * b)
-        return first + model.letters["mu"] * E2 / omega * at * e1 + turned
-
-    return place
 
 
 @cache
@@ -304,12 +278,7 @@ TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
 """What the place of a charged particle obeys, (89)."""
 
 TRIALS = (
-    Trial(
-        name="(89)",
-        signs=_LAGRANGIAN,
-        model=lagrangian_model,
-        follows="the variation of the Lagrangian @(104)",
-    ),
+    Trial(name="(89)", signs=_LAGRANGIAN, model=lagrangian_model, follows="the variation of the Lagrangian @(104)"),
     Trial(
         name="(90)",
         model=velocity_model,
@@ -345,11 +314,7 @@ TRIALS = (
         false=Falsehood("It turns with Larmor's frequency", "-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2"),
     ),
     Trial(name="(91)", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
-    Trial(
-        name="(92)",
-        model=split_model,
-        follows=r"@(90) projected across $\mathbf{B}$",
-    ),
+    Trial(name="(92)", model=split_model, follows=r"@(90) projected across $\mathbf{B}$"),
     Trial(
         name="(93)",
         model=parallel_model,
@@ -362,41 +327,30 @@ TRIALS = (
         solves="d2(ypar) = mu*Epar",
         model=fall_along_model,
         follows="@(93)",
-        corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\boxed{\Vert}}\rvert",
+        corrected_tex=mended("text-parallel-acceleration", {r"\bot": r"\boxed{\Vert}"}),
         grade="misprint",
         note=r"The wrong part of $\mathbf{E}$.",
     ),
     Trial(
         name="text-double-product",
-        model=orthogonal_model,
+        model=lambda: Model({"Eperp": cross(B, vector("w")), "Bf": B}),
         follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
-        false=Falsehood("The identity holds for any vector", model=any_vector_model),
+        false=Falsehood("The identity holds for any vector", model=lambda: Model({"Eperp": vector("w"), "Bf": B})),
     ),
-    Trial(
-        name="(94)",
-        model=split_model,
-        follows="@(92)",
-    ),
+    Trial(name="(94)", model=split_model, follows="@(92)"),
     Trial(
         name="(95)",
         model=shifted_model,
         follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
     ),
-    Trial(
-        name="(96)",
-        model=shifted_model,
-        follows="@(92) for the twice shifted variable",
-    ),
+    Trial(name="(96)", model=shifted_model, follows="@(92) for the twice shifted variable"),
     Trial(
         name="(97)",
         model=charges_model,
         follows="@(96) by substitution, for either sign of the charge",
         defines=("y2", "omega"),
         solves="d(y2) = -mu/c*cross(Bf,y2); " + _TURNING.format("y2"),
-        corrected_tex=(
-            r"\mathbf{y}_2(t)=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
-            + _SIGNED
-        ),
+        corrected_tex=mended("(97)", {r"\frac{\lvert \mu\mathbf{B}\rvert}{c}": r"\frac{\mu\lvert\mathbf{B}\rvert}{c}"}),
         grade="sign of the charge",
         note=f"{_SENSE} A negative charge turns the other way.",
     ),
@@ -415,12 +369,7 @@ TRIALS = (
         defines=("yperp",),
         solves=f"{_SOLVES}; {_TURNING.format('yperp')}",
         corrected_model=signed_model,
-        corrected_tex=(
-            r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}"
-            r"\rvert}"
-            r"+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
-            r"+a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}" + _SIGNED
-        ),
+        corrected_tex=mended("(98)", {}, SIGNED),
         grade="sign of the charge",
         slip="(97)",
         note=_SENSE,
@@ -461,10 +410,7 @@ TRIALS = (
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
         corrected_model=lambda: signed_model("origin"),
-        corrected_tex=(
-            r"\mathbf{y}_{\bot}(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
-            r"+a\left\{\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}" + _SIGNED
-        ),
+        corrected_tex=mended("(99)", {}, SIGNED),
         grade="sign of the charge",
         slip="(97)",
         note=_SENSE,
@@ -492,14 +438,11 @@ TRIALS = (
     Trial(
         name="(100)",
         model=lambda: charges_model("trochoid"),
-        follows="@(98) with the constant chosen there; dimensions",
+        follows="@(98) with the constant chosen there",
         defines=("x", "y"),
         solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
         corrected_model=lambda: signed_model("trochoid"),
-        corrected_tex=(
-            r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad "
-            r"y(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^{\boxed{2}}}+a\cos\omega t" + _SIGNED
-        ),
+        corrected_tex=mended("(100)", {r"\omega}+a": r"\omega^{\boxed{2}}}+a"}, SIGNED),
         grade="misprint",
         note=r"The shift of $y$ must be a length, $\mu |\mathbf{E}_\bot|/\omega^2$, as $\mathbf{C}_\bot$ must be a "
         r"velocity; and, as in @(97), $\omega$ takes the sign of the charge.",
@@ -520,8 +463,7 @@ TRIALS = (
         defines=("y",),
         solves=TRAJECTORY,
         corrected_model=trajectory_model,
-        corrected_tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
-        r"\mathbf{B}\rvert}{c}}",
+        corrected_tex=mended("(101)", {}, SIGNED),
         grade="sign of the charge",
         slip="(97)",
         note="The sum is right; @(99), which it sends to, holds for a positive charge.",
@@ -531,10 +473,7 @@ TRIALS = (
         signs={r"\mathbf{A}(\mathbf{y})": "A", r"A_0(\mathbf{y})": "A0"},
         model=lagrangian_model,
         follows="the vector product in components",
-        corrected_tex=(
-            r"A_0(\mathbf{y})=(\mathbf{y},\mathbf{E}),\qquad\mathbf{A}(\mathbf{y})=\frac12[\mathbf{B},\mathbf{y}]="
-            r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-\boxed{B_1}y_3\\B_1y_2-B_2y_1\end{pmatrix}"
-        ),
+        corrected_tex=mended("(102)", {"b_1": "B_1"}),
         grade="misprint",
         note="A lower-case $b_1$ that means nothing here stands for $B_1$.",
     ),

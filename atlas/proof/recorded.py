@@ -21,7 +21,7 @@ from atlas.proof.verdict import Verdict
 FOLDER = Path(__file__).resolve().parent
 VERDICTS = FOLDER / "verdicts.json"
 SCRIPTS = FOLDER / "scripts.json"
-MACHINERY = ("notation", "tex", "dimensions", "model", "identity", "decide", "trial")
+MACHINERY = ("notation", "tex", "model", "identity", "decide", "trial")
 
 
 @cache

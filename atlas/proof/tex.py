@@ -6,7 +6,8 @@ and the next is a factor. What a letter means is said by a table, in TeX; withou
 
     \mathbf{K}: K    \Omega_3: Omega3    \hat{B}_2: hB2    \dot m: d(m)    R_{ij}: R[i, j]    f(0): at0(f)
 
-A table may also say what a longer phrase means: an expression, a whole relation, or nothing, where the model says it.
+A table may also say what a longer phrase means: an expression, a whole relation, other TeX, or nothing, where the
+model says it.
 Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names what
 the table says. On both sides of a double arrow stand statements that are tried alike, in a model where one side is
 built in; before a single one a premise, which the table must say, or a letter that the line defines.
@@ -16,7 +17,7 @@ import ast
 import keyword
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import pairwise
 
@@ -78,10 +79,20 @@ class _Table:
     phrases: tuple[tuple[tuple[str, ...], str], ...] = ()
     left: str = ""
 
+    def taken(self, letter: _Letter) -> set[str]:
+        """Return the plain names that the table gives to letters other than this one, bold or not."""
+        own = replace(letter, base=letter.base.split()[-1])
+        return {plain for other, plain in self.letters.items() if replace(other, base=other.base.split()[-1]) != own}
+
 
 def line(tex: str, signs: Mapping[str, str]) -> str:
     """Return a formula in plain letters; UnreadableError if something in it is neither read nor said by `signs`."""
-    return _line(tex, tuple(signs.items()))
+    return _read(tex, tuple(signs.items()))[0]
+
+
+def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
+    """Return the letters of a formula, as the line has them, that are not bold: none of them may be a vector."""
+    return _read(tex, tuple(signs.items()))[1]
 
 
 def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
@@ -91,22 +102,22 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
     for key, plain in signs.items():
         phrase = _tokens(key)
         stands = any(tokens[at : at + len(phrase)] == phrase for at in range(len(tokens))) if phrase else False
-        if (
-            stands
-            and phrase[0] not in {r"\sum", r"\implies"}
-            and (not plain or (_RELATES.search(plain) and not plain.endswith("=")))
-        ):
+        if stands and phrase[0] != r"\implies" and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
             found[key] = plain
     return found
 
 
 @cache
-def _line(tex: str, signs: tuple[tuple[str, str], ...]) -> str:
+def _read(tex: str, signs: tuple[tuple[str, str], ...]) -> tuple[str, frozenset[str]]:
     table = _table(signs)
-    found = [part for statement in _statements(tex, table) for part in _Formula(statement, table).relations()]
+    readers = [_Formula(statement, table) for statement in _statements(tex, table)]
+    found = [part for reader in readers for part in reader.relations()]
     if not found:
         raise UnreadableError("nothing in the formula is to be read")
-    return "; ".join(found)
+    thin, bold = (frozenset().union(*(getattr(reader, kind) for reader in readers)) for kind in ("thin", "vectors"))
+    if thin & bold:
+        raise UnreadableError(f"{', '.join(sorted(thin & bold))} stands in two fonts")
+    return "; ".join(found), thin
 
 
 @cache
@@ -192,7 +203,7 @@ def _said(tokens: list[str], table: _Table) -> list[_Token]:
     while at < len(tokens):
         for phrase, plain in table.phrases:
             if tuple(tokens[at : at + len(phrase)]) == phrase:
-                result += _phrase(phrase, plain)
+                result += _phrase(plain)
                 at += len(phrase)
                 break
         else:
@@ -201,10 +212,12 @@ def _said(tokens: list[str], table: _Table) -> list[_Token]:
     return result
 
 
-def _phrase(phrase: tuple[str, ...], plain: str) -> list[_Token]:
+def _phrase(plain: str) -> list[_Token]:
     """Return what a phrase becomes: nothing, a statement of its own, the left side of one, or an expression."""
     if not plain:
-        return [] if phrase[0] == r"\sum" else [","]
+        return [","]
+    if plain.startswith("\\"):
+        return [*_tokens(plain)]
     if plain.endswith("="):
         return [_Said(plain.removesuffix("=")), "="]
     return [",", _Said(plain), ","] if _RELATES.search(plain) else [_Said(plain)]
@@ -218,6 +231,9 @@ class _Formula:
         self.table = table
         self.at = 0
         self.bold = False
+        self.thin: set[str] = set()  # letters without an index, and those that are bold
+        self.vectors: set[str] = set()
+        self.sums: list[str] = []
 
     def relations(self) -> list[str]:
         """Return the statement as relations in plain letters; "= const" says that the rate is zero."""
@@ -228,13 +244,16 @@ class _Formula:
             sides, operators = [_expression(self.table.left), *sides], [ast.Eq()]
         while self.peek() in _SIGNS:
             sign = _SIGNS[str(self.take())]()
-            if self.peek() == r"\text{const}":
+            if self.peek() == r"\text{const}" and isinstance(sign, ast.Eq):
                 self.take()
                 rate = ast.Compare(_call("d", sides[0]), [ast.Eq()], [ast.Constant(0)])
                 found.append(write([rate]))
                 break
             operators.append(sign)
+            self.sums = []
             sides.append(self.sum())
+            if names(sides[0]) & set(self.sums):
+                raise UnreadableError(f"the index of {ast.unparse(sides[0])} is summed on the other side")
         if self.at < len(self.tokens):
             raise UnreadableError(f"{self.peek()} in the formula is not read")
         if not operators and not found:
@@ -318,7 +337,9 @@ class _Formula:
         if self.peek() != "_":
             return []
         self.take()
-        return self.indices()
+        found = self.indices()
+        self.sums += found
+        return found
 
     def power(self) -> ast.expr:
         """Read a factor with what stands behind it: powers, indices, an argument t or 0, T for the transpose."""
@@ -407,7 +428,7 @@ class _Formula:
             return ast.List(entries)
         if len(entries) == 2:
             return _call(product, *entries)
-        return ast.List(entries)
+        raise UnreadableError("a row of numbers is not read where a column should stand")
 
     def entries(self, opening: str) -> list[ast.expr]:
         """Read what stands between commas in a bracket."""
@@ -535,12 +556,14 @@ class _Formula:
         if letter.below and family.endswith("[]"):
             return self.meant(letter)
         rates = [_ACCENTS[accent] for accent in letter.accents if accent in {r"\dot", r"\ddot"}]
-        still = _Letter(tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}), *_marks(letter))
+        still = replace(letter, accents=tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}))
         whole = self.table.letters.get(letter)
         if whole is not None and whole.endswith("()"):
             self.take("(")
             return _call(whole.removesuffix("()"), *self.entries("("))
         value = _expression(whole.removesuffix("[]")) if whole is not None else self.meant(still)
+        if isinstance(value, ast.Name):
+            (self.vectors if letter.base.startswith("\\mathbf") else self.thin).add(value.id)
         for rate in reversed(rates) if whole is None else ():
             value = _call(rate, value)
         return value
@@ -553,6 +576,8 @@ class _Formula:
         prefix = "".join(_ACCENTS[accent] for accent in letter.accents)
         name = prefix + _name(letter.base.split(" ")[-1].strip("\\")) + "p" * letter.primes
         known = self.table.letters.get(bare)
+        if name + "".join(letter.below) in self.table.taken(letter):
+            raise UnreadableError(f"{name}{''.join(letter.below)} is the name of another letter")
         if letter.below and not (known is None and all(mark.isdigit() for mark in letter.below)):
             array = _expression(known.removesuffix("[]")) if known else ast.Name(name)
             return ast.Subscript(array, _tuple(_plain(letter.below)))
@@ -586,10 +611,6 @@ def _plain(below: Iterable[str]) -> list[str]:
 def _name(word: str) -> str:
     """Return a name that Python does not keep for itself, as it does lambda."""
     return f"{word}_" if keyword.iskeyword(word) else word
-
-
-def _marks(letter: _Letter) -> tuple[str, int, tuple[str, ...]]:
-    return letter.base, letter.primes, letter.below
 
 
 def _expression(plain: str) -> ast.expr:

@@ -6,12 +6,12 @@ import sympy
 
 from atlas.proof import ball, elementary, euler_poisson, pseudo_oscillator
 from atlas.proof.model import Model, Value, cross, functions, hat, turn
-from atlas.proof.notation import Reader, parse, sides
+from atlas.proof.notation import sides
 from atlas.proof.particle import SIGNS as PARTICLE_SIGNS
 from atlas.proof.particle import drift_model
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
 from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, omega1, omega2, omega3
-from atlas.proof.trial import Falsehood, Part, Trial, read
+from atlas.proof.trial import Falsehood, Part, Trial, evaluated, read
 
 SIGNS = pseudo_oscillator.SIGNS | {
     r"\hat{\mathbf{B}}": "hat_B",
@@ -49,8 +49,7 @@ def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
     """
     field = sympy.Matrix([0, B2, B3])
     letters = {**integrals(spin, field, scale), "Bsquare": field.dot(field), "I": scale, "u": U}
-    line = parse(sides(read("theorem-quartic", SIGNS))[2] + " = 0")[0].left
-    found = functions("Q", Reader(letters).value(line, {}), U)
+    found = functions("Q", evaluated("theorem-quartic", SIGNS, letters, 2), U)
     return {**found, "nun2": sympy.factor(-found["ddQ"](spin[2]) / 2)}
 
 
@@ -126,16 +125,9 @@ def leaving_model() -> Model:
     """Model I < 1, time, and Q by theorem-root with the frequency 0."""
     t, v = sympy.symbols("t v", real=True)
     letters: dict[str, Value] = {"I": 1 / (1 + excess), "B3": B3, "t": t, "v": v, "omega3": omega3}
-    line = parse(sides(read("theorem-root", SIGNS))[1] + " = 0")[0].left
-    whole = Reader({**letters, "nun2": sympy.Integer(0)}).value(line, {})
+    whole = evaluated("theorem-root", SIGNS, {**letters, "nun2": sympy.Integer(0)})
     letters |= functions("Q", whole.xreplace({v: U - omega3}), U)
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
-
-
-@cache
-def between_model() -> Model:
-    """Model I < 1 and v between 0 and 4 B3."""
-    return Model({"I": 1 / (1 + excess), "B3": B3, "v": 4 * B3 / (1 + r)})
 
 
 @cache
@@ -152,12 +144,6 @@ def ball_nutation_model() -> Model:
     spin = sympy.Matrix([omega1, omega2, omega3])
     found = quartic(spin, sympy.Integer(1))
     return Model({"nun2": found["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
-
-
-@cache
-def cubic_model() -> Model:
-    """Model the cubic of (47), its constants those at the start, at Omega3 = omega3."""
-    return Model({**LETTERS, "p": at_start(omega3)})
 
 
 @cache
@@ -243,6 +229,11 @@ def angles_model() -> Model:
     return Model(letters, where, flow)
 
 
+def _and_only_there(line: str) -> str:
+    """Add that the first relation does not hold elsewhere."""
+    return f"{line}; {line.split('; ', maxsplit=1)[0].replace('<=', '>')}"
+
+
 _CONDITION = sides(read("theorem-points", SIGNS).split("; ")[-1])[1]
 _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 _MOTION = f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
@@ -264,7 +255,7 @@ TRIALS = (
         },
         model=state_model,
         follows=r"@(38) and @(39) at $t = 0$, and the cubic at $\omega_3$",
-        also=(Part(line=f"p = {_CONDITION}", model=cubic_model),),
+        also=(Part(line=f"p = {_CONDITION}", model=lambda: Model({**LETTERS, "p": at_start(omega3)})),),
         note=r"A constant $\Omega_3$ has both rates zero. Conversely, the two rates obey linear equations along every "
         r"motion: that of the first is the second, that of the second the first times the slope of the cubic @(47). "
         "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @(67) and, "
@@ -304,8 +295,9 @@ TRIALS = (
         follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
         signs={"x^2": "z", r"\tau^2": "t2", "y_-": "ym", "y_+": "yp", r"\tau\le\frac{1}{2\sqrt2}": "8*t2 <= 1"},
         defines=("ym", "yp"),
+        form=_and_only_there,
+        elsewhere={5: lambda: places_model(within=False)},
         also=(
-            Part(line="nun2 > 0", model=lambda: places_model(within=False)),
             Part(
                 line="nun2 = B2^2*(S^2 + (1 - I)^2*gain)/(4*(1 + t2)*z); S = 2*(1 + t2)*z + (1 - I)*(2*t2 - 1);"
                 " 8*t2 = 1 + gain",
@@ -326,7 +318,12 @@ TRIALS = (
         signs={r"\nu_n=0": ""},
         defines=("Omega3",),
         solves="d(Omega3)^2 = Q(Omega3); 2*d2(Omega3) = dQ(Omega3); at0(Omega3) = omega3 + 4*B3",
-        also=(Part(line="(1 - I)*v^3*(4*B3 - v) > 0", model=between_model),),
+        also=(
+            Part(
+                line="(1 - I)*v^3*(4*B3 - v) > 0",
+                model=lambda: Model({"I": 1 / (1 + excess), "B3": B3, "v": 4 * B3 / (1 + r)}),
+            ),
+        ),
         note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
         r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
         r"@(42) brings $\mathbf{K}$ near as well.",
@@ -393,7 +390,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-drift",
-        signs=PARTICLE_SIGNS,
+        signs=PARTICLE_SIGNS | {r"\mathbf{E}": "E"},
         model=drift_model,
         follows="@(89) solved for the velocity that does not change, for either sign of the charge",
         note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",

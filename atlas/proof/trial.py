@@ -6,11 +6,11 @@ from dataclasses import dataclass, field, replace
 from atlas.paper import EQUATIONS
 from atlas.proof import tex
 from atlas.proof.decide import Outcome, decide
-from atlas.proof.model import Model
+from atlas.proof.model import COMMON, Model, Value
+from atlas.proof.notation import NoMeaningError, Reader, parse, sides
 from atlas.proof.verdict import Grade
 
 Cases = Model | Sequence[Model]
-Check = Callable[..., Outcome]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,18 +21,17 @@ class Part:
     model: Callable[[], Cases]
     defines: tuple[str, ...] = ()
     solves: str = ""
-    check: Check = decide
+
+    @property
+    def cases(self) -> Sequence[Model]:
+        """The models in which the line is tried."""
+        found = self.model()
+        return [found] if isinstance(found, Model) else found
 
     def outcome(self, line: str = "", *, sample_only: bool = False, shrink: bool = False) -> Outcome:
         """Try the line, or another one in its place."""
-        return self.check(
-            line or self.line,
-            self.model(),
-            defines=self.defines,
-            solves=self.solves,
-            sample_only=sample_only,
-            shrink=shrink,
-        )
+        wanted = {"sample_only": sample_only, "shrink": shrink}
+        return decide(line or self.line, self.cases, defines=self.defines, solves=self.solves, **wanted)
 
 
 @dataclass(frozen=True)
@@ -72,7 +71,6 @@ class Trial:
                those of the printed form, and `corrected_also`
     note       what the verdict means, where it needs a word
     false      a false sentence near it; a claim in words must have one, unless it is refuted itself
-    check      how the lines are decided, if not by `decide`
     """
 
     name: str
@@ -96,7 +94,6 @@ class Trial:
     corrected_also: tuple[Part, ...] = ()
     note: str = ""
     false: Falsehood | None = None
-    check: Check = decide
 
     @property
     def printed(self) -> str:
@@ -123,7 +120,7 @@ class Trial:
         for place, statement in enumerate(self.printed.split("; ")):
             statements.setdefault(self.elsewhere.get(place, self.model), []).append(statement)
         first = [
-            Part(line="; ".join(lines), model=model, defines=self.defines, solves=self.solves, check=self.check)
+            Part(line="; ".join(lines), model=model, defines=self.defines, solves=self.solves)
             for model, lines in statements.items()
         ]
         return (*first, *self.also)
@@ -138,7 +135,6 @@ class Trial:
             model=self.corrected_model or self.model,
             defines=self.defines if self.corrected_defines is None else self.corrected_defines,
             solves=self.solves if self.corrected_solves is None else self.corrected_solves,
-            check=self.check,
         )
         return (first, *self.corrected_also)
 
@@ -172,14 +168,44 @@ class Trial:
     def _of(self, form: str, *, shrink: bool = False) -> Outcome:
         try:
             parts: tuple[Part, ...] = getattr(self, form)
-        except tex.UnreadableError as reason:
+            self._bold(form, parts)
+        except (tex.UnreadableError, NoMeaningError) as reason:
             return Outcome("undecided", f"unreadable: {reason}")
         return _joined([part.outcome(shrink=shrink) for part in parts])
+
+    def _bold(self, form: str, parts: tuple[Part, ...]) -> None:
+        """Raise UnreadableError if a letter is a vector in a model and is not bold in the formula."""
+        formula, signs = self.tex or EQUATIONS[self.name].tex, {**self.signs}
+        if form == "corrected_parts":
+            formula, signs = self.corrected_tex, {**self.signs, **self.corrected_signs}
+        for name in tex.thin(formula, signs) if formula else ():
+            for model in parts[0].cases:
+                if getattr(model.letters.get(name), "shape", (1, 1)) == (3, 1):
+                    raise tex.UnreadableError(f"{name} is a vector, and is not bold")
 
 
 def read(name: str, signs: Mapping[str, str]) -> str:
     """Return an entry of the ledger as a line in plain letters."""
     return tex.line(EQUATIONS[name].tex, signs)
+
+
+def evaluated(name: str, signs: Mapping[str, str], letters: Mapping[str, Value], side: int = 1) -> Value:
+    """Return the value of a side of the first relation of an entry of the ledger."""
+    line = sides(read(name, signs))[side]
+    return Reader({**COMMON, **letters}).value(parse(f"{line} = 0")[0].left, {})
+
+
+def mended(name: str, changes: Mapping[str, str], more: str = "") -> str:
+    r"""Return the TeX of an entry with other pieces, in a \boxed unless they say what has changed, and more behind it.
+
+    Raises ValueError if a piece is not there.
+    """
+    tex, end = EQUATIONS[name].tex, r" \end{aligned}"
+    for printed, right in changes.items():
+        if printed not in tex:
+            raise ValueError(f"{printed} is not in {name}")
+        tex = tex.replace(printed, right if not right or r"\boxed" in right else rf"\boxed{{{right}}}")
+    return tex.removesuffix(end) + more + (end if tex.endswith(end) else "")
 
 
 def _joined(outcomes: Sequence[Outcome]) -> Outcome:

@@ -22,7 +22,7 @@ class Verdict:
     grade           the kind of slip, one of `GRADES`, where the entry needs an erratum: it is refuted, or it is true
                     as far as it goes and not complete or not clear; empty for all others
     slip            the entry under which the slip is counted, where several entries share one
-    method          how: polynomial identity, exact counterexample, dimensions, indices, ...
+    method          how: polynomial identity, exact counterexample, indices, ...
     follows         from what the printed form was derived
     printed         the printed form in plain letters, as it was tried, read from its TeX
     said            the phrases of it, in TeX, that are not read, with the lines in their place; empty if assumed

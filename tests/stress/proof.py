@@ -2,25 +2,28 @@
 
 In the folder tests, `python -m stress.proof [NAME...] --most 100 --seed 1` changes the TeX of each entry whose form is
 proved, as printed or as corrected, in so many places, tries each change, and prints how many were refuted, undecided,
-unreadable, and each that was proved. The exit status is 1 if one was.
+unreadable, and each that was proved. The exit status is 1 if one was. With --rewritten the changes are those of
+`rewritings`.
 """
 
 import argparse
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from multiprocessing import get_context
 
 import click
 from changes import changes
+from rewritings import rewritings
 
 from atlas.paper import EQUATIONS
 from atlas.proof import recorded, run
 from atlas.proof.run import trial, within_time
 
 SURE = {"proved", "definition"}
+Change = Callable[..., list[tuple[str, str]]]
 
 
 def forms(name: str) -> Iterator[tuple[str, str]]:
@@ -32,12 +35,12 @@ def forms(name: str) -> Iterator[tuple[str, str]]:
         yield "corrected_tex", case.corrected_tex
 
 
-def found(name: str, most: int, seed: str) -> tuple[str, Counter[str], list[str], float]:
+def found(name: str, most: int, seed: str, change: Change = changes) -> tuple[str, Counter[str], list[str], float]:
     """Return how many changes of an entry came to what, those that are still proved, and the seconds."""
     started, counts, proved = time.process_time(), Counter[str](), list[str]()
     case = trial(name)
     for field, tex in forms(name):
-        for changed, what in changes(tex, most=most, seed=f"{seed} {name}"):
+        for changed, what in change(tex, most=most, seed=f"{seed} {name}"):
             other = replace(case, **{field: changed})
             outcome = within_time(other.of_printed if field == "tex" else other.of_corrected)
             kind = "unreadable" if outcome.method.startswith("unreadable") else outcome.decision
@@ -47,7 +50,7 @@ def found(name: str, most: int, seed: str) -> tuple[str, Counter[str], list[str]
     return name, counts, proved, time.process_time() - started
 
 
-def _found(given: tuple[str, int, str]) -> tuple[str, Counter[str], list[str], float]:
+def _found(given: tuple[str, int, str, Change]) -> tuple[str, Counter[str], list[str], float]:
     return found(*given)
 
 
@@ -58,12 +61,16 @@ def main() -> int:
     parser.add_argument("--most", type=int, default=100)
     parser.add_argument("--seed", default="1")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--rewritten", action="store_true")
     options = parser.parse_args()
+    change = rewritings if options.rewritten else changes
     names = options.names or [name for name in EQUATIONS if next(forms(name), None)]
     total, survivors = Counter[str](), 0
     run.LIMIT = 20.0
     with get_context("fork").Pool(options.jobs) as pool:
-        for name, counts, proved, seconds in pool.imap(_found, [(n, options.most, options.seed) for n in names]):
+        for name, counts, proved, seconds in pool.imap(
+            _found, [(n, options.most, options.seed, change) for n in names]
+        ):
             total += counts
             survivors += len(proved)
             click.echo(f"{name:28} {seconds:7.1f} s  {dict(counts)}")
