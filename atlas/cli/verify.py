@@ -117,7 +117,8 @@ def _details(one: Any, *, named: bool) -> str:
 
     says = {"says": EQUATIONS[one.name].says, "tried from": one.follows} if named else {}
     words = {name: plain(text) for name, text in says.items()}
-    words |= {f"not read: {phrase}": line or "supposed, or tried in a further line" for phrase, line in one.said.items()} if named else {}
+    said = one.said if named else {}
+    words |= {f"not read: {phrase}": line or "supposed, or tried in a further line" for phrase, line in said.items()}
     words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
     words |= {"note": plain(one.note)} if named else {}
     lines = [f"  {name + ':':16}{text}" for name, text in words.items() if text]

@@ -26,7 +26,8 @@ EQUATIONS = (
         section="II",
         kind="claim",
         says="The multipliers are functions of $R$ and $\\dot R$ alone",
-        tex=(r"\lambda=-\bigl(\hat\Omega^2+\hat w+R^TA\bigr)g=\lambda^T,\qquad\mathbf{w}=I^{-1}\{\text{right side of (11)}\}"),
+        tex=r"\lambda=-\bigl(\hat\Omega^2+\hat w+R^TA\bigr)g=\lambda^T,\qquad"
+        r"\mathbf{w}=I^{-1}\{\text{right side of (11)}\}",
         assumptions=("$R$ is a rotation", "$I$ and $g$ are diagonal", "$\\hat v\\,x=[v,x]$"),
         quote=r"these equations determine $\lambda_{jk}$ algebraically, as some functions of $R$ and $\dot R$",
     ),

@@ -119,7 +119,7 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
 
 
 def _reading(phrase: str, line: str) -> str:
-    return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is assumed"
+    return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is supposed, or tried in a further line"
 
 
 def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:
