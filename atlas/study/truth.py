@@ -53,6 +53,7 @@ class Truth:
         values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
         with workprec():
             self._phases = Phases([x / TURN for x in values[:2]])
+        self._phases.near = -1.0  # three products of words hold a phase of 2^22 to 2^-59 only, which doubles do not see
         self.n2, self.n3, self.omega2, self.omega3 = map(long, values[2:])
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:

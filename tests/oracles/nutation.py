@@ -46,6 +46,9 @@ def nutation(
     if found is None:
         return None
     low, high, others = found
+    mean = _mean(low, high, others)
+    if not mean:
+        return None
 
     def turn(nu: mpf) -> mpf:
         return mp.polyval(s, nu) / (1 - nu * nu) / I2
@@ -55,7 +58,7 @@ def nutation(
 
     beside = low > -1 and high < 1
     turns = [_over(rate, low, high, P[0], others) if beside else None for rate in (turn, twist)]
-    period = 2 * mp.pi / _mean(low, high, others) / mp.sqrt(abs(P[0]))
+    period = 2 * mp.pi / mean / mp.sqrt(abs(P[0]))
     return Nutation((low, high), I2 * period, *(x and I2 * x for x in turns))
 
 

@@ -186,7 +186,7 @@ def test_a_wire_covers_as_much_as_its_style_says(dpi: float, slope: float, tmp_p
     pictures = []
     for wires in ((), (wire,)):
         panel = Space((replace(pane, wires=wires),), azimuth=0.0, elevation=0.0)
-        draw(Scene("t", "c", "a", (panel,), size=(20.0, 20.0)), tmp_path / "a.png", renderer="shaded", dpi=dpi)
+        draw(Scene("t", "c", "a", (panel,), size=(25.4, 25.4)), tmp_path / "a.png", renderer="shaded", dpi=dpi)
         from matplotlib.image import imread
 
         pictures.append(255.0 * imread(tmp_path / "a.png")[..., :3].astype(float))

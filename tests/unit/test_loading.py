@@ -210,7 +210,8 @@ def test_a_command_loads_what_it_lists(room: Room, case: Case) -> None:
     """A real run loads exactly the heavy modules on its list: a number no drawing library, a 2-D figure no VTK."""
     if "shaded" in case.words and gl.library() is None:
         pytest.skip("no GL library can draw off-screen here")
-    assert room.run(case.words, case.status) == set(case.loads.split())
+    lists = set(case.loads.split())
+    assert room.run(case.words, case.status) | ({"fontTools"} & lists) == lists  # Matplotlib before 3.11 does without
 
 
 def test_a_figure_from_the_store_loads_nothing_that_draws(room: Room) -> None:
