@@ -17,7 +17,7 @@ class Sliders {
   }
   add({name, symbol, says, low, high, step, start}) {
     const range = make("input", {type: "range", name, min: low, max: high, step, "aria-label": says}), exact = make("input", {type: "number", step: "any", "aria-label": `${says}, typed`});
-    const one = {name, start, high: Number(high), label: make("label", {title: says}, make("span", {}, symbol || name), range, exact), set(value) { range.value = value; one.value = (high - low) / step < FEW ? Number(range.value) : value; exact.value = Number(Number(one.value).toPrecision(12)); }};
+    const one = {name, start, high: Number(high), label: make("label", {title: says}, make("span", {}, symbol || name), range, exact), set(value) { range.value = value; one.value = (high - low) / step < FEW ? Number(range.value) : value; exact.value = Number(Number(one.value).toPrecision(6)); }};
     const moved = () => { if (one === this.time) this.last = null; this.changed(name); };
     range.addEventListener("input", () => { one.set(Number(range.value)); moved(); });
     exact.addEventListener("change", () => { if (exact.value !== "") { one.set(Number(exact.value)); moved(); } });
