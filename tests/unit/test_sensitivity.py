@@ -15,7 +15,7 @@ from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import rational, workprec
 
-STEP, BITS, BOUND = fmpq(1, 10**40), 500, 1e-12
+STEP, BITS, BOUND = fmpq(1, 10**40), 1200, 1e-12
 VECTORS = {"rotation": "rotation", "angular_velocity": "angular_velocity", "field": "field_in_body"}
 TIMES = (0.0, 0.3, -7.0, 1e6)
 GENERAL = ("ratio", "B2", "B3", "omega1", "omega2", "omega3")
@@ -77,6 +77,10 @@ def check(motion: Any, make: Any, values: Any, names: Any, times: Any = TIMES) -
         (1.5, (1.0, 0.0), (0.0, -1.0, 0.3)),  # a steady one
         (1.5, (0.0, 1.0), (0.0, 0.0, 0.3)),  # the axis along the field
         (1.5, (1.0, 1.0), (0.0, 0.0, 0.0)),  # at rest
+        (0.5, (0.0, 0.6), (-0.1, 0.0, -0.2)),  # the field along the axis at the start only
+        (1.5, (1e-17, 1.0), (0.3, 0.7, 0.2)),  # and but for rounding
+        (0.5, (1.0, -3.0), (0.0, 1.5, 2.0 - 1e-8)),  # next to a triple root
+        (1.5, (2e-13, 3.9), (0.0, 9e-11, -3.9)),  # a flat body, next to where it tips over
     ],
 )
 def test_sensitivity_of_a_general_motion_is_the_difference_of_two(ratio: float, field: Any, omega: Any) -> None:

@@ -85,12 +85,18 @@ class TorusVaried:
         turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
         return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
 
-    def vectors(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
-        """Return v of each input at times (m,), (m, inputs, 3), and R dOmega/dp, which is dv/dt, if asked for."""
-        out = [np.empty((t.size, len(self.d_ways), 3)) for _ in range(1 + slopes)]
+    def weighted(self, *_: Any) -> None:
+        """Return what is kept for combinations of inputs: nothing."""
+
+    def vectors(
+        self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, *_: Any
+    ) -> list[FloatArray]:
+        """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
+        out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, PART):
             for part, values in zip(out, self._block(t[i : i + PART]), strict=False):
-                part[i : i + PART] = values.swapaxes(0, 1)
+                part[i : i + PART] = np.einsum("np,pmk->mnk", names, values) @ left.T
+        out[0] += turns
         return out
 
     def _block(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -8,7 +8,8 @@ Whatever grows with time is in three derivatives of frequencies, which `atlas.ex
 with all other constants; v_s and the bounded part are those of the pair (alpha, beta) at a fixed place s in the period.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -18,7 +19,7 @@ from atlas.core.arithmetic.phase import EVEN, Phases, room
 from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.exact.nutation.variations import Tables, Variation
+from atlas.exact.nutation.variations import Differences, Tables, Variation
 from atlas.formulas.numbers import workprec
 
 BLOCK = 512
@@ -26,6 +27,9 @@ BLOCK = 512
 
 NEGLIGIBLE = 2.0**-64
 """Part of the largest term of a sum below which a term is left out."""
+
+MUCH, LOST = 256.0, 4096.0
+"""Sizes of terms in v, beside 1 and beside 1 + |v|, from which they may cancel, and from which they do too much."""
 
 SERIES, SMALL = 14, 0.1
 """Terms of the series in A u^2 of the derivative in A of the integral of nu, and up to where it is taken."""
@@ -39,7 +43,7 @@ class Pair:
     def __init__(self, variations: Sequence[Variation]) -> None:
         form, places, _, kinds, *_ = variations[0].form
         self.steady, self.hyperbolic = form == "steady", form == "hyperbolic"
-        self.doubled, self.order = [doubled for doubled, _ in kinds], np.eye(3)[list(places)]
+        self.doubled = [doubled for doubled, _ in kinds]
         value, slopes = variations[0].values, [x.slopes for x in variations]
         self.rates = _doubles(slopes, "rates").real
         with workprec():
@@ -52,118 +56,208 @@ class Pair:
             self.phases = Phases(turns, starts, rounder=EVEN)
             self.start = float((origin / self.cell).mid())
             self.cell, self.origin = float(self.cell.mid()), float(origin.mid())
+            self.rate, *self.twists = (float(x.mid()) for x in value["slopes"])
+            self.twist = float((value["slopes"][1] + value["slopes"][2]).mid())
+            self.frame = float(value["rates"][0].mid())
+            self.tables, self.frequencies = list[Array](), list[FloatArray]()
+            for i in range(2):
+                self._weigh(i, value, slopes)
         times = np.zeros((len(slopes), 2)) if self.steady else _doubles(slopes, "times").real
         self.cells, self.origins = 2 * cells * times[:, 0], times[:, 1]
-        self.tilt, self.tilts = _double(value["tilt"]).real, _doubles(slopes, "tilt").real
-        with workprec():
-            self._weigh(value, slopes)
+        rates, *twists = _doubles(slopes, "slopes").real.T
+        self.faster = rates / (self.rate or 1)
+        self.twisting = np.array([x - y * self.faster for x, y in zip(twists, self.twists, strict=True)])
+        self._place(_double(value["tilt"]).real, _doubles(slopes, "tilt").real.T, np.eye(3)[list(places)].T)
         self.swing = Swing(value, slopes, self) if "swing" in value else None
 
-    def _weigh(self, value: Tables, slopes: Sequence[Tables]) -> None:
-        """Keep the weights of S, C, s S, s C in alpha and beta, in their slopes by s, and in their derivatives."""
+    def _weigh(self, i: int, value: Tables, slopes: Sequence[Tables]) -> None:
+        """Keep the weights of S, C by turns in alpha or beta, in its slope by s, and in its derivatives at rest."""
         rate, *twists = value["slopes"]
-        self.rate, self.twists = float(rate.mid()), [float(x.mid()) for x in twists]
-        self.twist = float((twists[0] + twists[1]).mid())
-        self.frame = float(value["rates"][0].mid())
-        self.tables: list[Array] = []
-        self.frequencies: list[FloatArray] = []
-        sign = 1 if self.hyperbolic else -1
-        for i in range(2):
-            row, changes, twist = value[f"sum {i}"], [x[f"sum {i}"] for x in slopes], twists[i] * acb(0, 1)
-            k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
-            # S and C change places: the derivative by rate s is odd C -+ even S
-            turned = [k[n] * (row[n - 1] if n % 2 else sign * row[n + 1]) for n in range(len(row))]
-            slope = [twist * x + rate * y for x, y in zip(row, turned, strict=True)]
-            still, moving = [slope], [[acb(0)] * len(row)]
-            for x, change in zip(slopes, changes, strict=True):
-                origin = x["times"][1] if x["times"] else arb(0)
-                more, own = x["slopes"][0], x["slopes"][1 + i] * acb(0, 1)
-                # in balls: next to a steady motion the origin moves fast, and the weights against it
-                still.append([y + origin * z for y, z in zip(change, slope, strict=True)])
-                moving.append([own * y + more * z for y, z in zip(row, turned, strict=True)])
-            table = np.concatenate([[_double(x) for x in (row, *still)], [_double(x) for x in (row, *moving)]], 1)
-            table[0, len(row) :] = 0
-            self._keep(table, np.array(k[::2], dtype=float))
-
-    def _keep(self, table: Array, k: FloatArray) -> None:
-        """Keep the terms that matter. DomainError where none but huge ones do."""
+        row, twist, sign = value[f"sum {i}"], twists[i] * acb(0, 1), 1 if self.hyperbolic else -1
+        k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
+        # S and C change places: the derivative by rate s is odd C -+ even S
+        turned = [k[n] * (row[n - 1] if n % 2 else sign * row[n + 1]) for n in range(len(row))]
+        slope = [twist * x + rate * y for x, y in zip(row, turned, strict=True)]
+        still = [slope]
+        for x in slopes:
+            origin = x["times"][1] if x["times"] else arb(0)
+            # in balls: next to a steady motion the origin moves fast, and the weights against it
+            still.append([y + origin * z for y, z in zip(x[f"sum {i}"], slope, strict=True)])
+        rows = [row, *still]
+        if self.hyperbolic:  # of exponentials: sinh and cosh would cancel
+            rows = [[(x[n - n % 2 + 1] + (-1) ** n * x[n - n % 2]) / 2 for n in range(len(x))] for x in rows]
+        table, frequencies = np.array([_double(x) for x in rows]), np.array(k[::2], dtype=float)
         reach = self.rate * self.cell / 2 if self.hyperbolic else 0.0
-        size = abs(table).max(0).reshape(2, -1, 2).max((0, 2))
+        size = abs(table).max(0).reshape(-1, 2).max(1)
         with np.errstate(over="ignore", invalid="ignore"):
-            grown = size * np.exp(k * reach)
+            grown = size * np.exp(frequencies * reach)
             count = int(np.flatnonzero(grown > NEGLIGIBLE * grown.max()).max(initial=0)) + 1
         if not np.isfinite(grown).all():
             raise DomainError("The motion is too near to a separatrix for derivatives in floats.")
-        self.tables.append(table.reshape(len(table), 2, -1, 2)[:, :, :count].reshape(len(table), -1))
-        self.frequencies.append(k[:count])
+        self.tables.append(table[:, : 2 * count])
+        self.frequencies.append(frequencies[:count])
+
+    def _place(self, tilt: FloatArray, tilts: FloatArray, order: FloatArray) -> None:
+        """Keep what takes vectors out of the frame of the field, and how that turns for each input."""
+        (c, sine, C, S), (dc, ds, dC, dS) = tilt, tilts
+        cos, sin = c * c - sine * sine, 2 * c * sine
+        self.chi, lean = C * dS - S * dC, -2 * (c * ds - sine * dc)
+        self.axes = order @ np.array([[C, S * cos, S * sin], [-S, C * cos, C * sin], [0, -sin, cos]])
+        self.turned = np.stack([C * lean, -S * lean, -self.chi], -1) @ order.T
 
     def places(self, t: FloatArray) -> tuple[Array, FloatArray, FloatArray]:
-        """Return exp(i lambda t), s, and the count of whole cells."""
+        """Return lambda t, s, and the count of whole cells."""
         half, rest, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
         turn = 2 * (half + rest)
         if self.steady:
-            return np.exp(1j * turn[0]), np.zeros(t.size), np.zeros(t.size)
+            return turn[0], np.zeros(t.size), np.zeros(t.size)
         parts = turn[1] / float(TURN)
-        return np.exp(1j * turn[0]), parts * self.cell, np.rint(t / self.cell + self.start - parts)
+        return turn[0], parts * self.cell, np.rint(t / self.cell + self.start - parts)
 
-    def rows(self, s: FloatArray, i: int, slopes: bool) -> tuple[Array, Array]:
-        """Return alpha (i = 0) or beta, its slope by s, its derivatives in the inputs, (2 + P, m); their slopes."""
-        table = self.tables[i]
-        if self.steady:
-            found = table[:, 1:2] * np.ones(s.size)
-            return found, 0 * found
-        k, sign = self.rate * self.frequencies[i], 1 if self.hyperbolic else -1
-        f = _functions(s, k, self.hyperbolic)
-        found = _product(table, np.concatenate([f, f * s]))
-        if not slopes:
-            return found, found
-        turned = np.empty_like(f)
-        turned[::2], turned[1::2] = k[:, None] * f[1::2], sign * k[:, None] * f[::2]
-        return found, _product(table, np.concatenate([turned, f + turned * s])) + 1j * self.twists[i] * found
+    def functions(self, s: FloatArray, doubled: bool, count: int) -> FloatArray:
+        """Return sin and cos of k x by turns, x = rate s, or exp(k x) and exp(-k x); k = 1, 3, ... or 0, 2, ...."""
+        x = self.rate * s
+        out = np.empty((count, 2, s.size))
+        if self.hyperbolic:
+            out[0] = 1.0 if doubled else np.exp([x, -x])
+            if count > 1:
+                twice = np.exp([2 * x, -2 * x])
+                for n in range(1, count):
+                    np.multiply(out[n - 1], twice, out=out[n])
+            return out.reshape(2 * count, s.size)
+        S, C = np.sin(x), np.cos(x)
+        further, less = 2 * S * C, 1 - 2 * S * S
+        out[0, 0], out[0, 1] = (0.0, 1.0) if doubled else (S, C)
+        for n in range(1, count):
+            (S, C), (up, down) = out[n - 1], out[n]
+            np.add(S * less, C * further, out=up)
+            np.subtract(C * less, S * further, out=down)
+        return out.reshape(2 * count, s.size)
 
-    def vectors(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
-        """Return v of each input at times (m,), (P, m, 3), in the frame of the motion's body at t = 0, and dv/dt."""
-        turn, s, count = self.places(t)
-        along = count * self.cells[:, None]
-        (a, a_p), (da, da_p), (b, b_p), (db, db_p) = (
-            (x[0], x[2:] - along * x[1]) for i in range(2) for x in self.rows(s, i, slopes)
+    def slope(self, table: Array, i: int) -> Array:
+        """Return the weights of the slopes by s of what has some weights in alpha or beta."""
+        k, pairs = self.rate * self.frequencies[i], table.reshape(len(table), -1, 2)
+        first, second = (pairs[..., 0], -pairs[..., 1]) if self.hyperbolic else (-pairs[..., 1], pairs[..., 0])
+        return 1j * self.twists[i] * table + np.stack([k * first, k * second], -1).reshape(table.shape)
+
+
+class Weighted:
+    """v of some combinations of a pair's inputs: sums of what depends on time, with weights that do not.
+
+    In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q and
+    along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so from b;
+    a_p and b_p are the derivatives. `left` (3, 3) takes vectors into the laboratory, `names` (N, P) are combinations of
+    inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its own, besides.
+    """
+
+    def __init__(self, pair: Pair, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> None:
+        self.pair, self.axes, self.names = pair, left @ pair.axes, names
+        self.parts = []
+        for i, table in enumerate(pair.tables):
+            rows = np.concatenate([table[:2], names @ table[2:]])
+            both = np.array([rows, pair.slope(rows, i)])
+            self.parts.append(np.stack([both.real, both.imag], 1))
+        rates, (first, second) = names @ pair.rates, pair.twisting @ names.T
+        chi, self.fixed = names @ pair.chi + spins, names @ pair.turned @ left.T + turns
+        columns = [
+            names @ pair.faster,
+            -(names @ pair.cells),
+            rates[:, 1],
+            chi,
+            first - second,
+            rates[:, 0],
+            first + second,
+        ]
+        self.columns = np.array([np.stack([*columns, x], -1) for x in self.fixed.T])
+        sizes = sum(abs(x[0, :, 2:]).sum((0, 2)) for x in self.parts) + abs(self.columns[:, :, 3::4]).max((0, 2))
+        self.cancels = (
+            pair.hyperbolic or not (sizes < MUCH).all() or bool((abs(columns[1]) * pair.rate > MUCH * pair.cell).any())
         )
-        ac, bc = a.conj(), b.conj()
-        square = (a * ac + b * bc).real
-        turn = 2 * turn * np.exp(1j * self.twist * s) / square
-        a2, b2 = a * turn, b * turn
-        c, sine, C, S = self.tilt
-        dc, ds, dC, dS = self.tilts.T
-        chi = C * dS - S * dC
-        across, third = b_p * a2 - a_p * b2, (a_p * (ac * (2 / square)) + b_p * (bc * (2 / square))).imag
-        e, e3 = -1j * a2 * b, (a * ac - b * bc).real / square
-        spin = t * self.rates[:, 1:] + chi[:, None]
-        if self.swing:
-            spin = spin + self.swing.change(s, count)
-        found = [self._out(across + spin * e, third + spin * e3 + t * self.rates[:, :1])]
-        found[0] += self._out(-2 * (c * ds - sine * dc)[:, None] + 0j, 0 * chi[:, None], -chi[:, None])
-        if not slopes:
-            return found
-        dac, dbc = da.conj(), db.conj()
-        less = 2 * (ac * da + bc * db).real / square
-        by = 1j * self.frame - less
-        d_across = by * across + db_p * a2 + b_p * (da * turn) - da_p * b2 - a_p * (db * turn)
-        d_third = (da_p * ac + a_p * dac + db_p * bc + b_p * dbc).imag * (2 / square) - less * third
-        d_e, d_e3 = by * e - 1j * (da * b2 + a2 * db), 2 * (ac * da - bc * db).real / square - less * e3
-        d_spin = self.rates[:, 1:]
-        if self.swing:
-            e3_p = 2 * ((ac * a_p - bc * b_p).real - e3 * (ac * a_p + bc * b_p).real) / square
-            d_spin = d_spin + self.swing.slopes(e3, e3_p)
-        d_across = d_across + spin * d_e + d_spin * e
-        return [*found, self._out(d_across, d_third + spin * d_e3 + d_spin * e3 + self.rates[:, :1])]
 
-    def _out(self, across: Array, third: FloatArray, along: Any = 0.0) -> FloatArray:
-        """Return vectors out of the frame of the field: R_z(-chi) R_x(-theta)."""
-        c, sine, C, S = self.tilt
-        cos, sin = c * c - sine * sine, 2 * c * sine
-        y, z = cos * across.imag + sin * third, cos * third - sin * across.imag + along
-        x = across.real
-        return np.stack([C * x + S * y, C * y - S * x, z], -1) @ self.order
+    def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
+        """Return v at times (m,), (3, N, m), dv/dt if asked for; and where their terms cancel, (m,), or None."""
+        pair, counts = self.pair, [len(x) for x in self.pair.frequencies]
+        turn, s, count = pair.places(t)
+        if pair.doubled[0] == pair.doubled[1]:
+            f = [pair.functions(s, pair.doubled[0], max(counts))] * 2
+        else:
+            f = [pair.functions(s, doubled, n) for doubled, n in zip(pair.doubled, counts, strict=False)]
+        f = [x[: 2 * n] for x, n in zip(f, counts, strict=True)]
+        levels = range(1 + slopes)
+        # by level, part, row and time: a, its slope, its derivatives
+        A, B = (np.matmul(x[: 1 + slopes], y) for x, y in zip(self.parts, f, strict=True))
+        a, b = (x[:, 0, 0] + 1j * x[:, 1, 0] for x in (A, B))
+        square = (a[0] * a[0].conj() + b[0] * b[0].conj()).real
+        phase = np.empty(t.size, complex)
+        angle = turn + pair.twist * s
+        phase.real, phase.imag = np.cos(angle), np.sin(angle)
+        u, w = ([2 / square * x] for x in (a[0], b[0]))
+        e, nu = [-1j * (u[0] * phase) * b[0]], [(a[0] * u[0].conj() - b[0] * w[0].conj()).real / 2]
+        p, q = [u[0] * phase], [w[0] * phase]
+        if slopes:
+            less = (a[1] * u[0].conj() + b[1] * w[0].conj()).real
+            by = 1j * pair.frame - less
+            e.append(by * e[0] - 1j * (a[1] * q[0] + p[0] * b[1]))
+            nu.append((a[1] * u[0].conj() - b[1] * w[0].conj()).real - less * nu[0])
+            p.append(by * p[0] + 2 / square * a[1] * phase)
+            q.append(by * q[0] + 2 / square * b[1] * phase)
+            for x, y in ((u, a), (w, b)):
+                x.append(2 / square * y[1] - less * x[0])
+        ways = [self._ways(*x) for x in zip(p, q, u, w, strict=True)]
+        axis = [self.axes @ np.array([x.real, x.imag, y]) for x, y in zip(e, nu, strict=True)]
+        derivatives = [np.array([x[i, j] for x in (A, B) for j in range(2)]) for i in levels]
+        by_s = [self._sum(ways, derivatives, i, slice(1, 2))[:, 0] for i in levels]
+        basis = [self._basis(t, s, count, by_s, axis, i) for i in levels]
+        found = [np.matmul(self.columns, x) for x in basis]
+        for i in levels:
+            found[i] += self._sum(ways, derivatives, i, slice(2, None))
+        if pair.swing:
+            change = self.names @ pair.swing.change(s, count)
+            for i in levels:
+                found[i] += axis[i][:, None] * change
+            if slopes:
+                normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
+                bent = ((found[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
+                found[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], bent)
+        if not self.cancels:
+            return found, None
+        terms = sum(abs(x[0, :, 2:]).sum(0) @ abs(y) for x, y in zip(self.parts, f, strict=True)) * 2 / np.sqrt(square)
+        terms = terms + abs(self.columns).max(0) @ abs(basis[0]).max(0)
+        return found, (terms > LOST * (1 + abs(found[0]).max(0))).any(0)
+
+    def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
+        """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""
+        ways = np.array([
+            [-q.real, q.imag, p.real, -p.imag],
+            [-q.imag, -q.real, p.imag, p.real],
+            [-u.imag, u.real, -w.imag, w.real],
+        ])  # fmt: skip
+        return np.asarray(np.matmul(self.axes, ways.reshape(3, -1)).reshape(ways.shape))
+
+    @staticmethod
+    def _sum(ways: Sequence[FloatArray], parts: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
+        """Return what rows of derivatives add to v, or to dv/dt, (3, rows, m)."""
+        pairs = [(ways[i], parts[level - i][:, rows]) for i in range(level + 1)]
+        total = ways[0][:, 0, None] * pairs[0][1][0] if not level else np.zeros(1)
+        for i, (way, part) in enumerate(pairs):
+            for j in range(i == level == 0, 4):
+                total = total + way[:, j, None] * part[j]
+        return np.asarray(total)
+
+    def _basis(
+        self, t: FloatArray, s: FloatArray, count: FloatArray, by_s: Sequence[FloatArray], axis: Sequence[FloatArray],
+        level: int,
+    ) -> FloatArray:  # fmt: skip
+        """Return what the columns weigh, or the slopes of it, (3, 8, m)."""
+        (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
+        found = np.empty((3, 8, t.size))
+        found[:, 0], found[:, 1], found[:, 2], found[:, 3], found[:, 4] = s * v, count * v, t * e, e, s * e
+        found[:, 5], found[:, 6], found[:, 7] = (n, n, 0.0) if level else (n * t, n * s, 1.0)
+        if level:
+            found[:, 0] += by_s[0]
+            found[:, 2] += axis[0]
+            found[:, 4] += axis[0]
+        return found
 
 
 class Swing:
@@ -190,7 +284,10 @@ class Swing:
         for i, (both, change) in enumerate(zip(self.sums, self.changes, strict=True)):
             doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
             k = np.arange(len(both), dtype=float) * 2 + (not doubled)
-            f = _functions(self.pair.rate * s, k, hyperbolic)
+            f = self.pair.functions(s, doubled, len(both))
+            if hyperbolic:
+                up, down = f[::2], f[1::2]
+                f = np.stack([(up - down) / 2, (up + down) / 2], 1).reshape(f.shape)
             turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1).ravel() @ f
             parts.append(both.ravel() @ f)
             bys.append(self.pair.rate * turned)
@@ -204,35 +301,24 @@ class Swing:
         by_A = (o * e / square - bent / 2) / A if A else 2 * (o / e) ** 3 / 3
         near = abs(A) * o * o < SMALL * e * e
         u = o[near] / e[near]
-        by_A[near] = sum(2 * n / (2 * n + 1) * A ** (n - 1) * u ** (2 * n + 1) for n in range(1, SERIES))
+        square_of, series = A * u * u, np.zeros(u.size)
+        for n in range(SERIES, 0, -1):
+            series = series * square_of + 2 * n / (2 * n + 1)
+        by_A[near] = series * u**3
         part = 2 * (o_p * e - o * e_p) / square + self.As[:, None] * by_A
         whole = self.kappas[:, None] * (self.twist * s + bent) + self.kappa * (self.twists[:, None] * s + part)
         return whole, self.kappa * (self.twist + 2 * (o_s * e - o * e_s) / square)
 
-    def slopes(self, nu: FloatArray, changes: FloatArray) -> Array:
+    def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
         """Return the rates of the derivatives of the angle, kappa nu, but for those that are constant."""
-        return np.asarray(self.kappas[:, None] * nu + self.kappa * changes - self.constant[:, None])
+        varied = names @ np.stack([self.kappas, -self.constant], -1)
+        return np.asarray(varied[:, :1] * nu + varied[:, 1:] + self.kappa * changes)
 
     def change(self, s: FloatArray, count: FloatArray) -> Array:
         """Return the derivatives of the angle, but for what grows with time."""
         p = self.pair
         fixed, slope = self._terms(s)
         return np.asarray(fixed + (p.origins[:, None] - count * p.cells[:, None]) * slope - self.start)
-
-
-def _product(table: Array, basis: FloatArray) -> Array:
-    """Return a complex matrix times a real one."""
-    found = np.empty((len(table), basis.shape[1]), complex)
-    found.real, found.imag = table.real @ basis, table.imag @ basis
-    return found
-
-
-def _functions(x: FloatArray, k: FloatArray, hyperbolic: bool) -> Array:
-    """Return S and C of k x by turns, (2 len(k), m)."""
-    out = np.empty((2 * len(k), x.size))
-    for i, n in enumerate(k.tolist()):
-        out[2 * i], out[2 * i + 1] = (np.sinh(n * x), np.cosh(n * x)) if hyperbolic else (np.sin(n * x), np.cos(n * x))
-    return out
 
 
 def _double(row: Sequence[Any]) -> Array:
@@ -245,19 +331,51 @@ def _doubles(tables: Sequence[Tables], name: str) -> Array:
 
 
 class Varied:
-    """Derivatives of one motion in several inputs, of which those with the same constants are made at once."""
+    """Derivatives of one motion in several inputs, of which those with the same constants are made at once.
 
-    def __init__(self, found: Sequence[Variation]) -> None:
-        self.count = len(found)
+    Where there are none, or where terms cancel, they are differences of the motion in balls.
+    """
+
+    def __init__(self, found: Sequence[Variation], differences: Callable[[], Differences]) -> None:
         self.pairs = [(group, Pair([found[i] for i in group])) for group in _alike(found)]
+        self._make = differences
 
-    def vectors(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
-        """Return v of each input at times (m,), (m, P, 3), and dv/dt if asked for."""
-        out = [np.empty((t.size, self.count, 3)) for _ in range(1 + slopes)]
+    @cached_property
+    def differences(self) -> Differences:
+        """What gives derivatives at single times."""
+        return self._make()
+
+    def weighted(self, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
+        """Return what gives v of combinations of inputs, see `Weighted`; v is the sum of all."""
+        found: list[Weighted] = []
         for group, pair in self.pairs:
-            for i in range(0, t.size, BLOCK):
-                for part, values in zip(out, pair.vectors(t[i : i + BLOCK], slopes), strict=True):
-                    part[i : i + BLOCK, group] = values.swapaxes(0, 1)
+            rest = 0 if found else 1
+            found.append(Weighted(pair, left, names[:, group], rest * turns, rest * spins))
+        return found
+
+    def vectors(
+        self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray,
+        known: list[Weighted],
+    ) -> list[FloatArray]:  # fmt: skip
+        """Return v of combinations of inputs at times (m,), (m, N, 3), and dv/dt if asked for."""
+        out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
+        for i in range(0, t.size, BLOCK):
+            part = slice(i, i + BLOCK)
+            alone = np.full(t[part].size, not known)
+            for n, one in enumerate(known):
+                values, cancels = one.at(t[part], slopes)
+                for x, y in zip(out, values, strict=True):
+                    if n:
+                        x[part] += y.transpose(2, 1, 0)
+                    else:
+                        x[part] = y.transpose(2, 1, 0)
+                if cancels is not None:
+                    alone |= cancels
+            for j in (i + np.flatnonzero(alone)).tolist():
+                v, faster, axis, more = self.differences.at(float(t[j]))
+                out[0][j] = names @ v @ left.T + turns + np.outer(spins, left @ axis)
+                if slopes:
+                    out[1][j] = names @ faster @ left.T + np.outer(spins, left @ more)
         return out
 
 

@@ -9,27 +9,41 @@ is the one of either side.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import chain
+from typing import Any, TypeAlias
 
+import numpy as np
 from flint import acb, arb, fmpq
+from numpy.typing import NDArray
 
 from atlas.errors import DomainError
 from atlas.exact.nutation.cayley_klein import Solution, Sum, infinite
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import dot, rational, workprec
 
 STEP = 80
 """Binary digits of the inputs that a step leaves alone."""
 
-KNOWN = arb(2) ** -66
+KNOWN = 2.0**-66
 """Radius of a derivative, beside the largest of its group, with which it is good for a double."""
 
-FLAT = arb(2) ** -60
+FLAT = 2.0**-60
 """Largest change of the slope over a step, in parts of it: the step is then far from any border."""
 
 TRIES = 6
 
+SEPARATRIX = "On a separatrix neighbours leave the motion for good: it has no sensitivity for all times."
+
+
+class TooNearError(DomainError):
+    """Constants have no derivatives that are known: the motion is too near to a case of its own."""
+
+
 Tables = dict[str, list[Any]]
 """Constants by groups, in which sizes are compared."""
+
+FloatArray: TypeAlias = NDArray[np.float64]
+Row: TypeAlias = list[Any]
+"""All constants of one motion, one after the other."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +71,7 @@ def constants(tilt: Sequence[Any], found: Solution, places: tuple[int, ...] = (0
     lattice, pair, swing = found.lattice, (found.alpha, found.beta), found.swing
     steady = lattice.rate.is_zero()
     if not steady and (infinite(lattice.half) or lattice.form == "linear"):
-        raise DomainError("On a separatrix neighbours leave the motion for good: it has no sensitivity for all times.")
+        raise DomainError(SEPARATRIX)
     sums = [x.sum for x in pair] + ([swing.odd, swing.even] if swing else [])
     kinds = tuple((x.doubled, x.shifted) for x in sums)
     rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
@@ -103,13 +117,15 @@ def variations(
         except DomainError:
             ways = []
         if ways and all(x.form == ways[0].form for x in ways):
-            base, *forward, back = (_even_out(x.tables, ways) for x in ways)
-            steps = [_combined((x, base), (1, -1), arb(1)) for x in forward]
-            together = _combined(steps, [1] * len(steps), arb(1))
-            if _smooth([base, _combined((base, together), (1, 1), arb(1)), back], central=True):
-                slopes = [_combined([x], [1], 1 / arb(h[i])) for i, x in zip(places, steps, strict=True)]
-                if all(_known(base, x, arb(scales[i])) for i, x in zip(places, slopes, strict=True)):
-                    return [Variation(ways[0].form, base, x) for x in slopes]
+            groups = Groups(ways)
+            base, *forward, back = groups.rows
+            steps = [_combined((x, base), (1, -1)) for x in forward]
+            together = [sum(x, arb(0)) for x in zip(*steps, strict=True)]
+            slopes = [_scaled(x, 1 / arb(h[i])) for i, x in zip(places, steps, strict=True)]
+            flat = groups.are_smooth(base, together, _combined((base, back), (1, -1)))
+            if flat and groups.are_known(base, [(x, scales[i]) for i, x in zip(places, slopes, strict=True)]):
+                tables = groups.tables(base)
+                return [Variation(ways[0].form, tables, groups.tables(x)) for x in slopes]
     return [variation(make, values, i, scales) for i in places]
 
 
@@ -125,7 +141,7 @@ def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int
         if found is not None:
             return found
         bits *= 2
-    raise DomainError("The motion is too near to a case of its own for derivatives of its constants.")
+    raise TooNearError("The motion is too near to a case of its own for derivatives of its constants.")
 
 
 def _differences(
@@ -141,82 +157,171 @@ def _differences(
             return None
 
     ways: list[tuple[Sequence[int], Sequence[Any], Sequence[Any]]] = [
-        ((0, 1, -1), (1, 0, 0), (0, fmpq(1, 2), fmpq(-1, 2))),
+        ((-1, 0, 1), (0, 1, 0), (fmpq(-1, 2), 0, fmpq(1, 2))),
         ((1, 2, 3), (3, -3, 1), (fmpq(-5, 2), 4, fmpq(-3, 2))),
         ((-1, -2, -3), (3, -3, 1), (fmpq(5, 2), -4, fmpq(3, 2))),
     ]
     for nodes, weights, slopes in ways:
         three = [at(n) for n in nodes]
-        if nodes[0] == 0 and three[0] is None:
-            raise DomainError(
-                "On a separatrix neighbours leave the motion for good: it has no sensitivity for all times."
-            )
-        if any(x is None or x.form != three[0].form for x in three):  # type: ignore[union-attr]
-            continue
+        if nodes[1] == 0 and three[1] is None:
+            raise DomainError(SEPARATRIX)
         whole = [x for x in three if x is not None]
-        tables = [_even_out(x.tables, whole) for x in whole]
-        if not _smooth(tables, nodes[0] == 0):
+        if len(whole) < len(three) or any(x.form != whole[0].form for x in whole):
             continue
-        mean = _combined(tables, weights, arb(1))
-        slope = _combined(tables, slopes, 1 / arb(h))
-        return Variation(whole[0].form, mean, slope) if _known(mean, slope, arb(scale)) else None
+        groups = Groups(whole)
+        first, second, third = groups.rows
+        if not groups.are_smooth(second, *(_combined(x, (1, -1)) for x in ((third, second), (second, first)))):
+            continue
+        mean, slope = _combined(groups.rows, weights), _scaled(_combined(groups.rows, slopes), 1 / arb(h))
+        if not groups.are_known(mean, [(slope, scale)]):
+            return None
+        return Variation(whole[0].form, groups.tables(mean), groups.tables(slope))
     return None
 
 
-def _even_out(tables: Tables, all_of: Sequence[Constants]) -> Tables:
-    """Return tables of equal lengths: terms that are left out are zero."""
-    length = {name: max(len(x.tables[name]) for x in all_of) for name in tables}
-    return {name: row + [acb(0)] * (length[name] - len(row)) for name, row in tables.items()}
+class Groups:
+    """The constants of motions of one form as rows of equal lengths: terms that are left out are zero."""
 
-
-def _combined(tables: Sequence[Tables], weights: Sequence[Any], factor: arb) -> Tables:
-    """Return a linear combination of tables."""
-    return {
-        name: [
-            sum((table[name][i] * arb(w) for table, w in zip(tables, weights, strict=True) if w != 0), arb(0)) * factor
-            for i in range(len(row))
+    def __init__(self, motions: Sequence[Constants]) -> None:
+        tables = [x.tables for x in motions]
+        self.lengths = {name: max(len(x[name]) for x in tables) for name in tables[0]}
+        self.rows: list[Row] = [
+            [*chain.from_iterable(x[name] + [acb(0)] * (n - len(x[name])) for name, n in self.lengths.items())]
+            for x in tables
         ]
-        for name, row in tables[0].items()
-    }
+        # alpha and beta are one group
+        self.places = np.repeat(
+            [list(self.lengths).index(x.replace("sum 1", "sum 0")) for x in self.lengths], list(self.lengths.values())
+        )
+
+    def tables(self, row: Row) -> Tables:
+        """Return constants by groups."""
+        rest = iter(row)
+        return {name: [next(rest) for _ in range(n)] for name, n in self.lengths.items()}
+
+    def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
+        """Return whether slopes do not change over two steps, beside the sizes of the constants and of the slopes."""
+        size, up, down = (_sizes(x) for x in (middle, ups, downs))
+        bent = _sizes(_combined((ups, downs), (1, -1)))
+        largest, whole = self._largest(np.maximum(up, down)), self._largest(size)
+        return bool(
+            (bent <= FLAT * (largest + np.ldexp(whole, -STEP))).all() and ((up <= FLAT * whole) | (whole == 0)).all()
+        )
+
+    def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
+        """Return whether values and slopes are known well enough, beside the largest value of their groups."""
+        size, radius = self._largest(_sizes(mean)), _radii(mean)
+        for row, scale in slopes:
+            unit = float(arb(scale).mid())
+            least = np.where(size == 0, self._largest(_sizes(row)) * unit, size)
+            if not ((radius <= KNOWN * least) & (_radii(row) * unit <= KNOWN * least) & (least < np.inf)).all():
+                return False
+        return True
+
+    def _largest(self, sizes: FloatArray) -> FloatArray:
+        """Return the largest of each group, at all of its places."""
+        found = np.zeros(len(self.lengths))
+        np.maximum.at(found, self.places, sizes)
+        return np.asarray(found[self.places])
 
 
-def _smooth(tables: Sequence[Tables], central: bool) -> bool:
-    """Return whether the slopes do not change over the steps, beside the sizes of the constants and of the slopes."""
-    first, second, third = tables
-    for name in first:
-        a, b = ((second, first), (first, third)) if central else ((second, first), (third, second))
-        ups = [x - y for x, y in zip(a[0][name], a[1][name], strict=True)]
-        downs = [x - y for x, y in zip(b[0][name], b[1][name], strict=True)]
-        largest, size = max(map(_size, [*ups, *downs]), default=arb(0)), _largest(first, name)
-        if any(_size(x - y) > FLAT * (largest + size * arb(2) ** -STEP) for x, y in zip(ups, downs, strict=True)):
-            return False
-        if any(x > FLAT * size for x in map(_size, ups)) and size != 0:
-            return False
-    return True
+def _combined(rows: Sequence[Row], weights: Sequence[Any]) -> Row:
+    """Return a linear combination of rows."""
+    pairs = [(x, w) for x, w in zip(rows, weights, strict=True) if w != 0]
+    if [w for _, w in pairs] == [1, -1]:
+        return [x - y for x, y in zip(pairs[0][0], pairs[1][0], strict=True)]
+    return [
+        sum((x * arb(w) for x, (_, w) in zip(column, pairs, strict=True)), arb(0))
+        for column in zip(*(x for x, _ in pairs), strict=True)
+    ]
 
 
-def _known(mean: Tables, slope: Tables, scale: arb) -> bool:
-    """Return whether values and slopes are known well enough, beside the largest value of their groups."""
-    for name, row in mean.items():
-        size = _largest(mean, name)
-        if size == 0:
-            size = max((_size(x) * scale for x in slope[name]), default=arb(0))
-        if any(not _radius(x) <= KNOWN * size for x in [*row, *(x * scale for x in slope[name])]):
-            return False
-    return True
+def _scaled(row: Row, factor: arb) -> Row:
+    return [x * factor for x in row]
 
 
-def _largest(tables: Tables, name: str) -> arb:
-    """Return the size of the largest constant of a group; alpha and beta are one."""
-    names = ("sum 0", "sum 1") if name in ("sum 0", "sum 1") else (name,)
-    return max((_size(x) for group in names for x in tables[group]), default=arb(0))
+def _sizes(row: Row) -> FloatArray:
+    return np.array([float(abs(x).mid()) for x in row])
 
 
-def _size(x: Any) -> arb:
-    return abs(x).mid()
+def _radii(row: Row) -> FloatArray:
+    """Return the radii of balls, nan for what is not a number: that is no bound."""
+    return np.array(
+        [
+            float(x.real.rad() + x.imag.rad() if isinstance(x, acb) else x.rad()) if x.is_finite() else np.nan
+            for x in row
+        ]
+    )
 
 
-def _radius(x: Any) -> arb:
-    """Return the radius of a ball, infinite for what is not a number."""
-    parts = (x.real, x.imag) if isinstance(x, acb) else (x,)
-    return max((y.rad() if y.is_finite() else arb("inf") for y in parts), key=float)
+SIDES = (((1, 0, -1), (1, 0, -1)), ((0, -1, -2), (3, -4, 1)), ((0, 1, 2), (-3, 4, -1)))
+"""Steps h and the weights of twice a difference: on both sides or, at the border of what bodies there are, on one."""
+
+BENT = 2.0**-30
+"""Largest change of a derivative over a step, in parts of it: of a difference that errs by the square of this."""
+
+
+class Differences:
+    """Derivatives of R and Omega at single times by differences of the motion in balls, near any border.
+
+    R is analytic in the inputs whatever its constants do: how far it bends depends on how fast neighbours depart.
+    """
+
+    def __init__(
+        self,
+        make: Callable[..., Any],
+        values: Sequence[fmpq],
+        places: Sequence[int],
+        scales: Sequence[fmpq],
+    ) -> None:
+        self.make, self.values, self.places, self.scales = make, values, places, scales
+        self._at(STEP + 20)
+
+    def _at(self, bits: int) -> None:
+        """Make the motions beside this one in each input."""
+        self.bits = bits
+        with workprec(8 * bits):
+            self.here = self.make(*self.values)
+            self.beside = [self._beside(i, self.scales[i] / fmpq(2) ** bits) for i in self.places]
+
+    def _beside(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
+        """Return motions with the weights whose sums are the derivative in an input, and what changes it over h."""
+        for steps, weights in SIDES:
+            try:
+                moved = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]
+                made = [self.make(*x) if n else self.here for n, x in zip(steps, moved, strict=True)]
+            except DomainError:
+                continue
+            return [(x, w / arb(2 * h), n / arb(h)) for x, w, n in zip(made, weights, (1, -2, 1), strict=True)]
+        raise DomainError("No motions beside this one are known.")
+
+    def at(self, t: float) -> tuple[FloatArray, ...]:
+        """Return v and R dOmega/dp at a time, (inputs, 3) each, R e3 and its slope. DomainError if unknown."""
+        time = rational(t)
+        for _ in range(TRIES):
+            with workprec(8 * self.bits):
+                here = self._state(self.here, time)
+                R, Omega = [here[i : i + 3] for i in (0, 3, 6)], here[9:]
+                turns, changes, bent = zip(*(self._one(here, R, x, time) for x in self.beside), strict=True)
+                axis = [row[2] for row in R], [row[0] * Omega[1] - row[1] * Omega[0] for row in R]
+            v, faster = (np.array([[float(x.mid()) for x in row] for row in rows]) for rows in (turns, changes))
+            sizes = 1 + abs(v).max(1)
+            radii = np.array([_radii(x).max() for x in turns])
+            if ((radii <= KNOWN * sizes) & (np.array(bent) <= BENT * sizes)).all():
+                return v, faster, *(np.array([float(arb(x).mid()) for x in y]) for y in axis)
+            self._at(2 * self.bits)
+        raise DomainError("The motion is too near to a case of its own for derivatives.")
+
+    def _state(self, motion: Any, t: fmpq) -> Row:
+        """Return the entries of R, by rows, and Omega."""
+        return [*chain.from_iterable(motion.rotation(t)), *motion.angular_velocity(t)]
+
+    def _one(
+        self, here: Row, R: Sequence[Row], beside: Sequence[tuple[Any, arb, arb]], t: fmpq
+    ) -> tuple[Row, Row, float]:
+        """Return v and R dOmega/dp of one input, and by how much the derivative of R changes over a step."""
+        rows = [here if x is self.here else self._state(x, t) for x, _, _ in beside]
+        _, slopes, bends = zip(*beside, strict=True)
+        change, bent = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))
+        turned = [[dot(change[3 * i : 3 * i + 3], R[j]) for j in range(3)] for i in range(3)]
+        return [turned[2][1], turned[0][2], turned[1][0]], [dot(row, change[9:]) for row in R], _sizes(bent[:9]).max()
