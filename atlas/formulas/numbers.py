@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from math import inf, isqrt
 from threading import RLock
 from types import TracebackType
-from typing import Any, TypeAlias
+from typing import Any, Generic, Self, TypeAlias, TypeVar, overload
 
 from flint import arb, ctx, fmpq
 
@@ -44,6 +44,32 @@ class workprec:  # noqa: N801  the name that flint has for it
     ) -> None:
         ctx.prec = self._before
         _LOCK.release()
+
+
+Value = TypeVar("Value")
+
+
+class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
+    """A property that is kept for the precision of the moment."""
+
+    def __init__(self, of: Callable[[Any], Value]) -> None:
+        self._of, self.__doc__ = of, of.__doc__
+
+    def __set_name__(self, _: type, name: str) -> None:
+        self._place = f"{name} by precision"
+
+    @overload
+    def __get__(self, one: None, of: Any = None) -> Self: ...
+    @overload
+    def __get__(self, one: object, of: Any = None) -> Value: ...
+    def __get__(self, one: Any, of: Any = None) -> Self | Value:
+        """Return the value, made if the precision is another."""
+        if one is None:
+            return self
+        known: tuple[int, Value] | None = vars(one).get(self._place)
+        if known is None or known[0] != ctx.prec:
+            vars(one)[self._place] = known = ctx.prec, self._of(one)
+        return known[1]
 
 
 def rational(x: float) -> fmpq:

@@ -161,7 +161,8 @@ class Motion(Shown, Generic[Single]):
         of a scalar, such as "period", "precession_rate" or "k", its derivatives, of shape (..., names), whatever `t`.
 
         Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of derivatives of frequencies. A border
-        between kinds, such as a ball or a steady precession, is no exception. Of a body with three moments the
+        between kinds, such as a ball or a steady precession, is no exception; next to one, where terms would cancel,
+        each time is made by itself, in some milliseconds. Of a body with three moments the
         constants of theta functions are differentiated, in some seconds. Raises DomainError on a separatrix, from which
         neighbours depart for good, and for three moments where there are no theta functions or they change their form
         next to the motion; AtlasError for another name and for times as `rotation` does.

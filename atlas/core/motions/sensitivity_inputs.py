@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -48,11 +49,11 @@ class Inputs:
     def varied(self, names: Sequence[str]) -> Any:
         """Return what gives v and dv/dt for some of the inputs."""
         places = self._places(names)
+        differences = partial(Differences, self.twin, self.values, places, self.scales)
         try:
-            found = variations(self._constants, self.values, places, self.scales)
+            return Varied(variations(self._constants, self.values, places, self.scales), differences)
         except TooNearError:
-            found = []
-        return Varied(found, lambda: Differences(self.twin, self.values, places, self.scales))
+            return Varied([], differences)
 
     def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
         """Return the derivatives of a scalar, (len(names),)."""

@@ -14,7 +14,7 @@ from flint import arb
 from atlas.core.arithmetic.quaternions import between
 from atlas.core.inputs import FloatArray, largest, real
 from atlas.core.nutation.cayley_klein import Evaluation, combined, entries, evaluate
-from atlas.core.nutation.constants import CayleyKlein
+from atlas.core.nutation.constants import FIRST, CayleyKlein
 from atlas.core.nutation.exponentials import Exponentials, exponentials
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
@@ -54,7 +54,8 @@ class SingleMotion:
     @cached_property
     def _tilt(self) -> list[float]:
         """Cosine and sine of theta(0), and of chi(0)."""
-        c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], 2 * BITS)
+        # at the precision of the other constants, which share the sphere
+        c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST - 64)
         with workprec(2 * BITS):  # else it would be that of the caller
             return [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
 

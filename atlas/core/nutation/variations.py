@@ -18,8 +18,7 @@ from flint import acb, arb
 from atlas.core.arithmetic.phase import EVEN, Phases, room
 from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray
-from atlas.errors import DomainError
-from atlas.exact.nutation.variations import Differences, Tables, Variation
+from atlas.exact.nutation.variations import Differences, Tables, TooNearError, Variation
 from atlas.formulas.numbers import workprec
 
 BLOCK = 512
@@ -93,7 +92,7 @@ class Pair:
             grown = size * np.exp(frequencies * reach)
             count = int(np.flatnonzero(grown > NEGLIGIBLE * grown.max()).max(initial=0)) + 1
         if not np.isfinite(grown).all():
-            raise DomainError("The motion is too near to a separatrix for derivatives in floats.")
+            raise TooNearError("The motion is too near to a separatrix for derivatives in floats.")
         self.tables.append(table[:, : 2 * count])
         self.frequencies.append(frequencies[:count])
 
@@ -170,9 +169,7 @@ class Weighted:
         ]
         self.columns = np.array([np.stack([*columns, x], -1) for x in self.fixed.T])
         sizes = sum(abs(x[0, :, 2:]).sum((0, 2)) for x in self.parts) + abs(self.columns[:, :, 3::4]).max((0, 2))
-        self.cancels = (
-            pair.hyperbolic or not (sizes < MUCH).all() or bool((abs(columns[1]) * pair.rate > MUCH * pair.cell).any())
-        )
+        self.cancels = pair.hyperbolic or not (sizes < MUCH).all()
 
     def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
         """Return v at times (m,), (3, N, m), dv/dt if asked for; and where their terms cancel, (m,), or None."""
@@ -219,11 +216,11 @@ class Weighted:
                 normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
                 bent = ((found[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
                 found[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], bent)
-        if not self.cancels:
+        columns, basis_size = abs(self.columns).max(0), abs(basis[0]).max(0)
+        if not self.cancels and (columns @ basis_size.max(1)).max() < LOST:
             return found, None
         terms = sum(abs(x[0, :, 2:]).sum(0) @ abs(y) for x, y in zip(self.parts, f, strict=True)) * 2 / np.sqrt(square)
-        terms = terms + abs(self.columns).max(0) @ abs(basis[0]).max(0)
-        return found, (terms > LOST * (1 + abs(found[0]).max(0))).any(0)
+        return found, (terms + columns @ basis_size > LOST * (1 + abs(found[0]).max(0))).any(0)
 
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
         """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""

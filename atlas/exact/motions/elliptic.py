@@ -16,7 +16,7 @@ K does not circle: K_a passes through zero to and fro, and neither parameter eve
 
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
@@ -28,7 +28,7 @@ from atlas.exact.nutation.nutating import Nutating, product, turn
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.formulas.elliptic import splitting
 from atlas.formulas.integrals import clebsch
-from atlas.formulas.numbers import nearest, root
+from atlas.formulas.numbers import by_precision, nearest, root
 
 
 class EllipticMotion(Nutating):
@@ -56,7 +56,6 @@ class EllipticMotion(Nutating):
         e, K = self._turned(self._e), self._turned(self.field)
         self.quartic: EllipticQuartic = EllipticQuartic(e, K, self.square, self.branch)
         self.kind = self._kind()
-        self._known: tuple[int, Solution] | None = None
 
     def _order(self) -> tuple[int, int, int]:
         """Return the axes in a cyclic order, the one last whose component nutates, or about which K turns."""
@@ -159,7 +158,7 @@ class EllipticMotion(Nutating):
         """Rate E_a b - b of the frame about the field in which the pair has its own rates."""
         return (self.E[self.places[2]] - self.frame) * self.b
 
-    @property
+    @by_precision
     def sphere(self) -> Sphere:
         """The sphere of K, at the precision of the moment, its last axis a."""
         K, b = self._turned(self.field), self.b
@@ -177,12 +176,10 @@ class EllipticMotion(Nutating):
             spin=zero,
         )
 
-    @property
+    @by_precision
     def solution(self) -> Solution:
         """The constants of alpha and beta, from which R follows, at the precision of the moment."""
-        if self._known is None or self._known[0] != ctx.prec:
-            self._known = ctx.prec, self.trigonometric(hyperbolic=True)
-        return self._known[1]
+        return self.trigonometric(hyperbolic=True)
 
     def trigonometric(self, *, hyperbolic: bool = False) -> Solution:
         """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""

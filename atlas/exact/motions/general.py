@@ -12,7 +12,7 @@ factor that both share, and the matrix is that of the quaternion (alpha, beta) o
 from functools import cached_property
 from typing import Any, Self
 
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.bodies.body import ratio_of
@@ -21,9 +21,9 @@ from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.exact.nutation.cayley_klein import Lattice, Parameter, Solution, Sum, steady
 from atlas.exact.nutation.constants import Nutation
 from atlas.exact.nutation.nutating import Nutating, attitude
-from atlas.exact.nutation.quartic import Quartic
+from atlas.exact.nutation.quartic import Quartic, Vector
 from atlas.exact.nutation.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
-from atlas.formulas.numbers import root
+from atlas.formulas.numbers import by_precision, root
 
 
 class GeneralMotion(Nutating):
@@ -50,7 +50,6 @@ class GeneralMotion(Nutating):
         self.I, self.omega, self.field = I, Omega, K
         self.quartic = Quartic(I, Omega, K)
         self.kind = self._kind()
-        self._known: dict[str, tuple[int, Solution]] = {}
 
     @cached_property
     def cancelled(self) -> int:  # type: ignore[override]  # not writable
@@ -106,39 +105,46 @@ class GeneralMotion(Nutating):
         """Length of the field."""
         return root(self.quartic.K2)
 
-    @property
+    @by_precision
     def solution(self) -> Solution:
         """The constants of alpha and beta, from which R and K follow, at the precision of the moment."""
-        return self._solution("field")
+        if self.is_steady:
+            return self._steady(self.sphere, *self._steady_rates())
+        if self.kind != "ball":
+            return Nutation(self.quartic, self.sphere).solution()
+        return self._ball(self.sphere, self._momentum)
 
-    @property
+    @by_precision
     def velocity(self) -> Solution:
         """The constants of the pair from which Omega follows, see `atlas.exact.nutation.spheres`."""
-        return self._solution("velocity")
-
-    def _solution(self, name: str) -> Solution:
-        if name not in self._known or self._known[name][0] != ctx.prec:
-            self._known[name] = ctx.prec, self._solved(name)
-        return self._known[name][1]
+        sphere = self._velocity_sphere
+        if self.is_steady:
+            return self._steady(sphere, fmpq(0), self._steady_turn())
+        if self.kind != "ball":
+            return Nutation(self.quartic, sphere).solution()
+        M1, M2, M3 = self._momentum
+        return self._ball(sphere, (M2, M1, -M3))
 
     def trigonometric(self) -> Solution:
         """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
         if not self.kind.startswith("nutation"):
             return self.solution
-        return Nutation(self.quartic, self.sphere("field")).solution(trigonometric=True)
+        return Nutation(self.quartic, self.sphere).solution(trigonometric=True)
 
-    def sphere(self, name: str) -> Sphere:
-        """Return the sphere of the "field" or of the "velocity" at the precision of the moment."""
-        return sphere_of_field(self.quartic, self._axis) if name == "field" else sphere_of_velocity(self.quartic)
+    @by_precision
+    def sphere(self) -> Sphere:
+        """The sphere of K, or of a free body's momentum, at the precision of the moment."""
+        return sphere_of_field(self.quartic, self._axis)
 
-    def _solved(self, name: str) -> Solution:
-        sphere = self.sphere(name)
-        if self.is_steady:
-            return self._steady(sphere, *(self._steady_rates() if name == "field" else (fmpq(0), self._steady_turn())))
-        if self.kind != "ball":
-            return Nutation(self.quartic, sphere).solution()
+    @by_precision
+    def _velocity_sphere(self) -> Sphere:
+        return sphere_of_velocity(self.quartic)
+
+    @property
+    def _momentum(self) -> Vector:
+        """M of a ball, in the body at t = 0, over its moment."""
         M1, M2, M3 = (w + K for w, K in zip(self.quartic.Omega, self.quartic.K, strict=True))
-        return self._ball(sphere, (M1, M2, M3) if name == "field" else (M2, M1, -M3))
+        return M1, M2, M3
 
     @cached_property
     def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
@@ -152,11 +158,11 @@ class GeneralMotion(Nutating):
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
-        return self.sphere("field").tilt
+        return self.sphere.tilt
 
     def velocity_sizes(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of the azimuth of Omega(0), and the largest Omega across and along the axis."""
-        sphere = self.sphere("velocity")
+        sphere = self._velocity_sphere
         return sphere.tilt[2], sphere.tilt[3], sphere.length, abs(sphere.poles[1])
 
     def _steady_rates(self) -> tuple[Real, Real]:

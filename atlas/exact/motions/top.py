@@ -12,7 +12,7 @@ turn about the body's axis.
 from dataclasses import replace
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq
+from flint import acb, arb, fmpq
 
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.motions import top_steady
@@ -24,6 +24,7 @@ from atlas.exact.nutation.quartic import TopQuartic
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.exact.nutation.swing import crossing, swing
 from atlas.exact.surfaces.top_quadric import inputs_of_top
+from atlas.formulas.numbers import by_precision
 from atlas.formulas.top import constants
 
 
@@ -44,7 +45,6 @@ class TopMotion(Nutating):
         self.field = fmpq(0), *self.direction
         self.quartic: TopQuartic = TopQuartic(self.I, self.coupling, self.direction, self.omega, self.potential)
         self.kind = self._kind()
-        self._known: tuple[int, Solution] | None = None
 
     def _kind(self) -> str:
         q = self.quartic
@@ -107,7 +107,7 @@ class TopMotion(Nutating):
         """Length of the direction."""
         return fmpq(1)
 
-    @property
+    @by_precision
     def sphere(self) -> Sphere:
         """The sphere of b, the direction n in the body, at the precision of the moment."""
         q, (w1, w2, _), k2 = self.quartic, self.omega, self.coupling[0]
@@ -132,12 +132,10 @@ class TopMotion(Nutating):
         energy, M3, p = constants(self.I, k2, k3, q.across, q.nu, a0, A0, w1, w2, w3)
         return [(energy / 2).value, M3.value, p.value]
 
-    @property
+    @by_precision
     def solution(self) -> Solution:
         """The constants of alpha and beta, from which R follows, at the precision of the moment."""
-        if self._known is None or self._known[0] != ctx.prec:
-            self._known = ctx.prec, self._steady() if self.is_steady else self._nutation()
-        return self._known[1]
+        return self._steady() if self.is_steady else self._nutation()
 
     def trigonometric(self) -> Solution:
         """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""

@@ -7,14 +7,18 @@ Where the nome is small the sum is trigonometric in pi s/T; near the separatrix 
 is left, and at a triple root it is linear. Every sum carries the bound of what it leaves out.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf, log
 from typing import Any
 
 from flint import acb, arb, ctx, fmpz
 
 from atlas.exact.inputs import Real, rational
 from atlas.formulas.numbers import Number, quaternion_products
+
+LOG2, FALLING = log(2.0), log(0.49)
+"""Logarithms of two, and of the part of a term below which the next one lies where a sum ends."""
 
 
 def infinite(x: arb) -> bool:
@@ -87,15 +91,26 @@ class Sum:
         x, form = self.lattice.rate * s, self.lattice.form
         if form == "linear":
             return self.even[0] + self.odd[0] * x, self.odd[0] * self.lattice.rate
-        value, slope = acb(0), acb(0)
-        for n, (a, b) in enumerate(zip(self.odd, self.even, strict=True)):
+        value, slope, circular = acb(0), acb(0), form == "trigonometric"
+        for n, ((a, b), (S, C)) in enumerate(
+            zip(zip(self.odd, self.even, strict=True), self._functions(x), strict=False)
+        ):
             k = self.frequency(n)
-            S, C = (x * k).sin_cos() if form == "trigonometric" else (x * k).sinh_cosh()
             value += a * S + b * C
-            slope += k * (a * C - b * S if form == "trigonometric" else a * C + b * S)
+            slope += (a * C - b * S if circular else a * C + b * S) * k
         k = self.frequency(len(self.odd))
         left = self.bound * ((k * abs(x)).exp() if form == "hyperbolic" else 1)
         return _widened(value, left), _widened(slope, 2 * k * left) * self.lattice.rate
+
+    def _functions(self, x: arb) -> Iterator[tuple[arb, arb]]:
+        """Go through S and C of k x."""
+        circular = self.lattice.form == "trigonometric"
+        S, C = x.sin_cos() if circular else x.sinh_cosh()
+        turn = multiplied(S, C, S, C, circular)
+        S, C = (arb(0), arb(1)) if self.doubled else (S, C)
+        while True:
+            yield S, C
+            S, C = multiplied(S, C, *turn, circular)
 
     @property
     def derivative(self) -> "Sum":
@@ -124,15 +139,12 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
     if lattice.form == "linear":
         return Sum(lattice, (acb(1),), (acb(0, -y),), arb(0))
     if lattice.form == "hyperbolic":
-        if beyond:
-            return _sum(lattice, arb(0), lambda k: (acb(0, -(zeta * k).sin()), acb((zeta * k).cos())), doubled=True)
-        return _sum(lattice, arb(0), lambda k: (acb(0, (zeta * k).cos()), acb((zeta * k).sin())))
+        return _sum(lattice, arb(0), _along(zeta, doubled=beyond), doubled=beyond)
     shifted = lattice.oblique and bool(2 * abs(y).mid() > lattice.imaginary.mid())
     if shifted:
         cell = lattice.rate * lattice.imaginary
         zeta, beyond = zeta - (cell if y.mid() > 0 else -cell), not beyond
-    zero = acb(arb.pi() / 2 if beyond else 0, zeta)
-    found = _sum(lattice, abs(zeta), lambda k: ((zero * k).cos(), -(zero * k).sin()))
+    found = _sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
     return replace(found, shifted=shifted)
 
 
@@ -141,7 +153,32 @@ def constant(lattice: Lattice) -> Sum:
     return Sum(lattice, (acb(0),), (acb(1),), arb(0), doubled=True)
 
 
-def _sum(lattice: Lattice, depth: arb, weights: Callable[[int], tuple[acb, acb]], *, doubled: bool = False) -> Sum:
+def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb]:
+    """Return sine and cosine, or sinh and cosh, of the sum of two angles."""
+    return S * c + C * s, C * c - S * s if circular else C * c + S * s
+
+
+def _along(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
+    """Go through the weights of a hyperbolic sum with a zero at i zeta, or at half a period from there if doubled."""
+    s, c = zeta.sin_cos()
+    turn = multiplied(s, c, s, c, True)
+    s, c = (arb(0), arb(1)) if doubled else (s, c)
+    while True:
+        yield (acb(0, -s), acb(c)) if doubled else (acb(0, c), acb(s))
+        s, c = multiplied(s, c, *turn, True)
+
+
+def _beside(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
+    """Go through the weights of a trigonometric sum, cos k z and -sin k z for the zero z = i zeta, or pi/2 + i zeta."""
+    s, c = zeta.sinh_cosh()
+    turn, sign = multiplied(s, c, s, c, False), 1
+    while True:
+        yield (acb(0, -sign * s), acb(-sign * c)) if beyond else (acb(c), acb(0, -s))
+        s, c = multiplied(s, c, *turn, False)
+        sign = -sign
+
+
+def _sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], *, doubled: bool = False) -> Sum:
     """Add terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if doubled, until the rest is below the precision of the moment.
 
     The weights of a term are at most 2 exp(k depth).
@@ -150,17 +187,20 @@ def _sum(lattice: Lattice, depth: arb, weights: Callable[[int], tuple[acb, acb]]
     size, odd, even, n = abs(nome), list[acb](), list[acb](), 0
     if not (size.is_finite() and growth.is_finite() and size < 1):  # the precision of the moment does not suffice
         return Sum(lattice, (acb(arb("nan")),), (acb(arb("nan")),), arb(0), doubled)
+    decay, rise = (float(x.upper()) for x in (size.log(), growth)) if nome != 0 else (-inf, 0.0)
+    factor, square = acb(1), nome * nome
+    step = -nome if doubled else -square
     while True:
         k = 2 * n if doubled else 2 * n + 1
         power = n * n if doubled else n * (n + 1)
-        first = size**power * (k * growth).exp() * 4
-        falls = size ** (2 * n + 1 if doubled else 2 * n + 2) * (2 * growth).exp() < 0.5
-        if n and (nome == 0 or (falls and first < arb(2) ** -(ctx.prec + 8))):
+        falls = decay * (2 * n + 1 if doubled else 2 * n + 2) + 2 * rise < FALLING
+        if n and (nome == 0 or (falls and decay * power + k * rise < -LOG2 * (ctx.prec + 10))):
             break
-        factor = (-1) ** n * nome**power * (2 if doubled and n else 1)
-        a, b = weights(k)
+        a, b = next(weights)
         odd.append(factor * a)
         even.append(factor * b)
+        factor *= 2 * step if doubled and not n else step
+        step *= square
         n += 1
     left = arb(0) if nome == 0 else 8 * size**power * (k * depth).exp()
     return Sum(lattice, tuple(odd), tuple(even), left, doubled)

@@ -10,7 +10,7 @@ v^2 = prod(z + D/I_i) is rational with the inputs, and so is Q: which case it is
 
 from flint import fmpq, fmpq_poly
 
-from atlas.exact.nutation.quartic import Quartic, Root, Vector
+from atlas.exact.nutation.quartic import Quartic, Vector
 
 
 class EllipticQuartic(Quartic):
@@ -29,7 +29,6 @@ class EllipticQuartic(Quartic):
         self.rate = sign * K[0] * K[1] * (e[1] - e[0])
         self.u = -K[2]
         self.torque = sign * (e[2] * self.N - self.h)
-        self._known: dict[int, list[Root]] = {}
 
     @property
     def leading(self) -> fmpq:

@@ -25,7 +25,7 @@ from flint import acb, arb, ctx, fmpq, fmpq_poly
 from atlas.exact.arithmetic.surd import Polynomial, Surd, derivative, evaluated, roots, sign_of, squarefree, trimmed
 from atlas.exact.inputs import Real
 from atlas.formulas.integrals import along_field, integrals, quartic
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import by_precision, workprec
 
 Vector = tuple[fmpq, fmpq, fmpq]
 
@@ -69,7 +69,6 @@ class Quartic:
         self.rate = w1 * K2 - w2 * K1
         self.momentum = along_field(I, (w1 + K1, w2 + K2, self.c3), K)
         self.polynomial = fmpq_poly([*quartic(I, *conserved)])
-        self._known: dict[int, list[Root]] = {}
 
     @property
     def leading(self) -> fmpq:
@@ -103,9 +102,11 @@ class Quartic:
 
     def roots(self) -> list[Root]:
         """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
-        if ctx.prec not in self._known:
-            self._known[ctx.prec] = self._isolated()
-        return self._known[ctx.prec]
+        return self._roots
+
+    @by_precision
+    def _roots(self) -> list[Root]:
+        return self._isolated()
 
     @cached_property
     def _factors(self) -> list[tuple[Polynomial, int]]:
@@ -177,7 +178,6 @@ class TopQuartic(Quartic):
         p, M3, a, A = self.p, self.M3, self.a, self.nu.of(self.A)
         h2 = M2 * M2 + w1 * w1 + 2 * a * self.nu + self.nu * self.nu * A
         self.polynomial = trimmed([h2 - p * p, 2 * a - 2 * p * M3, -A - h2 - M3 * M3, -2 * a, A])
-        self._known: dict[int, list[Root]] = {}
 
     @property
     def u(self) -> Real:

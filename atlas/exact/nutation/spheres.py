@@ -14,6 +14,7 @@ P(u) = u^2 - (2-I) c3 u + c5, and f = 0. So Omega keeps its digits however slow 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from flint import acb, arb, fmpq
 
@@ -43,7 +44,7 @@ class Sphere:
     precession: Real
     spin: Real
 
-    @property
+    @cached_property
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Cosine and sine of half the polar angle at t = 0, and of the azimuth from the second axis to the first."""
         x, y, z = self.start
