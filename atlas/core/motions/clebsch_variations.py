@@ -25,8 +25,11 @@ from atlas.exact.motions.theta_sums import Array
 from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import workprec
 
-STEP = 56
-"""Binary digits behind the point that a step leaves alone; moments and rates are near 1 in the units of the torus."""
+STEP, WEAK = 56, 28
+"""Binary digits behind the point that a step leaves alone, and how many more in a weak field.
+
+Moments and rates are near 1 in the units of the torus.
+"""
 
 NEAR = 2.0**-20
 """Largest change of a constant, beside the largest of its kind, that a step explains."""
@@ -36,6 +39,9 @@ WHOLE = 1e-3
 
 PART = 256
 """Times at once."""
+
+ROUNDING, BOUND = 2.0**-52, 1e-9
+"""Error of a term of v, in parts of it, and that of v, in parts of 1 + |v|, up to which it is given."""
 
 LEAST = 2.0**-64
 """Part of the largest weight below which a term is left out."""
@@ -58,8 +64,12 @@ class TorusVaried:
             found, groups = dict[int, list[Array]](), ((0, 1, 2), (3, 4, 5, 6, 7, 8))
             # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
             left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
+            b = max(abs(float(arb(x).mid())) for x in values[3:6])
+            weak = min(max(round(-2 * np.log2(b)), 0), WEAK)  # constants bend on the scale of a weak field
             for place in set(places) - left:
-                found[place] = _slopes(here, _tables(_moved(values, place, motion.rate, kernel.made_of[0]), box, peak))
+                step = STEP + weak * (place in (3, 4, 5))
+                moved = _moved(values, place, step, motion.rate, kernel.made_of[0])
+                found[place] = _slopes(here, _tables(moved, box, peak), step)
             by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
             by_rates.append(-frame * np.repeat([0, 1], [6, 3]))
             for place in left:
@@ -114,6 +124,8 @@ class TorusVaried:
         D = S[3]
         changed = np.array(own).reshape(inputs, 10, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
         values = S / D
+        sizes = (abs(changed) + abs(values * changed[:, 3:4])) / abs(D)
+        sizes = np.stack([sizes[:, :3].max(1), sizes[:, 4:7].max(1)], 1)
         changed = (changed - values * changed[:, 3:4]) / D
         N, K = values[:3] * turn, values[4:7].real
         dN = changed[:, :3] * turn + N * d_turn[:, None]
@@ -123,12 +135,16 @@ class TorusVaried:
         dR = np.einsum("pka,kbm->pmab", self.d_frame, rows) + np.einsum("ka,pkbm->pmab", self.frame, d_rows)
         turned = dR @ R.swapaxes(-1, -2)
         v = np.stack([turned[..., 2, 1], turned[..., 0, 2], turned[..., 1, 0]], -1)
+        terms = abs(self.d_frame).max(2) @ abs(rows).max(1)
+        terms += np.tensordot(sizes[:, [0, 0, 1]], abs(self.frame).max(1), (1, 0))
+        if not (ROUNDING * terms <= BOUND * (1 + abs(v).max(2))).all():
+            raise DomainError("The field is too weak beside the angular velocity for derivatives in it in floats.")
         return v, np.matvec(R, (dW - dK).swapaxes(1, 2)) * self.kernel.rate
 
 
-def _moved(values: Sequence[fmpq], place: int, rate: fmpq, here: ThetaMotion) -> Constants:
+def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
     """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
-    moved = [x + fmpq(1, 2**STEP) if i == place else x for i, x in enumerate(values)]
+    moved = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
     K, omega = moved[3:6], moved[6:]
     torus = Torus(tuple(moved[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
     try:
@@ -171,14 +187,14 @@ def _tables(found: Constants, box: Sequence[tuple[int, int]], peak: int) -> list
     return [weights, *([x for row in kind for x in row] for kind in (found.ways, [found.frequencies], found.frame))]
 
 
-def _slopes(here: list[list[Any]], there: list[list[Any]]) -> list[Array]:
+def _slopes(here: list[list[Any]], there: list[list[Any]], step: int) -> list[Array]:
     """Return the derivatives of constants, whose changes are small beside the largest of their kind."""
     found: list[Array] = []
     for first, second in zip(here, there, strict=True):
         change = np.array([complex_of(acb(y - x)) for x, y in zip(first, second, strict=True)], dtype=complex)
         if not abs(change).max() <= NEAR * max(abs(complex_of(acb(x))) for x in first):
             raise _other_form()
-        found.append(np.asarray(change * 2.0**STEP, dtype=np.complex128))
+        found.append(np.asarray(change * 2.0**step, dtype=np.complex128))
     return found
 
 

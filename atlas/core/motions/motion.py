@@ -162,9 +162,10 @@ class Motion(Shown, Generic[Single]):
 
         Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of derivatives of frequencies. A border
         between kinds, such as a ball or a steady precession, is no exception; next to one, where terms would cancel,
-        each time is made by itself, in some milliseconds. Of a body with three moments the
-        constants of theta functions are differentiated, in some seconds. Raises DomainError on a separatrix, from which
-        neighbours depart for good, and for three moments where there are no theta functions or they change their form
+        each time is made by itself, in some milliseconds. Of a body with three moments the constants of theta functions
+        are differentiated, in some seconds; in a field below a thousandth of the angular velocity errors of derivatives
+        in it grow, and above 1e-9 they are refused. Raises DomainError on a separatrix, from which neighbours depart
+        for good, and for three moments where there are no theta functions or they change their form
         next to the motion; AtlasError for another name and for times as `rotation` does.
         """
         from atlas.core.motions.sensitivity import of as derivatives

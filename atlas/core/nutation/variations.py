@@ -209,7 +209,7 @@ class Weighted:
         for i in levels:
             found[i] += self._sum(ways, derivatives, i, slice(2, None))
         if pair.swing:
-            change = self.names @ pair.swing.change(s, count)
+            change = pair.swing.change(self.names, s, count)
             for i in levels:
                 found[i] += axis[i][:, None] * change
             if slopes:
@@ -263,59 +263,62 @@ class Swing:
     def __init__(self, value: Tables, slopes: Sequence[Tables], pair: Pair) -> None:
         self.pair, self.A = pair, float(value["A"][0].mid())
         self.kappa, self.twist = (_double(value[x]).real[0] for x in ("swing", "twist"))
-        self.kappas, self.twists, self.constant = (
-            _doubles(slopes, x).real[:, 0] for x in ("swing", "twist", "swing rate")
+        kappas, twists, constants, As, rates = (
+            _doubles(slopes, x).real[:, 0] for x in ("swing", "twist", "swing rate", "A", "slopes")
         )
-        self.As = _doubles(slopes, "A").real[:, 0]
-        self.rates = _doubles(slopes, "slopes").real[:, 0]
-        names = ("sum 2", "sum 3")
-        self.sums = [_double(value[x]).reshape(-1, 2).real for x in names]
-        self.changes = [_doubles(slopes, x).reshape(len(slopes), -1, 2).real for x in names]
-        zero = np.zeros(1)
-        at_start = self._terms(zero + pair.origin)
-        self.start = at_start[0] + pair.origins[:, None] * at_start[1]
+        self.sums = [_double(value[x]).reshape(-1, 2).real for x in ("sum 2", "sum 3")]
+        self.changes = [_doubles(slopes, x).real for x in ("sum 2", "sum 3")]
+        self.spins = np.stack([kappas, -constants], -1)
+        self.columns = np.stack([kappas, twists, As, rates, pair.origins, -pair.cells, np.zeros(len(As))], -1)
+        start, zero = np.array([pair.origin]), np.zeros(1)
+        self.columns[:, 6] = -self.change(np.eye(len(As)), start, zero)[:, 0]
 
-    def _terms(self, s: FloatArray) -> tuple[Array, Array]:
-        """Return the derivatives of the angle at a fixed place, (P, m), and its slope by s."""
-        parts, bys, changes = [], [], []
-        for i, (both, change) in enumerate(zip(self.sums, self.changes, strict=True)):
+    def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
+        """Return the derivatives of the angle in combinations of inputs, but for what grows with time, (N, m)."""
+        parts, bys, functions = [], [], []
+        for i, both in enumerate(self.sums):
             doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
             k = np.arange(len(both), dtype=float) * 2 + (not doubled)
             f = self.pair.functions(s, doubled, len(both))
             if hyperbolic:
                 up, down = f[::2], f[1::2]
                 f = np.stack([(up - down) / 2, (up + down) / 2], 1).reshape(f.shape)
-            turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1).ravel() @ f
+            turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1)
+            functions.append(f)
             parts.append(both.ravel() @ f)
-            bys.append(self.pair.rate * turned)
-            changes.append(change.reshape(len(change), -1) @ f + self.rates[:, None] * s * turned)
-        (o, e), (o_s, e_s), (o_p, e_p), A = parts, bys, changes, self.A
-        square = e * e - A * o * o
-        size = np.sqrt(abs(A))
+            bys.append(turned.ravel() @ f)
+        (o, e), (o_s, e_s) = parts, bys
+        by_s = 2 * self.kappa * (o_s * e - o * e_s) / (e * e - self.A * o * o)
+        slope = self.kappa * self.twist + self.pair.rate * by_s
+        bent, by_A = self._bent(o, e)
+        basis = np.array([
+            self.twist * s + bent, self.kappa * s, self.kappa * by_A, s * by_s, slope, count * slope, np.ones(s.size)
+        ])  # fmt: skip
+        found = (names @ self.columns) @ basis
+        weight = 2 * self.kappa / (e * e - self.A * o * o)
+        for change, f, other in zip(self.changes, functions, (e, -o), strict=True):
+            found += (names @ change) @ (f * (weight * other))
+        return np.asarray(found)
+
+    def _bent(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return 2 at(sqrt(|A|) o/e)/sqrt(|A|), and its derivative in A."""
+        A, size = self.A, np.sqrt(abs(self.A))
         bent = 2 * o / e
         if A:
             bent = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
-        by_A = (o * e / square - bent / 2) / A if A else 2 * (o / e) ** 3 / 3
+        by_A = (o * e / (e * e - A * o * o) - bent / 2) / A if A else 2 * (o / e) ** 3 / 3
         near = abs(A) * o * o < SMALL * e * e
         u = o[near] / e[near]
-        square_of, series = A * u * u, np.zeros(u.size)
+        square, series = A * u * u, np.zeros(u.size)
         for n in range(SERIES, 0, -1):
-            series = series * square_of + 2 * n / (2 * n + 1)
+            series = series * square + 2 * n / (2 * n + 1)
         by_A[near] = series * u**3
-        part = 2 * (o_p * e - o * e_p) / square + self.As[:, None] * by_A
-        whole = self.kappas[:, None] * (self.twist * s + bent) + self.kappa * (self.twists[:, None] * s + part)
-        return whole, self.kappa * (self.twist + 2 * (o_s * e - o * e_s) / square)
+        return bent, by_A
 
     def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
         """Return the rates of the derivatives of the angle, kappa nu, but for those that are constant."""
-        varied = names @ np.stack([self.kappas, -self.constant], -1)
+        varied = names @ self.spins
         return np.asarray(varied[:, :1] * nu + varied[:, 1:] + self.kappa * changes)
-
-    def change(self, s: FloatArray, count: FloatArray) -> Array:
-        """Return the derivatives of the angle, but for what grows with time."""
-        p = self.pair
-        fixed, slope = self._terms(s)
-        return np.asarray(fixed + (p.origins[:, None] - count * p.cells[:, None]) * slope - self.start)
 
 
 def _double(row: Sequence[Any]) -> Array:
