@@ -105,7 +105,11 @@ any_body_options: Callable[[F], F] = stack(
 )
 """Body and field where the three moments may differ."""
 tensor_option: Callable[[F], F] = click.option(
-    "--tensor", type=REAL, nargs=6, metavar="I11 I22 I33 I12 I13 I23", help="Inertia tensor in any axes of the body."
+    "--tensor",
+    type=REAL,
+    nargs=6,
+    metavar="I11 I22 I33 I12 I13 I23",
+    help="Inertia tensor in any axes of the body; I12 is -sum m x y, as it stands in the matrix.",
 )
 curve_option: Callable[[F], F] = click.option(
     "--curve", is_flag=True, help="The spectral curve of a motion on a torus, its branch points, periods and so on."

@@ -213,8 +213,10 @@ def _shown_otherwise(
     if uncertain(options):
         _with_sigma(family, described, options, parameters, times)
         return True
-    along_own = body.given_tensor(options) is None and options.get("attitude") is None
-    if family.name != "asymmetric" or (along_own and (options["digits"] is not None or options["decimal"])):
+    if family.name != "asymmetric":
+        return False
+    along_own = body.given_tensor(options) is None and options["attitude"] is None
+    if along_own and (options["digits"] is not None or options["decimal"]):
         return False
     made = motion_in_given_axes(options)
     if made is not None:
@@ -257,7 +259,8 @@ def _with_sigma(
         if given is not options:  # a proof that is a sentence is said once
             of = replace(of, quantities=tuple(q for q in of.quantities if q.tabled or not q.slow))
         found |= _quantities(of, made, times, columns, exact=False)
-        return found | ({"larmor": hypot(*body.chosen_field(given))} if given.get("magnetic") is not None else {})
+        larmor = in_field(family) and given["magnetic"] is not None
+        return found | ({"larmor": hypot(*body.chosen_field(given))} if larmor else {})
 
     found = spread(answered, options)
     if options["as_json"]:
@@ -585,7 +588,7 @@ def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
         return top_units(options)
     if any(p.name == "c" for p in family.parameters):
         return UNITS[body.system_of(options)]
-    return body.units_of(options) if in_field(family) else {}
+    return body.units_of(options)
 
 
 def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterator[Line]:

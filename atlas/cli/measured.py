@@ -23,8 +23,8 @@ ANGLES = {"turn": 2 * math.pi, "degree": math.pi / 180}
 RATE = "rad/s"
 WANTED = dict.fromkeys(("field", "omega", "omega2", "omega3", "spin", "larmor"), RATE) | {
     "radius": "m", "height": "m", "equatorial": "m", "polar": "m", "position": "m", "velocity": "m/s", "mass": "kg",
-    "charge": "C", "mu": "C/kg", "magnetic": "T", "B": "T", "E": "V/m", "times": "s", "inertia": "kg m2",
-    "tensor": "kg m2", "density": "kg/m3", "angle": "rad",
+    "charge": "C", "mu": "C/kg", "magnetic": "T", "electric": "V/m", "momentum": "kg m2/s", "times": "s",
+    "inertia": "kg m2", "tensor": "kg m2", "density": "kg/m3", "angle": "rad",
 }  # fmt: skip
 """The unit of SI in which an option is, by its name."""
 

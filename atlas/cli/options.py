@@ -242,7 +242,7 @@ def _inclined(args: list[str], ctx: click.Context) -> tuple[list[str], str, Incl
     angle, size = (REAL.convert(word, click.Option([name]), ctx) for name, word in sides)
     whole = UNCERTAIN.fullmatch(following[0])
     number, unit = split(text := whole[1] + whole[5] if whole else following[0]) or (text, "")
-    parts = [f"{float(Typed(number)) * x!r}{unit}" for x in (math.sin(angle), math.cos(angle))]
+    parts = [f"{float(Typed(number)) * x:.15g}{unit}" for x in (math.sin(angle), math.cos(angle))]
     return [*args[:strength], *parts, *args[strength + 1 :]], option, Inclined((size, angle))
 
 

@@ -71,6 +71,16 @@ def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
     assert found["sigma"]["larmor"] == pytest.approx(0.05)
 
 
+def test_families_with_fields_of_their_own_carry_theirs() -> None:
+    """A particle's omega = e B/m and a ball's gamma = |m|/I have the relative deviation of what they are made of."""
+    found = numbers("particle --mass 1u --charge 1e --electric 0 0.5V/m 0 --magnetic 0 0 1.0(1)T --velocity 1km/s 0 0")
+    assert found["sigma"]["cyclotron_frequency"] / found["cyclotron_frequency"] == pytest.approx(0.1)
+    found = numbers("ball --inertia 2.0(1) --larmor 0.5 --momentum 0.3 -0.7")
+    assert found["sigma"]["gamma"] / found["gamma"] == pytest.approx(0.05, rel=1e-2)
+    words = "top --inertia 1 0.5 --magnetic 1 2 --charged 0.1(0.01) 0.2 --omega 1 2 3"
+    assert numbers(words)["sigma"]["period"] > 0
+
+
 def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
     """At its largest value the angle of the quadric does not depend on the ratio to first order: that is said."""
     status, out = run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")

@@ -36,10 +36,11 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned
 
     `inertia` is a ratio I3/I2 or a SymmetricBody, or an array of them, with its axis along e3 or as its `axes` say;
     three principal moments (I1, I2, I3) along the axes of the body; or a tensor (3, 3) in these axes, whose principal
-    axes are found; arrays of tensors (..., 3, 3). `field` (..., 3) is the vector B' = mu B/(2c) in the laboratory, or a
-    `Field`; `omega` (..., 3) the angular velocity at t = 0 along the axes of the body; both in one unit 1/time. For
-    arrays of moments, and of components, give tuples of three arrays. `attitude` (..., 3, 3), or a Rotation of SciPy's,
-    is R(0), with the axes of the body as columns; the unit matrix otherwise. All broadcast.
+    axes are found, with -sum m x y and so on beside its diagonal; arrays of tensors (..., 3, 3). `field` (..., 3) is
+    the vector B' = mu B/(2c) in the laboratory, or a `Field`; `omega` (..., 3) the angular velocity at t = 0 along the
+    axes of the body; both in one unit 1/time. For arrays of moments, and of components, give tuples of three arrays.
+    `attitude` (..., 3, 3), or a Rotation of SciPy's, is R(0), with the axes of the body as columns; the unit matrix
+    otherwise. All broadcast.
 
     The result is a motion of the class that fits, as `family` says: "free" or "elementary", "ball" or "general" for a
     body with two equal moments, "asymmetric" for any other. `rotation`, `quaternion`, `column` and `rotation_grid` are
