@@ -72,11 +72,11 @@ def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
 
 
 def test_families_with_fields_of_their_own_carry_theirs() -> None:
-    """A particle's omega = e B/m and a ball's gamma = |m|/I have the relative deviation of what they are made of."""
+    """A particle's e B/m has that of B, a ball's gamma = |(0, m2, m3 + larmor)| of its Larmor frequency, (29)."""
     found = numbers("particle --mass 1u --charge 1e --electric 0 0.5V/m 0 --magnetic 0 0 1.0(1)T --velocity 1km/s 0 0")
     assert found["sigma"]["cyclotron_frequency"] / found["cyclotron_frequency"] == pytest.approx(0.1)
-    found = numbers("ball --inertia 2.0(1) --larmor 0.5 --momentum 0.3 -0.7")
-    assert found["sigma"]["gamma"] / found["gamma"] == pytest.approx(0.05, rel=1e-2)
+    found = numbers("ball --larmor 0.50(1) --momentum 0.3 -0.7")
+    assert found["sigma"]["gamma"] == pytest.approx(0.01 * 0.2 / math.hypot(0.3, 0.2), rel=1e-2)
     words = "top --inertia 1 0.5 --magnetic 1 2 --charged 0.1(0.01) 0.2 --omega 1 2 3"
     assert numbers(words)["sigma"]["period"] > 0
 
