@@ -192,10 +192,10 @@ def test_what_turns_fills_the_picture(server: Explorer, name: str, places: list[
 
 def test_a_motion_is_made_once(server: Explorer) -> None:
     """Picture and numbers share it, and so does the next moment while it plays; another motion is made anew."""
-    before = subjects._made.cache_info().misses
+    before = subjects._instance.cache_info().misses
     for t in (0.0, 0.1, 0.2):
         own(server, "state", subject="general", ratio=1.25, t=t)
-    assert subjects._made.cache_info().misses == before + 1
+    assert subjects._instance.cache_info().misses == before + 1
     ratios = [own(server, "state", subject="general", ratio=ratio)["numbers"][0] for ratio in (1.25, 0.75)]
     assert ratios[0] != ratios[1]
 
