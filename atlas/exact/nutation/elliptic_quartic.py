@@ -8,9 +8,12 @@ other two components are affine in that of K_a, and with u = -K_a, (b, c, a) a c
 v^2 = prod(z + D/I_i) is rational with the inputs, and so is Q: which case it is, is known exactly.
 """
 
-from flint import fmpq, fmpq_poly
+from itertools import combinations
 
-from atlas.exact.nutation.quartic import Quartic, Vector
+from flint import acb, arb, ctx, fmpq, fmpq_poly
+
+from atlas.exact.nutation.quartic import Quartic, Root, Vector
+from atlas.formulas.numbers import root, workprec
 
 
 class EllipticQuartic(Quartic):
@@ -20,7 +23,7 @@ class EllipticQuartic(Quartic):
     """
 
     def __init__(self, e: Vector, K: Vector, square: fmpq, sign: int) -> None:
-        self.K = K
+        self.K, self._e = K, e
         self.N = sum((x * x for x in K), fmpq(0))
         self.h = sum((c * x * x for c, x in zip(e, K, strict=True)), fmpq(0))
         first = fmpq_poly([e[1] * self.N - self.h, 0, e[2] - e[1]])
@@ -34,6 +37,26 @@ class EllipticQuartic(Quartic):
     def leading(self) -> fmpq:
         """Leading coefficient of Q."""
         return self.polynomial[4]
+
+    def _isolated(self) -> list[Root]:
+        """Isolate the roots: of a quadratic in u^2."""
+        (first, second, last), h, N = self._e, self.h, self.N
+        if last in (first, second):
+            return super()._isolated()
+        squares = [(h - c * N) / (last - c) for c in (first, second)]
+        counts = {x: squares.count(x) * (1 if x else 2) for x in squares}
+        precision = ctx.prec
+        while True:
+            precision *= 2
+            with workprec(precision):
+                sizes = {x: arb(root(abs(x))) for x in counts}
+                found = [
+                    Root(acb(sign * size) if x >= 0 else acb(0, sign * size), counts[x])
+                    for x, size in sizes.items() for sign in ((-1, 1) if x != 0 else (1,))
+                ]  # fmt: skip
+            if not any(x.value.overlaps(y.value) for x, y in combinations(found, 2)):
+                real = sorted((x for x in found if x.is_real), key=lambda x: x.value.real.mid())
+                return real + [x for x in found if not x.is_real]
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of the torque, one and the same at both poles."""
