@@ -21,6 +21,10 @@ def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
 
 _CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 _SIGN = re.compile(r"([!-/:-@\[-_{-~])")
+_ONCE = re.compile(
+    r"\s*Raises AtlasError for a time that is not finite or whose phases exceed 2\^50\.".replace(" ", r"\s+")
+)
+"""What a page with the reference says once, of all that takes a time."""
 
 
 class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
@@ -57,7 +61,7 @@ def view_reference(block: Reference, composer: Composer) -> ReferenceView:
 
     def described(name: str, one: Described) -> DescribedView:
         members = tuple(described(inner, what) for inner, what in one.members.items())
-        return DescribedView(name, one.arguments, composer.text(markdown(one.docstring)), members)
+        return DescribedView(name, one.arguments, composer.text(markdown(_ONCE.sub("", one.docstring))), members)
 
     for name in block.names:
         if name not in known:
