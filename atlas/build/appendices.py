@@ -1,8 +1,9 @@
-"""The records that a report shows: verdicts of the trial, the benchmark, the worst errors of the stress runs.
+"""The records that a report shows: verdicts of the trial, the benchmark, worst errors, systems that were tried.
 
-They are read, never made anew: `make verify`, `make bench` and `make stress` make them.
+They are read, never made anew: `make verify`, `make bench`, `make stress` and `tests/machines` make them.
 """
 
+import csv
 import inspect
 import json
 import math
@@ -41,7 +42,7 @@ def gather(report: Report) -> Appendices:
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     wanted = {block.source for block in blocks if isinstance(block, Recorded)}
     tables: dict[str, Data] = {}
-    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress}.items():
+    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "machines": _machines}.items():
         if source in wanted:
             tables |= {f"{source}: {name}": data for name, data in read().items()}
     names = described() if any(isinstance(block, Reference) for block in blocks) else {}
@@ -167,6 +168,14 @@ def _stress() -> dict[str, Data]:
     )
     columns = heads("Quantity", ("Worst error", "ulp"), ("Limit", "ulp"), "Met where")
     return {"worst errors": Data(columns, tuple(rows), "Worst errors on record.", (note,))}
+
+
+def _machines() -> dict[str, Data]:
+    """Return on which systems a fresh checkout was tried, as which user, and how it went."""
+    with (folder("reports") / "data" / "machines.csv").open(encoding="utf-8", newline="") as file:
+        _, *rows = csv.reader(file)
+    columns = heads("System", "Python", "User", "GL", "Set-up", "`make report`", "`make test`", "Works", "Tried")
+    return {"systems": Data(columns, tuple(map(tuple, rows)), "Systems on which a fresh checkout was tried.", ())}
 
 
 def title(name: str) -> str:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import ctx, fmpq
+from flint import ctx, fmpq, fmpz
 from oracles.taylor import taylor
 
 import atlas
@@ -63,6 +63,18 @@ def test_errors_that_grow_too_far_are_said() -> None:
     """In steps of few bits errors beyond a fourth of the bits have no bound; nor have steps that are too many."""
     with pytest.raises(NotCertifiedError, match="grow beyond their bounds"):
         flow("quick").go(fmpq(1), fmpq(0), 60)
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 50])
+def test_products_of_series_in_blocks_are_the_sums(count: int) -> None:
+    """To the last digit, and none is asked of coefficients that are not there yet."""
+    given = np.random.default_rng(3).integers(-(2**40), 2**40, (14, count)).tolist()
+    rows: list[list[int]] = [[fmpz(x)] for x, *_ in given]
+    for n, c in enumerate(clebsch_flow._products(rows, count, 4)):
+        pairs = [(rows[x], rows[y][::-1]) for x, y in clebsch_flow.PRODUCTS]
+        assert c == [sum((a * b for a, b in zip(*pair, strict=True)), fmpz(0)) for pair in pairs]
+        for row, coefficients in zip(rows, given, strict=True):
+            row.extend(map(fmpz, coefficients[n + 1 : n + 2]))
 
 
 def test_a_way_of_too_many_steps_is_not_gone(monkeypatch: pytest.MonkeyPatch) -> None:

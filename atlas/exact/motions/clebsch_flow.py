@@ -14,8 +14,9 @@ J the derivative of the step's flow, known to some ten digits, so that w hardly 
 half the errors of V, and its own.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from math import exp, isfinite, sqrt
 from operator import mul
 
@@ -53,6 +54,9 @@ SMALL = 8
 
 STIFF = 8.0
 """Largest Lipschitz constant of the right-hand side times a step: TERMS give its derivative, and errors little room."""
+
+BLOCK = 16
+"""Coefficients of a block that are summed one by one."""
 
 CYCLE = ((1, 2), (2, 0), (0, 1))
 
@@ -159,9 +163,7 @@ class _Way:
         b = self.bits
         V, first, second = self._scaled_rates(h)
         rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
-        for n in range(self.order):
-            back = [row[::-1] for row in rows]
-            c = [sum(map(mul, rows[x], back[y])) for x, y in PRODUCTS]
+        for n, c in enumerate(_products(rows, self.order, BLOCK if b >= LARGE else self.order)):
             for i in range(3):
                 rows[i].append((first[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
                 rows[3 + i].append((c[6 + i] - c[9 + i]) // ((n + 1) << b))
@@ -234,6 +236,40 @@ class _Way:
         errors = [error * self.proven] * 6 + [self.q_error * 1.01 * self.proven] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
         return Arrival(balls[:3], balls[3:6], balls[6:])
+
+
+def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
+    """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, each of which may ask for the last ones of the rows.
+
+    What coefficients in the first half of a block add to those in its second half is one product of polynomials, of
+    blocks longer than ``least``.
+    """
+    size = least
+    while size < count:
+        size *= 2
+    sums = [[0] * size for _ in PRODUCTS]
+
+    def block(first: int, last: int) -> Iterator[list[int]]:
+        if last - first <= least:
+            for n in range(first, last):
+                back = [row[n - first :: -1] for row in rows]
+                for total, (x, y) in zip(sums, PRODUCTS, strict=True):
+                    total[n] += sum(map(mul, rows[x][first:], back[y]))
+                    if first:
+                        total[n] += sum(map(mul, rows[y][first:], back[x]))
+                yield [total[n] for total in sums]
+            return
+        middle = (first + last) // 2
+        yield from block(first, middle)
+        part = [fmpz_poly(row[first:middle]) for row in rows]
+        other = [fmpz_poly(row[: last - first]) for row in rows] if first else part
+        for total, (x, y) in zip(sums, PRODUCTS, strict=True):
+            found = part[x] * other[y] + (part[y] * other[x] if first else 0)
+            for n in range(middle, last):
+                total[n] += found[n - first]
+        yield from block(middle, last)
+
+    yield from islice(block(0, size), count)
 
 
 def _jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:

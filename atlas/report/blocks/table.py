@@ -23,6 +23,7 @@ COMMANDS = {
     "trial": "atlas verify --record",
     "bench": "make bench",
     "stress": "make stress",
+    "machines": "sudo tests/machines",
 }
 """The commands that make the recorded results."""
 
@@ -53,7 +54,7 @@ class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
 class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
     """A table of recorded results, by its name there."""
 
-    source: Literal["trial", "bench", "stress"]
+    source: Literal["trial", "bench", "stress", "machines"]
     table: str
     id: Id | None = None
     caption: str | None = None
