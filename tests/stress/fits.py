@@ -31,13 +31,23 @@ def made(
     even: bool = False, known: bool = True, outliers: float = 0.0, family: str = "general", spin: float = 1.5,
 ) -> Made:  # fmt: skip
     """Return a measurement of a random motion."""
-    ratio = 1.0 if family == "ball" else rng.uniform(0.4, 1.8)
+    I1, I3 = _moments(rng, family)
     B = np.zeros(3) if family == "free" else rng.normal(size=3)
     w, A = rng.normal(size=3) * spin, Rotation.random(random_state=rng)
     t = np.linspace(0, span, count) if even else np.sort(rng.uniform(0, span, count))
-    steps = atlas.simulate(ratio, A.inv().apply(B), w, t, rtol=1e-11)
-    R = A.as_matrix() @ steps.R
-    values = {"axis": R[:, :, 2], "angular_velocity": steps.Omega, "field_in_body": np.vecmat(B, R)}.get(kind, R)
+    truth = {"ratio": I3, "I1": I1, "I3": I3, "b": float(np.linalg.norm(B))}
+    if family == "elementary":
+        K = A.inv().apply(B)
+        across, w2 = float(np.hypot(K[0], K[1])), float(rng.normal() * spin)
+        w = np.array([*(w2 * K[:2] / across), atlas.ElementaryMotion(I3, (across, K[2]), w2).omega3])
+    if family == "top":
+        B, pull = np.array([0.0, 0.0, 1.0]), float(rng.normal())
+        truth |= {"linear": pull, "k2": 0.0, "k3": 0.0, "quadratic": 0.0}
+        R, Omega = _heavy(I3, pull, A.as_matrix(), w, t)
+    else:
+        steps = atlas.simulate((I1, 1.0, I3), A.inv().apply(B), w, t, rtol=1e-11)
+        R, Omega = A.as_matrix() @ steps.R, steps.Omega
+    values = {"axis": R[:, :, 2], "angular_velocity": Omega, "field_in_body": np.vecmat(B, R)}.get(kind, R)
     if kind in ("rotation", "quaternion"):
         turns = rng.normal(0, noise, (count, 3))
         turns[rng.random(count) < outliers] = rng.normal(size=3)
@@ -45,34 +55,65 @@ def made(
         values = Rotation.from_matrix(values).as_quat() if kind == "quaternion" else values
     else:
         values = values + rng.normal(0, noise, values.shape)
-    truth = {"ratio": ratio, "b": float(np.linalg.norm(B))}
     truth |= {
         f"{x}{i}": float(v) for x, y in (("B", B), ("omega", w), ("a", A.as_rotvec())) for i, v in enumerate(y, 1)
     }
+    if family == "elementary":
+        truth["omega2"] = w2
     if kind in ("angular_velocity", "field_in_body"):
         truth |= {f"B{i}": float(v) for i, v in enumerate(A.inv().apply(B), 1)}
+        truth = {name: value for name, value in truth.items() if name[0] != "a"}
     if kind == "axis":  # omega1 and omega2 are along axes of a convention
         truth = {name: truth[name] for name in ("ratio", "b", "B1", "B2", "B3", "omega3")}
     options: dict[str, Any] = {"sigma": noise if known else None, "family": family}
+    if family == "elementary":  # which does not tell it from the field
+        options["params"] = {"ratio": {"value": I3, "vary": False}}
+    if family == "top":
+        options["params"] = {name: {"value": 0.0, "vary": False} for name in ("k2", "k3", "quadratic")}
     return Made(t, {kind: values, **options, **({"loss": "soft_l1"} if outliers else {})}, truth)
 
 
+def _moments(rng: np.random.Generator, family: str) -> tuple[float, float]:
+    """Return I1 and I3 of a random body, three of them not nearly equal."""
+    if family != "asymmetric":
+        return 1.0, 1.0 if family == "ball" else float(rng.uniform(0.4, 1.8))
+    I1, I3 = 1.0, 1.0
+    while min(abs(I1 - 1), abs(I3 - 1), abs(I3 - I1), I1 + I3 - 1, 1 - abs(I1 - I3)) < 0.1:
+        I1, I3 = np.exp(rng.uniform(-0.7, 0.7, 2))
+    return float(I1), float(I3)
+
+
+def _heavy(I3: float, pull: float, A: Any, omega: Any, t: Any) -> tuple[Any, Any]:
+    """Return R and Omega of Lagrange's top, I Omega' = I Omega x Omega + pull b x e3, by SciPy."""
+    from scipy.integrate import solve_ivp
+
+    def rates(_: float, y: Any) -> Any:
+        R, w = y[:9].reshape(3, 3), y[9:]
+        I = np.array([1.0, 1.0, I3])
+        torque = np.cross(I * w, w) + pull * np.cross(R[2], [0.0, 0.0, 1.0])
+        return np.concatenate([np.cross(R, w).ravel(), torque / I])
+
+    start = np.concatenate([A.ravel(), omega])
+    y = solve_ivp(rates, (0.0, t[-1]), start, "DOP853", t, rtol=1e-11, atol=1e-12).y.T
+    return y[:, :9].reshape(-1, 3, 3), y[:, 9:]
+
+
 KINDS: dict[str, Callable[[np.random.Generator], Made]] = {
-    "attitudes": made,
-    "attitudes, evenly": lambda rng: made(rng, even=True),
-    "attitudes, dense": lambda rng: made(rng, even=True, span=20.0),
-    "attitudes, noise 0.1": lambda rng: made(rng, noise=0.1),
-    "attitudes, 60 times": lambda rng: made(rng, count=60, span=25.0),
-    "attitudes, 1e-4": lambda rng: made(rng, noise=1e-4),
-    "attitudes, sigma unknown": lambda rng: made(rng, known=False),
-    "attitudes, outliers 5 %": lambda rng: made(rng, outliers=0.05),
-    "attitudes, long": lambda rng: made(rng, count=1500, span=600.0),
-    "quaternions": lambda rng: made(rng, kind="quaternion", span=60.0),
-    "axes": lambda rng: made(rng, kind="axis", count=600, span=120.0),
-    "angular velocities": lambda rng: made(rng, kind="angular_velocity", span=100.0),
-    "fields in the body": lambda rng: made(rng, kind="field_in_body", span=100.0),
-    "balls": lambda rng: made(rng, family="ball"),
-    "free bodies": lambda rng: made(rng, family="free"),
+    "general, attitudes": made,
+    "general, noise 0.1": lambda rng: made(rng, noise=0.1),
+    "general, 60 times": lambda rng: made(rng, count=60, span=25.0),
+    "general, sigma unknown": lambda rng: made(rng, even=True, known=False),
+    "general, outliers 5 %": lambda rng: made(rng, outliers=0.05),
+    "general, axes": lambda rng: made(rng, kind="axis", span=120.0),
+    "general, rates": lambda rng: made(rng, kind="angular_velocity", span=100.0),
+    "general, fields": lambda rng: made(rng, kind="field_in_body", span=100.0),
+    "ball, attitudes": lambda rng: made(rng, family="ball"),
+    "free, attitudes": lambda rng: made(rng, family="free"),
+    "top, attitudes": lambda rng: made(rng, family="top"),
+    "top, rates": lambda rng: made(rng, kind="angular_velocity", family="top", span=100.0),
+    "asymmetric, attitudes": lambda rng: made(rng, family="asymmetric", span=100.0),
+    "asymmetric, rates": lambda rng: made(rng, kind="angular_velocity", family="asymmetric", span=100.0),
+    "elementary, attitudes": lambda rng: made(rng, family="elementary"),
 }
 """Kinds of measurements."""
 

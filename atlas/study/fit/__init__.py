@@ -8,17 +8,20 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.study.fit.data import Data, of_arrays
-from atlas.study.fit.models import OMEGA, B, Model, attitude, in_plane, model_of, unseen, vector
-from atlas.study.fit.problem import FULL, Problem, lag
-from atlas.study.fit.result import Fit
-from atlas.study.fit.start import rate_of, starts
+from atlas.study.fit.models import OMEGA, B, Model, attitude, carried, in_plane, model_of, unseen, vector
+from atlas.study.fit.problem import Problem, lag
+from atlas.study.fit.result import FOLLOWED, Fit
+from atlas.study.fit.search import grown, rate_of, tries
 
 __all__ = ["Fit", "fit"]
 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
-FOLLOWED = 0.2
-"""Part of the spread of the data within which a motion follows them."""
+SURE = 4.0
+"""Standard deviations of chi square, or of a correlation of residuals, within which a motion is the one."""
+
+ROBUST = 1.5
+"""Reduced chi square, from the median, up to which a motion with outliers is the one."""
 
 GUESS = 0.02
 """Noise of which a robust loss takes the start, in parts of the spread of the data."""
@@ -62,8 +65,10 @@ def fit(
     not seen, and a3 is 0. No start is needed. `params` are `lmfit.Parameters`, or what `lmfit.create_params` takes,
     with values, bounds, expressions or ``vary=False`` for some of them: ``{"ratio": {"value": 1.5, "vary": False}}``.
 
-    For a signal the start is one of random motions, which may miss: its chi square tells. An elliptic motion needs a
-    value of z in `params`. A body with three moments is fitted by differences of motions, which takes minutes.
+    Motions are sought from random starts, always the same ones, on short arcs of the data, which grow. A signal of one
+    number may tell several motions apart by little: `doubts` says where none was found that follows the data, `rivals`
+    holds the other minima, and `params` take values to start from. Bodies with three moments are integrated while they
+    are sought; `motion` and predictions are in closed form.
 
     `loss` "soft_l1", "huber", "cauchy" or "arctan" keeps outliers from carrying the fit off. Raises AtlasError for data
     of another shape, what is no number, no rotation or no parameter, fewer numbers than parameters, and where no motion
@@ -85,22 +90,23 @@ def fit(
         raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
     if loss != "linear" and not data.known:
         data = replace(data, sigma=data.sigma * GUESS * data.spread)
-    named = _parameters(model, data, params)
-    problem = Problem(model, data, named, loss, rate_of(data))
+    named, given_values = _parameters(model, data, params)
+    problem = Problem(model, data, named, loss, rate_of(data), given_values)
     numbers = data.t.size * problem.width
     if numbers <= len(problem.names):
         raise AtlasError(f"{numbers} numbers do not determine {len(problem.names)} parameters: measure more times.")
     tried = _tried(problem)
     if loss != "linear" and not data.known:  # a robust loss needs the noise: once by a guess, once as it was found
         found = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
-        problem = Problem(model, replace(data, sigma=data.sigma * found), named, loss, problem.rate)
+        problem = Problem(model, replace(data, sigma=data.sigma * found), named, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
-    steady = _steady(problem, tried[0]) if model.name == "general" else []
-    return Fit.of(problem, [*steady, *tried], float(epoch), steady=bool(steady))
+    steady = _steady(problem, tried[0]) if model.name == "general" else None
+    best = [steady[0]] if steady else []
+    return Fit.of(problem, [*best, *tried[bool(best) :]], float(epoch), steady=steady[1] if steady else "")
 
 
-def _parameters(model: Model, data: Data, given: Any) -> Any:
-    """Return lmfit's parameters. Raises AtlasError for what is none of the family's."""
+def _parameters(model: Model, data: Data, given: Any) -> tuple[Any, dict[str, float]]:
+    """Return lmfit's parameters, and the values to start from. Raises AtlasError for what is none of the family's."""
     import lmfit
 
     try:
@@ -123,15 +129,17 @@ def _parameters(model: Model, data: Data, given: Any) -> Any:
         )
     if all(name in model.names for name in B) and "b" not in found:
         found.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
-    return found
+    start = {name: float(p.value) for name, p in own.items() if p.vary and not p.expr and np.isfinite(p.value)}
+    return found, start
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
     """Return what starts lead to, the least squares and the values that are varied, the best first."""
     found: list[tuple[float, Any]] = []
-    for values, centre in starts(problem):
+    for centre, there, start, count in tries(problem):
         try:
-            x = problem.grown(values, centre)
+            values = there.values(grown(there, start, count))
+            x = problem.inside(carried(problem.model, problem.data.kind, values, -centre) if centre else values)
             found.append((problem.chi_square(x), x))
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so
@@ -145,38 +153,42 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
 def _good(problem: Problem, x: Any) -> bool:
     """Return whether the data are followed, up to noise."""
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
-    attitudes = problem.data.kind == "rotation"
-    if problem.data.known and problem.reduced(r) < 1 + (4 if attitudes else 1) * np.sqrt(2 / (r.size - len(x))):
-        return True
-    if not attitudes:  # other data have false minima nearly as deep: all starts are followed
-        return False
+    if problem.data.known:
+        return problem.reduced(r) < (1 + SURE * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST)
     small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
-    return bool(small and abs(lag(problem.data.t, r)) < 4 / np.sqrt(r.size))
+    return bool(small and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))
 
 
-def _steady(problem: Problem, best: tuple[float, Any]) -> list[tuple[float, Any]]:
-    """Return the elementary motion where the nutation that was found is no more than noise.
+def _steady(problem: Problem, best: tuple[float, Any]) -> tuple[tuple[float, Any], str] | None:
+    """Return the elementary motion where the nutation that was found is no more than noise, and what is said of it.
 
     A line that is sought among N frequencies lowers chi square by some 2 log N, whether or not it is there.
     """
     chi, x = best
     motion, values = problem.motion(x)
     t, size = problem.data.t, problem.residuals(x).size - len(x)
-    scale = chi / size
+    scale = 1.0 if problem.data.known and problem.loss == "linear" else chi / size
     nutation = float((np.asarray(motion.column(3, t)) @ vector(values, B)).std())
     noise = float(np.median(problem.data.sigma)) * np.sqrt(scale / t.size)
     if not values["b"] or nutation > HEIGHT * noise * values["b"]:
-        return []
+        return None
     R = attitude(values)
     start = values | {"omega2": float((in_plane(R.T @ vector(values, B))[1] @ vector(values, OMEGA))[1])}
     model = model_of("elementary")
-    named = _parameters(model, problem.data, {n: p for n, p in problem.params.items() if n in model.names})
+    named, _ = _parameters(model, problem.data, {n: p for n, p in problem.params.items() if n in model.names})
     other = Problem(model, problem.data, named, problem.loss, problem.rate)
     try:
-        found = other.least(other.grown(start, 0.0), slice(None), **FULL)
-        omega = other.motion(found.x)[0].angular_velocity(0.0)
+        found = grown(other, other.inside(start), t.size)
+        omega = other.motion(found)[0].angular_velocity(0.0)
     except AtlasError:
-        return []
-    x = problem.inside({**other.values(found.x), **dict(zip(OMEGA, omega.tolist(), strict=True))})
+        return None
+    x = problem.inside({**other.values(found), **dict(zip(OMEGA, omega.tolist(), strict=True))})
     steady = problem.chi_square(x)
-    return [(steady, x)] if steady - chi < scale * (2 * np.log(t.size) + BEYOND) else []
+    fallen, chance = (steady - chi) / scale, 2 * np.log(t.size)
+    if fallen > chance + BEYOND:
+        return None
+    return (steady, x), (
+        f"No nutation is seen beyond noise: one of {nutation / values['b']:.2g} in the cosine between axis and field "
+        f"lowers chi square by {max(fallen, 0.0):.3g}, as noise does by some {chance:.2g}. The motion is taken for an "
+        "elementary one, with the axis at a constant angle to the field."
+    )

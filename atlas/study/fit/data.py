@@ -32,13 +32,19 @@ LEAST = 5
 STEP = 1e-6
 """Step of differences, in the natural unit of what is changed."""
 
+NO_ROTATION = 1.1
+"""An entry of what an integration lost, in the place of a rotation."""
+
+NEARLY_OPPOSITE = -0.99999
+"""Cosine of an angle below which the axis of a turn is not its skew part."""
+
 NEAR = 0.5
 """How far a measured matrix or vector may be from a rotation, or from length 1."""
 
 
 @dataclass(frozen=True)
 class Data:
-    """Data of one kind at times (N,), sorted away from t = 0, with their standard errors (N, 1)."""
+    """Data of one kind at times (N,), sorted, with their standard errors (N, 1)."""
 
     kind: str
     t: FloatArray
@@ -58,7 +64,7 @@ class Data:
         return 1.0 if self.kind in ("rotation", "axis") else float(self.values.std(0).max()) or 1.0
 
     def of(self, motion: Any, t: FloatArray) -> FloatArray:
-        """Return what would be seen of a motion without noise."""
+        """Return what would be seen of a motion without noise, of an axis all of R; of each motion of a `Flow`."""
         if self.kind == "angular_velocity":
             return np.asarray(motion.angular_velocity(t))
         if self.kind == "field_in_body":
@@ -68,19 +74,22 @@ class Data:
 
     def _signal(self, R: FloatArray) -> FloatArray:
         made: Any = self.function
-        found = real(made(R), "What the function of a signal returns")
-        if found.shape[:1] != R.shape[:1] or found.ndim > 2:
+        flat = R.reshape(-1, 3, 3)
+        lost = ~(abs(flat) < NO_ROTATION).all((1, 2))
+        found = real(made(np.where(lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns")
+        if found.shape[:1] != flat.shape[:1] or found.ndim > 2:
             raise AtlasError(
-                f"The function of a signal takes rotations ({len(R)}, 3, 3) and returns as many numbers, "
+                f"The function of a signal takes rotations ({len(flat)}, 3, 3) and returns as many numbers, "
                 f"not an array {found.shape}."
             )
-        return found.reshape(len(R), -1)
+        found = np.where(lost.reshape(-1, *[1] * (found.ndim - 1)), np.nan, found)
+        return found.reshape(*R.shape[:-2], -1)
 
     def differences(self, motion: Any) -> FloatArray:
         """Return data less motion, (N, k): of rotations three angles, in the laboratory, of axes two, in the body."""
         found = self.of(motion, self.t)
         if self.kind == "rotation":
-            return np.asarray(Rotation.from_matrix(self.values @ found.swapaxes(1, 2)).as_rotvec())
+            return difference(self.values, found)
         if self.kind == "axis":
             x, y, z = np.moveaxis(np.vecmat(self.values, found), -1, 0)
             across = np.hypot(x, y)
@@ -115,6 +124,21 @@ class Data:
             for e in np.eye(3)
         ]
         return np.asarray(np.einsum("ink,npi->nkp", np.stack(by), v))
+
+
+def difference(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Return the rotation vectors, in the laboratory, from other rotations (..., 3, 3) to these."""
+    turn = one @ other.swapaxes(-1, -2)
+    skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
+    sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
+    found = skew * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0))[..., None]
+    for at in np.argwhere(cosine < NEARLY_OPPOSITE):  # the axis is the largest column of what is symmetric
+        i = tuple(at)
+        twice = (turn[i] + turn[i].T) / 2 - cosine[i] * np.eye(3)
+        axis = twice[np.argmax(np.diag(twice))]
+        size = np.copysign(np.linalg.norm(axis), axis @ skew[i])
+        found[i] = axis / size * np.arctan2(sine[i], cosine[i])
+    return np.asarray(found)
 
 
 def _inverse_right(rho: FloatArray) -> FloatArray:

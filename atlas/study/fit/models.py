@@ -15,10 +15,14 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.top import TopMotion
 from atlas.errors import AtlasError
 from atlas.study.fit.data import STEP
+from atlas.study.fit.flow import Flow
 
 Values = Mapping[str, float]
 
 B, OMEGA, ATTITUDE, DIRECTION = (tuple(f"{x}{i}" for i in "123") for x in ("B", "omega", "a", "n"))
+
+IN_BODY = ("angular_velocity", "field_in_body")
+"""Data along the axes of the body, which do not see the laboratory."""
 
 
 def vector(p: Values, names: Sequence[str]) -> FloatArray:
@@ -76,6 +80,35 @@ def _asymmetric(p: Values) -> Any:
     return of_any((p["I1"], 1.0, p["I3"]), vector(p, B), vector(p, OMEGA), attitude(p))
 
 
+def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
+    """Return the motions of parameters (S,), as a body or top to be integrated; without one they are no numbers."""
+    size = max(np.size(x) for x in p.values())
+    one = {name: np.broadcast_to(x, size) for name, x in p.items()}
+
+    def several(names: Sequence[str], none: float = 0.0) -> FloatArray:
+        return np.stack([one.get(name, np.full(size, none)) for name in names], -1)
+
+    A = Rotation.from_rotvec(several(ATTITUDE)).as_matrix()
+    moments = np.ones((size, 3))
+    moments[:, 0], moments[:, 2] = one.get("I1", 1.0), one.get("I3", one.get("ratio", 1.0))
+    coupling, potential, field, omega = moments, np.zeros((size, 2)), several(B), several(OMEGA)
+    K = np.vecmat(field, A)
+    if model.name == "top":
+        coupling, potential = several(("k2", "k2", "k3")), several(("linear", "quadratic"))
+        field = several(DIRECTION)
+        field = field / np.linalg.norm(field, axis=-1, keepdims=True)
+    elif model.name == "elementary":  # on the hyperbola (67)
+        r, w, across = moments[:, 2], one["omega2"], np.hypot(K[:, 0], K[:, 1])
+        along = K[:, 2] * w * (w + (2 - r) * across) / (r * across * (across + w))
+        omega = np.stack([w * K[:, 0] / across, w * K[:, 1] / across, along], -1)
+    elif model.name == "elliptic":
+        z, D = one["z"][:, None], moments.prod(-1, keepdims=True)
+        v = one["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
+        omega = -(1 + v / (z * moments + D)) * K
+    body = 2 * moments.max(-1) <= moments.sum(-1)
+    return Flow(moments, coupling, potential, field, A, np.where(body[:, None], omega, np.nan), error)
+
+
 @dataclass(frozen=True)
 class Model:
     """A family: its parameters with those that stand unless they are freed, and what makes its motion."""
@@ -86,6 +119,8 @@ class Model:
     fixed: Mapping[str, float]
     exact: bool = False
     """Whether the motion has derivatives in all parameters by itself."""
+    slow: bool = False
+    """Whether an integration is faster than the closed form, over the times of a usual measurement."""
 
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
         """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
@@ -136,8 +171,8 @@ MODELS: Mapping[str, Model] = {
             "top", ("I3", "k2", "k3", "linear", "quadratic", *DIRECTION, *OMEGA, *ATTITUDE), _top,
             {"n1": 0.0, "n2": 0.0, "n3": 1.0},
         ),
-        Model("elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0}),
-        Model("asymmetric", ("I1", "I3", *_FIELD), _asymmetric, {}),
+        Model("elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0}, slow=True),
+        Model("asymmetric", ("I1", "I3", *_FIELD), _asymmetric, {}, exact=True, slow=True),
     )
 }  # fmt: skip
 """Families by name."""
@@ -158,16 +193,22 @@ def field_of(model: Model, p: Values) -> FloatArray:
 def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
     """Return parameters with R and Omega as they are at another time, as data of a kind see them."""
     field = vector(p, B)
-    if kind in ("angular_velocity", "field_in_body"):
+    if model.name == "top" and kind in IN_BODY:
+        R = upright(R.T @ direction_of(p)).T
+    elif kind in IN_BODY:
         field, R = R.T @ field, np.eye(3)
     elif unseen(model, kind):
-        n = R[:, 2]
-        across = float(np.hypot(n[0], n[1]))
-        angle = np.arctan2(across, n[2]) / (across or 1.0)
-        upright = Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix()
-        omega, R = upright.T @ R @ omega, upright
+        shown = upright(R[:, 2])
+        omega, R = shown.T @ R @ omega, shown
     found = {**p, **_named(B, field), **_named(OMEGA, omega), **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec())}
     return found | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])} if model.name == "elementary" else found
+
+
+def upright(n: FloatArray) -> FloatArray:
+    """Return the shortest turn that takes e3 to a unit vector."""
+    across = float(np.hypot(n[0], n[1]))
+    angle = np.arctan2(across, n[2]) / (across or 1.0)
+    return np.asarray(Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix())
 
 
 def carried(model: Model, kind: str, p: Values, time: float) -> dict[str, float]:
@@ -188,6 +229,6 @@ def units_of(model: Model, rate: float) -> dict[str, float]:
 
 def unseen(model: Model, kind: str) -> dict[str, float]:
     """Return the parameters of the attitude that these data do not see, with the values that they are given."""
-    if kind in ("angular_velocity", "field_in_body"):
-        return dict.fromkeys(ATTITUDE, 0.0)
+    if kind in IN_BODY:
+        return {"a3": 0.0} if model.name == "top" else dict.fromkeys(ATTITUDE, 0.0)
     return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

@@ -1,6 +1,6 @@
-"""Least squares of one family on some data: residuals, their derivatives, and an arc that is grown from a start."""
+"""Least squares of one family on some data: residuals and their derivatives."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -10,37 +10,21 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.study.fit.data import STEP, Data
-from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, carried, field_of, units_of, unseen
+from atlas.study.fit.flow import ERROR, FINE
+from atlas.study.fit.least import RHO
+from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, units_of, unseen
 
-FIRST = 12
-"""Times of the shortest arc."""
+HUGE = 1e6
+"""A residual where there is no motion."""
 
-LOST = 0.35
-"""Part of the spread of the data by which a prediction may be off while its phases are still right."""
+LONG = 3000.0
+"""Radians up to which motions without a fast closed form are integrated."""
 
-GROWTH = 1.4
-"""Least factor by which an arc grows."""
-
-SHORT: Mapping[str, Any] = {"ftol": 2e-2, "xtol": 1e-4, "gtol": 1e-10, "max_nfev": 10}
 FULL: Mapping[str, Any] = {"ftol": 1e-5, "xtol": 1e-9, "gtol": 1e-10, "max_nfev": 60}
-"""Where the iteration ends on an arc, and on all data."""
+"""Where the iteration ends."""
 
 
 Vector: TypeAlias = Sequence[float] | FloatArray
-
-RHO: Mapping[str, Callable[..., Any]] = {
-    "linear": lambda z: z, "soft_l1": lambda z: 2 * (np.sqrt(1 + z) - 1),
-    "huber": lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1), "cauchy": np.log1p, "arctan": np.arctan,
-}  # fmt: skip
-"""SciPy's losses: what they leave of a square."""
-
-SCORE: Mapping[str, Callable[..., Any]] = {
-    "linear": np.ones_like, "soft_l1": lambda z: 1 / np.sqrt(1 + z),
-    "huber": lambda z: 1 / np.sqrt(np.maximum(z, 1)), "cauchy": lambda z: 1 / (1 + z),
-    "arctan": lambda z: 1 / (1 + z * z),
-}  # fmt: skip
-"""Their derivatives."""
-
 
 MEDIAN = 0.4549364
 """Median of the square of a normal variable."""
@@ -55,23 +39,41 @@ def lag(t: FloatArray, r: FloatArray) -> float:
 class Problem:
     """The least squares of a family on data: lmfit's parameters say what is varied, between which bounds."""
 
-    def __init__(self, model: Model, data: Data, params: Any, loss: str, rate: float) -> None:
+    def __init__(
+        self, model: Model, data: Data, params: Any, loss: str, rate: float, given: Values | None = None
+    ) -> None:
         self.model, self.data, self.params, self.loss = model, data, params, loss
         self.names = [name for name, p in params.items() if p.vary and p.expr is None]
         self.rate, self.units = rate, units_of(model, rate)
-        self.given: dict[str, float] = {}
+        self.given = given or {}
+        """Values that a user gave to start from."""
+        self.units_of_free = np.array([self.units[name] for name in self.names])
+        self.error = float(np.clip(1e-2 * np.median(data.sigma) / data.spread, FINE, ERROR))
+        self.followed = model.slow and float(np.ptp(data.t)) * rate < LONG
+        """Whether motions are integrated, not in closed form."""
+        self.together = True
+        """Whether motions are sought, many at once, by integrations."""
         self._kept: tuple[Any, Any] = (None, None)
-        self._slopes: tuple[Any, Any] = (None, None)
+
+    def shifted(self, centre: float) -> "Problem":
+        """Return the same with times from another one on."""
+        return Problem(
+            self.model, replace(self.data, t=self.data.t - centre), self.params, self.loss, self.rate, self.given
+        )
 
     @cached_property
-    def held(self) -> dict[str, float]:
-        """What is not free: values that are fixed, tied or bounded, but for what the data do not see."""
-        gauge = unseen(self.model, self.data.kind)
-        return {
-            name: p.value for name, p in self.params.items()
-            if name in self.model.names and name not in gauge
-            and (name not in self.names or np.isfinite([p.min, p.max]).any())
-        }  # fmt: skip
+    def pinned(self) -> bool:
+        """Whether something is known of the state at t = 0, from which the search must start then."""
+        state = {*OMEGA, *ATTITUDE, *(B if "a1" in self.gauge else ())} - self.gauge.keys()
+        return any(
+            p.expr is not None or not p.vary or np.isfinite([p.min, p.max]).any() or name in self.given
+            for name, p in self.params.items() if name in state
+        )  # fmt: skip
+
+    @cached_property
+    def gauge(self) -> dict[str, float]:
+        """What the data never show."""
+        return unseen(self.model, self.data.kind)
 
     @cached_property
     def tied(self) -> bool:
@@ -90,20 +92,74 @@ class Problem:
         self.params.update_constraints()
         return dict(self.params.valuesdict())
 
+    def several(self, X: FloatArray) -> dict[str, FloatArray]:
+        """Return all parameters, each (M,), of M motions."""
+        if self.tied:
+            rows = [self.values(x) for x in X]
+            return {name: np.array([row[name] for row in rows]) for name in self.model.names}
+        stand = {name: np.full(len(X), self.params[name].value) for name in self.model.names if name not in self.names}
+        return {**stand, **dict(zip(self.names, X.T, strict=True))}
+
+    def inner(self, X: FloatArray) -> FloatArray:
+        """Return values between the bounds."""
+        low, high = self.bounds
+        gap = np.minimum(1e-3, (high - low) / 4)
+        return np.asarray(np.clip(X, low + gap, high - gap))
+
     def inside(self, values: Values) -> FloatArray:
         """Return a start between the bounds."""
-        low, high = self.bounds
-        x = np.array([values.get(name, self.params[name].value) for name in self.names])
-        gap = np.minimum(1e-3, (high - low) / 4)
-        return np.asarray(np.clip(x, low + gap, high - gap))
+        return self.inner(np.array([values.get(name, self.params[name].value) for name in self.names]))
 
     def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
         """Return the motion, and all parameters."""
         key = tuple(x)
         if self._kept[0] != key:
             values = self.values(x)
-            self._kept = key, (self.model.make(values), values)
+            self._kept = key, (self._made(values), values)
         return self._kept[1]  # type: ignore[no-any-return]
+
+    def _made(self, values: Values) -> Any:
+        if not self.followed:
+            return self.model.make(values)
+        return flow(self.model, {name: np.array([values[name]]) for name in self.model.names}, self.error)
+
+    def alone(self) -> "Problem":
+        """Return the same for one motion at a time, with closed forms where they are fast."""
+        other = self.shifted(0.0)
+        other.together = False
+        return other
+
+    def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
+        """Return the residuals of motions, (M, N k), huge ones where there is none."""
+        if not (self.together or self.followed):
+            return np.stack([self.residuals(x, places) for x in X])
+        part = self.data.part(places)
+        with np.errstate(all="ignore"):
+            r = part.differences(flow(self.model, self.several(X), self.error)) / part.sigma
+        return np.where(np.isfinite(r), r, HUGE).reshape(len(X), -1)
+
+    def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
+        """Return the residuals of motions (M, N k), and their derivatives by differences (M, n, N k)."""
+        M, n = X.shape
+        if not (self.together or self.followed):
+            r = self.apart(X, places)
+            return r, np.stack([self._jacobian(x, row, places) for x, row in zip(X, r, strict=True)])
+        h = STEP * self.units_of_free
+        moved = X[:, None] + np.concatenate([np.zeros((1, n)), np.diag(h)])
+        r = self.apart(moved.reshape(-1, n), places).reshape(M, n + 1, -1)
+        return r[:, 0], (r[:, 1:] - r[:, :1]) / h[:, None]
+
+    def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
+        """Return the derivatives (n, N k), zero where there is no motion."""
+        try:
+            return self.jacobian(x, places).T
+        except AtlasError:
+            return np.zeros((len(x), r.size))
+
+    def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return I3, and what M3 has besides I3 omega3, at t = 0, each (M,)."""
+        made = flow(self.model, self.several(X), self.error)
+        return made.moments[:, 2], made.coupling[:, 2] * np.vecdot(made.field, made.attitude[:, :, 2])
 
     def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
         """Return the derivatives of parameters in those that are varied, (len(names), free)."""
@@ -119,12 +175,14 @@ class Problem:
 
     def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the differences in standard errors, (N k,); huge ones where there is no motion."""
+        if self.followed:
+            return self.apart(np.array([x]), places)[0]
         part = self.data.part(places)
         try:
             motion, _ = self.motion(list(x))
             return np.asarray(part.differences(motion) / part.sigma).ravel()
         except AtlasError:
-            return np.full(part.sigma.size * self.width, 1e6)
+            return np.full(part.sigma.size * self.width, HUGE)
 
     @cached_property
     def width(self) -> int:
@@ -133,15 +191,14 @@ class Problem:
 
     def jacobian(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the derivatives of the residuals in what is varied, (N k, free)."""
-        key = tuple(x)
-        if self._slopes[0] != key:  # at all times: the next arc begins where one ends
-            self._slopes = key, self.slopes(x)
-        return np.asarray(self._slopes[1][places].reshape(-1, len(key)))
+        return self.slopes(x, places).reshape(-1, len(self.names))
 
-    def slopes(self, x: Vector) -> FloatArray:
-        """Return the derivatives at all times, (N, k, free)."""
-        x = list(x)
-        part = self.data
+    def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
+        """Return the derivatives, (N, k, free)."""
+        x, part = list(x), self.data.part(places)
+        if self.followed:
+            _, J = self.turned(np.array([x]), places)
+            return np.moveaxis(J[0].reshape(len(x), part.t.size, -1), 0, -1)
         motion, values = self.motion(x)
         chain = self.chain(x, self.model.names)
         moved = [i for i, row in enumerate(chain) if row.any()]
@@ -180,43 +237,3 @@ class Problem:
         """Return the sum of squares, of what the loss leaves of them."""
         z = self.residuals(x) ** 2
         return float(np.sum(RHO[self.loss](z)))
-
-    def least(self, x: FloatArray, places: Any, **ends: Any) -> Any:
-        """Return SciPy's least squares on some of the data."""
-        from scipy.optimize import least_squares
-
-        return least_squares(
-            self.residuals, x, self.jacobian, bounds=self.bounds, x_scale="jac", loss=self.loss, args=(places,), **ends
-        )
-
-    def grown(self, values: Values, centre: float) -> FloatArray:
-        """Return what a start leads to: an arc about its time grows to all times."""
-        if centre and any(name in (*OMEGA, *ATTITUDE) for name in self.held):
-            return self.grown(carried(self.model, self.data.kind, {**self.held, **values}, -centre), 0.0)
-        if centre:
-            there = Problem(self.model, replace(self.data, t=self.data.t - centre), self.params, self.loss, self.rate)
-            x = there.grown(values, 0.0)
-            return self.inside(carried(self.model, self.data.kind, there.values(x), -centre))
-        x = self.inside(values)
-        order = np.argsort(abs(self.data.t), kind="stable")
-        count = min(max(FIRST, len(x) + 2), len(order))
-        count = self._reach(x, order, count, 0.0)
-        while True:
-            found = self.least(x, order[:count], **SHORT)
-            x, misfit = found.x, float(np.sqrt(2 * found.cost / found.fun.size))
-            if count == len(order):
-                return np.asarray(x)
-            count = self._reach(x, order, int(GROWTH * count) + 1, misfit)
-
-    def _reach(self, x: FloatArray, order: Any, least: int, misfit: float) -> int:
-        """Return how many of the data a motion follows without losing a turn, at least so many."""
-        if least >= len(order):
-            return len(order)
-        off = np.linalg.norm(self.residuals(x, order).reshape(len(order), -1), axis=1)
-        if self.loss != "linear":
-            off = np.minimum(off, np.median(off) * 4)
-        w = max(4, FIRST // 2)
-        mean = np.sqrt(np.convolve(off**2, np.ones(w) / w, "valid"))
-        allowed = LOST * self.data.spread / np.median(self.data.sigma)
-        lost = np.flatnonzero(mean > max(allowed, 1.7 * misfit * np.sqrt(self.width)))
-        return max(least, len(order) if not lost.size else int(lost[0]))

@@ -13,8 +13,9 @@ from atlas.errors import AtlasError
 from atlas.paper.plain import html_table, table
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.study.fit.data import KINDS, Data
+from atlas.study.fit.least import SCORE
 from atlas.study.fit.models import units_of, unseen
-from atlas.study.fit.problem import FULL, SCORE, Problem, lag
+from atlas.study.fit.problem import FULL, Problem, lag
 
 UNSEEN = 0.5
 """Standard error of a combination, in natural units, from which on the data do not determine it."""
@@ -25,9 +26,8 @@ SHARE = 0.03
 SURPRISE = 5.0
 """Standard deviations of chi square and of a correlation that are no chance."""
 
-STEADY = (
-    "No nutation is seen beyond noise: the motion is an elementary one, with the axis at a constant angle to the field."
-)
+FOLLOWED = 0.2
+"""Part of the spread of the data within which a motion follows them."""
 
 FARTHEST = 1e9
 """Spans of the data after which no horizon is looked for."""
@@ -78,7 +78,7 @@ class Fit:
     _units: FloatArray
 
     @classmethod
-    def of(cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: bool) -> "Fit":
+    def of(cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "") -> "Fit":
         """Return the fit from the best of what was tried; a steady motion stays where it was found."""
         import lmfit
 
@@ -102,13 +102,13 @@ class Fit:
                 **dict(FULL) | ({"gtol": np.inf} if steady else {}),
             )
         x = np.array([result.params[name].value for name in names])
-        motion, _ = problem.motion(list(x))
+        motion = problem.model.make(problem.values(x))
         r, J = problem.residuals(x), problem.jacobian(x)
         free = r.size - len(x)
         score = SCORE[problem.loss](r * r)
         redchi = problem.reduced(r)
         scale = 1.0 if data.known else float(np.sqrt(redchi))
-        seen = _Seen(problem, x, J, result.jac if problem.loss != "linear" else J, score * r, scale)
+        seen = _Seen(problem, motion, x, J, result.jac if problem.loss != "linear" else J, score * r, scale)
         seen.mark(result)
         sigma = data.sigma[:, 0] * scale
         residuals = (r / scale).reshape(data.t.size, -1)
@@ -117,8 +117,8 @@ class Fit:
             family=problem.model.name, kind=data.kind, epoch=epoch, params=result.params, names=tuple(names),
             covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
             sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
-            undetermined=(*[STEADY] * steady, *seen.words(), *_gauge(problem)),
-            doubts=tuple(_doubts(problem, residuals, redchi, free)),
+            undetermined=(*[steady] * bool(steady), *seen.words(), *_gauge(problem)),
+            doubts=tuple(_doubts(problem, x, residuals, redchi, free)),
             rivals=tuple(_rivals(problem, tried, free * scale**2)), result=result, problem=problem,
             _free=seen.free * seen.units[:, None], _units=seen.units,
         )  # fmt: skip
@@ -152,7 +152,7 @@ class Fit:
             "linear",
             self.problem.rate,
         )
-        there.names, there.params = list(self.names), self.params.copy()
+        there.names, there.params, there.followed = list(self.names), self.params.copy(), False
         J = -there.slopes(self._x)
         if kind == "axis":
             J = R[:, :, :1] * J[:, :1] + R[:, :, 1:2] * J[:, 1:]
@@ -188,15 +188,25 @@ class Fit:
         return last + low
 
     def conf_interval(self, **options: Any) -> Any:
-        """Return lmfit's confidence intervals, by chi square along each parameter. `options` are lmfit's."""
+        """Return lmfit's confidence intervals, by chi square along each parameter: pairs (probability, value) by name.
+
+        `options` are lmfit's: ``p_names`` the parameters, or else all, and ``sigmas`` such as [1, 2]. Each end takes
+        some fits of the others. Raises AtlasError where the data do not determine a parameter: fix one, or free fewer.
+        """
         import lmfit
 
-        names = list(self.names)
+        def slopes(p: Any) -> FloatArray:
+            free = [i for i, name in enumerate(self.names) if p[name].vary]
+            return self.problem.jacobian([p[n].value for n in self.names])[:, free]
+
         minimizer = lmfit.Minimizer(
-            lambda p: self.problem.residuals([p[n].value for n in names]), self.params.copy(),
-            Dfun=lambda p: self.problem.jacobian([p[n].value for n in names]), scale_covar=not self.problem.data.known,
+            lambda p: self.problem.residuals([p[n].value for n in self.names]), self.params.copy(), Dfun=slopes,
+            scale_covar=not self.problem.data.known,
         )  # fmt: skip
-        return lmfit.conf_interval(minimizer, self.result, **options)
+        try:
+            return lmfit.conf_interval(minimizer, self.result, **options)
+        except lmfit.MinimizerException as error:
+            raise AtlasError(f"There are no confidence intervals of these parameters: {error}".strip()) from error
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
         """Return heading and rows of the parameters."""
@@ -276,7 +286,7 @@ class Fit:
             ),
             alt=f"A {what}: points on curves against time, and residuals scattered about zero.",
             panels=(
-                Plane(tuple(layers), "$t$", "data", legend=True),
+                Plane(tuple(layers), "$t$", "data", legend="beside"),
                 Plane(tuple(rest), "$t$", r"residual, in $\sigma$"),
             ),
             size=(140.0, 120.0),
@@ -297,10 +307,16 @@ class _Seen:
     """Covariance of the parameters, and the combinations that are not determined, by singular values of J."""
 
     def __init__(
-        self, problem: Problem, x: FloatArray, J: FloatArray, bent: FloatArray, scores: FloatArray, scale: float
+        self,
+        problem: Problem,
+        motion: Any,
+        x: FloatArray,
+        J: FloatArray,
+        bent: FloatArray,
+        scores: FloatArray,
+        scale: float,
     ) -> None:
         self.problem, self.x = problem, x
-        motion, _ = problem.motion(list(x))
         field, rates = np.linalg.norm(motion.field_in_body(0.0)), np.linalg.norm(motion.angular_velocity(0.0))
         units = units_of(problem.model, float(rates if problem.model.name == "top" else field + rates) or 1.0)
         self.units = np.array([units[name] for name in problem.names])
@@ -369,13 +385,22 @@ def _gauge(problem: Problem) -> list[str]:
         return [
             "The attitude in the laboratory is not seen: B1 to B3 are along the axes that the body has at the epoch."
         ]
+    if problem.data.kind != "axis":
+        return ["The turn of the body about the field is not seen: a3 = 0 at the epoch is a convention."]
     return ["The angle of the body about its axis is not seen: a3 = 0 at the epoch is a convention."]
 
 
-def _doubts(problem: Problem, r: FloatArray, redchi: float, free: int) -> list[str]:
+def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:
     """Return what speaks against the family."""
     out = []
-    if problem.data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
+    data = problem.data
+    off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
+    if off > FOLLOWED * data.spread:
+        out.append(
+            "The motion does not follow the data: give a start by params (--start), fix what is known, or measure more "
+            "densely somewhere."
+        )
+    if data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
         wrong = (
             "the family is not that of the motion (drag, a second field), or sigma is too small"
             if redchi > 1
