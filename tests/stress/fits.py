@@ -70,6 +70,7 @@ def made(
         options["params"] = {"ratio": {"value": I3, "vary": False}}
     if family == "top":
         options["params"] = {name: {"value": 0.0, "vary": False} for name in ("k2", "k3", "quadratic")}
+        options["params"]["linear"] = {"min": 0.0} if truth["linear"] > 0 else {"max": 0.0}  # its sign is that of n
     return Made(t, {kind: values, **options, **({"loss": "soft_l1"} if outliers else {})}, truth)
 
 

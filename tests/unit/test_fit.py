@@ -129,7 +129,7 @@ def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
 
 def test_drag_is_told() -> None:
     """A spin that dies away by two percent is no motion of the family: chi square and correlations say so."""
-    t, _ = measured("rotation")
+    t, _ = measured("rotation", 60, 15.0)
     slowed = t - 0.02 * t * t / (2 * t[-1])
     steps = atlas.simulate(RATIO, FIELD, OMEGA, slowed, rtol=1e-11)
     found = atlas.fit(t, rotation=steps.R, sigma=1e-4, family="general")
@@ -253,6 +253,88 @@ def test_other_families_are_found() -> None:
     for name, truth in {"I3": 0.6, "linear": 2.0, "omega3": 3.0}.items():
         assert abs(found.params[name].value - truth) < 5 * found.params[name].stderr < 0.1, name
     assert found.covariance.shape == (8, 8)
+
+
+def test_three_moments_are_found() -> None:
+    """From attitudes without a start, in steps of an integration, with errors and predictions of the closed form."""
+    rng = np.random.default_rng(4)
+    t = np.sort(rng.uniform(0, 15, 60))
+    steps = atlas.simulate((0.7, 1.0, 1.2), ATTITUDE.inv().apply(FIELD), OMEGA, t, rtol=1e-11)
+    R = Rotation.from_rotvec(rng.normal(0, NOISE, (60, 3))).as_matrix() @ ATTITUDE.as_matrix() @ steps.R
+    found = atlas.fit(t, "asymmetric", rotation=R, sigma=NOISE)
+    for name, truth in {"I1": 0.7, "I3": 1.2, "B1": FIELD[0], "omega2": OMEGA[1]}.items():
+        assert abs(found.params[name].value - truth) < 5 * found.params[name].stderr < 0.2, name
+    assert isinstance(found.motion, atlas.AsymmetricMotion)
+    assert (found.predict(20.0).sigma < 0.1).all()
+    rates = atlas.fit(t, "asymmetric", angular_velocity=steps.Omega + rng.normal(0, NOISE, (60, 3)), sigma=NOISE)
+    assert abs(rates.params["I1"].value - 0.7) < 5 * rates.params["I1"].stderr < 0.1
+
+
+def test_an_elliptic_motion_says_what_it_does_not_tell() -> None:
+    """Its field turns in the body as a free body's momentum does, which many bodies share."""
+    rng = np.random.default_rng(5)
+    t = np.sort(rng.uniform(0, 20, 60))
+    exact = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), z=1.7).rotation(t)
+    found = atlas.fit(
+        t, "elliptic", rotation=Rotation.from_rotvec(rng.normal(0, NOISE, (60, 3))).as_matrix() @ exact, sigma=NOISE
+    )
+    assert abs(found.redchi - 1) < 0.4
+    assert any("I1" in words and "not determined apart" in words for words in found.undetermined)
+
+
+def test_tops_are_found_from_rates() -> None:
+    """The direction of the field in the body is sought; the turn about it is not seen."""
+    rng = np.random.default_rng(6)
+    t = np.linspace(0, 15, 80)
+    top = atlas.TopMotion((1.0, 0.6), (0.0, 0.0), direction=(0.6, 0.8), omega=(0.1, 0.2, 3.0), linear=2.0)
+    known = {name: {"value": 0.0, "vary": False} for name in ("k2", "k3", "quadratic")}
+    seen = top.angular_velocity(t) + rng.normal(0, NOISE, (80, 3))
+    found = atlas.fit(t, "top", angular_velocity=seen, sigma=NOISE, params=known)
+    for name, truth in {"I3": 0.6, "linear": 2.0, "omega3": 3.0}.items():
+        assert abs(abs(found.params[name].value) - truth) < 5 * found.params[name].stderr < 0.2, name
+    assert any("about the field" in words for words in found.undetermined)
+
+
+def test_a_signal_of_two_entries_is_enough() -> None:
+    """Numbers that a function makes of R tell the ratio and the size of the field."""
+    rng = np.random.default_rng(7)
+    t = np.sort(rng.uniform(0, 20, 150))
+    seen = lambda R: np.stack([R[:, 0, 0], R[:, 1, 2]], -1)  # noqa: E731
+    steps = atlas.simulate(RATIO, FIELD, OMEGA, t, rtol=1e-11)
+    found = atlas.fit(t, signal=(seen(steps.R) + rng.normal(0, NOISE, (150, 2)), seen), sigma=NOISE)
+    assert abs(found.redchi - 1) < 0.4
+    assert abs(found.params["ratio"].value - RATIO) < 5 * found.params["ratio"].stderr
+    assert not found.doubts
+
+
+def test_confidence_intervals_are_those_of_lmfit(attitudes: Any) -> None:
+    """Where errors are small the ends at one sigma are one standard error away; none where nothing is determined."""
+    found = attitudes.conf_interval(p_names=["ratio"], sigmas=[1])["ratio"]
+    low, best, high = (value for _, value in found)
+    assert best == pytest.approx(attitudes.params["ratio"].value)
+    assert [best - low, high - best] == pytest.approx([attitudes.params["ratio"].stderr] * 2, rel=0.1)
+
+
+def test_a_start_is_taken() -> None:
+    """A value that is given is where all motions start, at the epoch; what is far off is left."""
+    t, w = measured("angular_velocity", 60, 10.0)
+    found = atlas.fit(t, angular_velocity=w, sigma=NOISE, params={"ratio": 1.2, "omega1": 1.0})
+    assert abs(found.params["ratio"].value - RATIO) < 5 * found.params["ratio"].stderr
+
+
+@pytest.mark.parametrize("size", [0.0, 0.0009, 0.01])
+def test_a_small_nutation_is_never_silent(size: float) -> None:
+    """None is an elementary motion, which says what it does not tell; one of 3 sigma is told with its size."""
+    rng = np.random.default_rng(8)
+    t = np.linspace(0, 40, 200)
+    steady = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    exact = atlas.motion(1.5, (0.0, 1.0, 2.0), (size * 3, 0.7, steady.omega3)).rotation(t)
+    found = atlas.fit(t, rotation=Rotation.from_rotvec(rng.normal(0, NOISE, (200, 3))).as_matrix() @ exact, sigma=NOISE)
+    told = any("ratio" in words and "not determined apart" in words for words in found.undetermined)
+    assert told == (size < 0.01)
+    assert told == any("No nutation is seen beyond noise: one of" in words for words in found.undetermined)
+    if not told:
+        assert abs(found.params["ratio"].value - 1.5) < 5 * found.params["ratio"].stderr
 
 
 def test_a_rotation_vector_follows_a_small_turn() -> None:

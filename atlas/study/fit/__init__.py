@@ -20,6 +20,9 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 SURE = 4.0
 """Standard deviations of chi square, or of a correlation of residuals, within which a motion is the one."""
 
+SAME = 1e-3
+"""Part of chi square by which a minimum that is found again from another time may differ."""
+
 ROBUST = 1.5
 """Reduced chi square, from the median, up to which a motion with outliers is the one."""
 
@@ -135,19 +138,21 @@ def _parameters(model: Model, data: Data, given: Any) -> tuple[Any, dict[str, fl
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
     """Return what starts lead to, the least squares and the values that are varied, the best first."""
-    found: list[tuple[float, Any]] = []
+    found: list[tuple[float, tuple[float, Any]]] = []
     for centre, there, start, count in tries(problem):
         try:
             values = there.values(grown(there, start, count))
             x = problem.inside(carried(problem.model, problem.data.kind, values, -centre) if centre else values)
-            found.append((problem.chi_square(x), x))
+            chi = problem.chi_square(x)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so
-        if _good(problem, x):
+        again = any(centre != other and abs(chi - one) < SAME * one for other, (one, _) in found)
+        found.append((centre, (chi, x)))
+        if again or _good(problem, x):
             break
     if not found:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
-    return sorted(found, key=lambda one: one[0])
+    return sorted((one for _, one in found), key=lambda one: one[0])
 
 
 def _good(problem: Problem, x: Any) -> bool:

@@ -75,7 +75,7 @@ class Data:
     def _signal(self, R: FloatArray) -> FloatArray:
         made: Any = self.function
         flat = R.reshape(-1, 3, 3)
-        lost = ~(abs(flat) < NO_ROTATION).all((1, 2))
+        lost = np.asarray(~(abs(flat) < NO_ROTATION).all((1, 2)))
         found = real(made(np.where(lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns")
         if found.shape[:1] != flat.shape[:1] or found.ndim > 2:
             raise AtlasError(

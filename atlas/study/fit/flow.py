@@ -94,10 +94,10 @@ class Flow:
                     torque = torque + np.stack([across[:, 1], -across[:, 0], np.zeros(S)], -1)
                 R, omega = change[:, :3] / (k + 1), torque / self.moments / (k + 1)
             size = np.maximum(abs(left[:, :3, n]).max((1, 2)), abs(left[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
-            steps_of = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
-            if not np.isfinite(steps_of).any():
+            own = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
+            h = float(np.sort(np.where(np.isfinite(own), own, np.inf))[int(SLOWEST * S)])
+            if not np.isfinite(h):
                 break
-            h = float(np.nanquantile(steps_of, SLOWEST))
             last = int(np.searchsorted(abs(t), abs(now) + h, "right"))
             steps = np.append(t[first:last] - now, sign * h)
             powers = steps[:, None] ** np.arange(n + 1)

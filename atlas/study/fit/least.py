@@ -55,11 +55,11 @@ class Crowd:
 
     def _back(self, Y: FloatArray) -> FloatArray:
         if self.spin is None:
-            return self.problem.inner(Y)
+            return np.asarray(self.problem.inner(Y))
         I3, more = self.problem.spin(Y)
         X = Y.copy()
         X[..., self.spin] = (Y[..., self.spin] - more) / I3
-        return self.problem.inner(X)
+        return np.asarray(self.problem.inner(X))
 
     def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
         """Return residuals (M, N k) and their derivatives in the coordinates (M, n, N k)."""

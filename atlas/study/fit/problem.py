@@ -152,7 +152,7 @@ class Problem:
     def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
         """Return the derivatives (n, N k), zero where there is no motion."""
         try:
-            return self.jacobian(x, places).T
+            return np.asarray(self.jacobian(x, places).T)
         except AtlasError:
             return np.zeros((len(x), r.size))
 
@@ -176,7 +176,7 @@ class Problem:
     def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the differences in standard errors, (N k,); huge ones where there is no motion."""
         if self.followed:
-            return self.apart(np.array([x]), places)[0]
+            return np.asarray(self.apart(np.array([x]), places)[0])
         part = self.data.part(places)
         try:
             motion, _ = self.motion(list(x))
@@ -191,14 +191,14 @@ class Problem:
 
     def jacobian(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the derivatives of the residuals in what is varied, (N k, free)."""
-        return self.slopes(x, places).reshape(-1, len(self.names))
+        return np.asarray(self.slopes(x, places).reshape(-1, len(self.names)))
 
     def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the derivatives, (N, k, free)."""
         x, part = list(x), self.data.part(places)
         if self.followed:
             _, J = self.turned(np.array([x]), places)
-            return np.moveaxis(J[0].reshape(len(x), part.t.size, -1), 0, -1)
+            return np.asarray(np.moveaxis(J[0].reshape(len(x), part.t.size, -1), 0, -1))
         motion, values = self.motion(x)
         chain = self.chain(x, self.model.names)
         moved = [i for i, row in enumerate(chain) if row.any()]

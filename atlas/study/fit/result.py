@@ -386,7 +386,8 @@ def _gauge(problem: Problem) -> list[str]:
             "The attitude in the laboratory is not seen: B1 to B3 are along the axes that the body has at the epoch."
         ]
     if problem.data.kind != "axis":
-        return ["The turn of the body about the field is not seen: a3 = 0 at the epoch is a convention."]
+        words = "The turn of the body about the field is not seen, a3 = 0 at the epoch is a convention; and with "
+        return [words + "all of n, k2, k3 and linear the other way the data are the same."]
     return ["The angle of the body about its axis is not seen: a3 = 0 at the epoch is a convention."]
 
 
