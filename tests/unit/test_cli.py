@@ -346,7 +346,8 @@ def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch:
     words = ["figure", "hyp_a", "lssc", "--renderer", "shaded", "--out", str(tmp_path)]
     result = CliRunner().invoke(command, words, standalone_mode=False)
     assert result.return_value == 0
-    assert result.stderr == f"atlas: {gl.advice()}\n"
+    lines = [line for line in result.stderr.splitlines() if not line.endswith(" s")]  # how far it is, on a busy machine
+    assert lines == [f"atlas: {gl.advice()}"]
     gl.library.cache_clear()
 
 
