@@ -7,10 +7,16 @@ _TOKEN = re.compile(r"\\(?:begin|end)\{\w+\}|\\(?:text|mathrm|operatorname)\{[^}
 _GREEK = [rf"\{name}" for name in "alpha beta gamma kappa lambda mu nu phi psi chi omega Omega".split()]
 _SWAPS = {"+": "-", "-": "+", r"\pm": r"\mp", r"\mp": r"\pm", r"\sin": r"\cos", r"\cos": r"\sin"}
 _LETTERS = [[*"xyzuvwabcdefghijklmnopqrst"], [*"XYZUVWABCDEFGHIJKLMNOPQRST"]]
+_ANSATZ = (
+    *(r"\omega_2, \Omega _3)^T", r"(1-I)\Omega _3+(2-I)B'_3]\Omega", r"-I\Omega _3K_2", r"+I\Omega _3K_1"),
+    *(r"=\Omega _3K_2-B'_3", r"-\Omega _3K_1+B'_3"),
+)
 SAME = (
     (r"\lambda_{AB}[x_A^i-x_1^i]", "a dummy index: the multipliers are symmetric"),
     (r"\lambda_{AB}[\mathbf{y}_A-\mathbf{y}_1]", "a dummy index: the multipliers are symmetric"),
-    (r"\{K_x,K_j\}", "another name of a free index"),
+    *((text, "the ansatz of (58) is that Omega_3 is omega_3") for text in _ANSATZ),
+    *((text, "another name of a free index") for text in (r"\{K_x,K_j\}", r"\{K_i,K_x\}")),
+    (r"\xi=-\xi_0", "xi_0 is any constant"),
     (r"q''(-\nu_0)", "q has no cubic term, so that its second derivative is even"),
     (r"e_\pm=-\nu_0\mp", "both roots stand in a product"),
     (r"e_\mp =-\nu_0\pm", "both roots stand in a product"),

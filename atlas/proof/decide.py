@@ -76,8 +76,10 @@ def decide(
         )
         if found:
             return Outcome("refuted", "exact counterexample", found)
-        idle = _unknown(trees, here, defines) or _idle(
-            relations, here, tuple(defines), f"{line}; {solves}" if solves else line
+        idle = (
+            _unknown(trees, model, defines)
+            or next((reason for tree in trees if (reason := _empty(tree, here))), "")
+            or _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
         )
         if idle:
             return Outcome("undecided", idle)
@@ -174,7 +176,7 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
     every: list[Sequence[ast.AST]] = [trees, *([tree.left, *tree.comparators] for tree in trees), *pairs]
     if any(len(set(map(ast.dump, one))) < len(one) for one in every):
         return "it says the same twice, or of something that it is itself"
-    return next((reason for tree in trees if (reason := _empty(tree, model))), "")
+    return ""
 
 
 def _empty(tree: ast.Compare, model: Model) -> str:

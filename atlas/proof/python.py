@@ -266,7 +266,9 @@ class Line:
         if name in _METHODS:
             return ast.Call(ast.Attribute(first, _METHODS[name]), others, [])
         if name == "norm":
-            return ast.Call(ast.Name("sqrt"), [ast.Call(ast.Attribute(first, "dot"), [first], [])], [])
+            name, first = "sqrt", ast.Call(ast.Attribute(first, "dot"), [first], [])
+        if name == "sqrt":  # a square in it is seen if it is factored
+            first = ast.Call(ast.Name("factor"), [first], [])
         for _ in range(2 if name == "d2" else 1):
             first = ast.Call(ast.Name(_CALLED.get(name, name[:1] if name == "d2" else name)), [first, *others], [])
         return first

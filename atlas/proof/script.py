@@ -69,7 +69,8 @@ def script_of(found: Verdict) -> str:
 def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
     """Yield the rows of all blocks, but for what is known already; symbols are declared before they are used."""
     symbols, known = dict[str, str](), dict[str, str]()
-    for declared, rows in blocks:
+    supposed = [any(row.startswith("where = ") for row in rows) for _, rows in blocks]
+    for (declared, rows), own in zip(blocks, supposed, strict=True):
         fresh = {name: assumed for name, assumed in declared.items() if symbols.get(name) != assumed}
         known = {} if fresh.keys() & symbols.keys() else known
         for assumed in dict.fromkeys(fresh.values()):
@@ -77,9 +78,9 @@ def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
             for some in textwrap.wrap(every, _WIDTH // 2 - 16):
                 yield f'{some.replace(" ", ", ")} = symbols("{some}"{assumed})'
         symbols |= fresh
-        for row in rows:
+        for row in [*["where = []"] * (any(supposed) and not own), *rows]:
             name = re.match(r"(?:def )?(\w+)(?= = |\(x\))", row)
-            if name and known.get(name[1]) == row:
+            if name and known.get(name[1]) == row and name[1] != "where":
                 continue
             yield row
             if name:  # what is made of it must be said anew
@@ -178,7 +179,7 @@ def _broken(line: Line, relation: Relation, entry: int, values: dict[Value, Valu
     for index, choice in reversed(numbers):
         rows.insert(0, f"{index} = {choice[run % len(choice)]}")
         run //= len(choice)
-    sides = [f"({side})[{entry % each}]" if each > 1 else f"({side})" for side in line.sides(relation)]
+    sides = [f"({side})[{entry % each}]" if each > 1 and side != "0" else f"({side})" for side in line.sides(relation)]
     letters = set().union(*(sympy.sympify(side[entry]).free_symbols for side in (relation.left, relation.right)))
     point = {symbol: value for symbol, value in values.items() if symbol in letters}
     digits = "" if all(value.is_Rational for value in point.values()) else ".n(30)"
@@ -231,8 +232,8 @@ def _wrapped(row: str) -> str:
     if len(row) <= _WIDTH:
         return row
     indent = " " * (len(row) - len(row.lstrip()))
-    row = re.sub(r"^(\w+) = (?![\[({])(.*)$", r"\1 = (\2)", row)
-    quoted = re.sub(r'"[^"]*"', lambda text: text[0].replace(" ", "\N{NO-BREAK SPACE}"), row)
+    row = re.sub(r"^(\w+) = (?![\[{])(.*)$", r"\1 = (\2)", row)
+    quoted = re.sub(r'"[^"]*"|raise S', lambda text: text[0].replace(" ", "\N{NO-BREAK SPACE}"), row)
     lines = textwrap.wrap(
         quoted.lstrip(),
         _WIDTH,
