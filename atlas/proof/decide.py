@@ -78,7 +78,7 @@ def decide(
             return Outcome("refuted", "exact counterexample", found)
         idle = (
             _unknown(trees, model, defines)
-            or next((reason for tree in trees if (reason := _empty(tree, here))), "")
+            or next((why for tree in trees if (why := _empty(tree, here))), "")
             or _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
         )
         if idle:
