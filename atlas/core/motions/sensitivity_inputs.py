@@ -19,8 +19,9 @@ from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.cayley_klein import steady
+from atlas.exact.nutation.differences import Differences
 from atlas.exact.nutation.nutating import Matrix, Nutating, product, turn
-from atlas.exact.nutation.variations import Constants, Differences, TooNearError, constants, variations
+from atlas.exact.nutation.variations import Constants, TooNearError, constants, variations
 from atlas.formulas import ball, elementary
 from atlas.formulas.numbers import direction, rational, workprec
 

@@ -125,8 +125,11 @@ class Sum:
     @property
     def logarithmic_slope(self) -> acb:
         """Derivative of the logarithm at s = 0."""
-        value, slope = self.at(arb(0))
-        return slope / value
+        if self.lattice.form == "linear":
+            return self.odd[0] * self.lattice.rate / self.even[0]
+        value = _widened(sum(self.even, acb(0)), self.bound)
+        slope = sum((a * self.frequency(n) for n, a in enumerate(self.odd)), acb(0))
+        return _widened(slope, 2 * self.frequency(len(self.odd)) * self.bound) * self.lattice.rate / value
 
 
 def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:

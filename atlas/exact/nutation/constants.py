@@ -25,7 +25,7 @@ class Turning:
     roots: tuple[Root, ...]
     place: int
 
-    @property
+    @cached_property
     def u(self) -> arb:
         """The turning point."""
         return self.roots[self.place].value.real
@@ -43,7 +43,7 @@ class Turning:
         """Return w at another root."""
         return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
 
-    @property
+    @cached_property
     def others(self) -> list[int]:
         """Places of the other three roots."""
         return [i for i, r in enumerate(self.roots) for _ in range(r.multiplicity) if i != self.place]

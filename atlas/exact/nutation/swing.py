@@ -17,6 +17,9 @@ from atlas.exact.nutation.constants import Nutation
 from atlas.exact.nutation.quartic import TopQuartic
 from atlas.formulas.numbers import workprec
 
+MODEST = 2
+"""Half an angle that a double holds."""
+
 ROUGH = 80
 """Binary digits with which a size is found where they suffice."""
 
@@ -48,8 +51,11 @@ class Swing:
 
     @property
     def largest(self) -> arb:
-        """Half of its largest part that is no multiple of time, about."""
+        """Half of its largest part that is no multiple of time, about; a bound where that is modest."""
         half = self.lattice.half
+        most = self.steepest * arb.pi() / 2
+        if self.lattice.form == "trigonometric" and most < MODEST:
+            return most
         unit = 8 / self.lattice.rate if infinite(half) else half
 
         def found() -> arb:
