@@ -8,7 +8,7 @@ import numpy as np
 from flint import arb, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.nutation.variations import KNOWN, STEP, TRIES, FloatArray, Row, radii, sizes_of
+from atlas.exact.nutation.variations import KNOWN, STEP, TRIES, FloatArray, Row, radii_of, sizes_of
 from atlas.formulas.numbers import dot, rational, workprec
 
 SIDES = (((1, 0, -1), (1, 0, -1)), ((0, -1, -2), (3, -4, 1)), ((0, 1, 2), (-3, 4, -1)))
@@ -63,7 +63,7 @@ class Differences:
                 axis = [row[2] for row in R], [row[0] * Omega[1] - row[1] * Omega[0] for row in R]
             v, faster = (np.array([[float(x.mid()) for x in row] for row in rows]) for rows in (turns, changes))
             sizes = 1 + abs(v).max(1)
-            radii = np.array([radii(x).max() for x in turns])
+            radii = np.array([radii_of(x).max() for x in turns])
             if ((radii <= KNOWN * sizes) & (np.array(bent) <= BENT * sizes)).all():
                 return v, faster, *(np.array([float(arb(x).mid()) for x in y]) for y in axis)
             self._at(2 * self.bits)

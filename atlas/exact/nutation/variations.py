@@ -210,11 +210,11 @@ class Groups:
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
         """Return whether values and slopes are known well enough, beside the largest value of their groups."""
-        size, radius = self._largest(sizes_of(mean)), radii(mean)
+        size, radius = self._largest(sizes_of(mean)), radii_of(mean)
         for row, scale in slopes:
             unit = float(arb(scale).mid())
             least = np.where(size == 0, self._largest(sizes_of(row)) * unit, size)
-            if not ((radius <= KNOWN * least) & (radii(row) * unit <= KNOWN * least) & (least < np.inf)).all():
+            if not ((radius <= KNOWN * least) & (radii_of(row) * unit <= KNOWN * least) & (least < np.inf)).all():
                 return False
         return True
 
@@ -245,7 +245,7 @@ def sizes_of(row: Row) -> FloatArray:
     return np.array([float(abs(x).mid()) for x in row])
 
 
-def radii(row: Row) -> FloatArray:
+def radii_of(row: Row) -> FloatArray:
     """Return the radii of balls, nan for what is not a number: that is no bound."""
     return np.array(
         [
