@@ -61,6 +61,7 @@ SAME = (
     (r"I\boldsymbol{\omega}=I_0R", "the inertia tensor of a ball is its moment"),
     (r"=IR\boldsymbol{\Omega}", "the inertia tensor of a ball is its moment"),
     (r"\boldsymbol{\omega}(0)=\boldsymbol{\Omega}", "an equation read from the other side"),
+    (r"[\mathbf{m},\boldsymbol{\omega}]=0", "the other sign of nothing"),
     ("D=-c", "an equation read from the other side"),
     (r"\left(C\cos", "brackets about one thing"),
     (r"\exp(t\lambda_", "factors commute"),

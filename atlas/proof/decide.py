@@ -158,7 +158,7 @@ def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> di
                 tree.left, *tree.comparators = every
                 tree.ops = tree.ops[1:]
                 symbol = reader.letters.get(variable, sympy.Symbol(variable, real=True))
-                if not value.has(symbol):
+                if not isinstance(symbol, sympy.Symbol) or not value.has(symbol):
                     raise NoMeaningError(f"{name} does not depend on {variable}")
                 return functions(name, value, symbol)
     return {}

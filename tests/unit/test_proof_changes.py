@@ -59,6 +59,7 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
         ("text-ball-parallel", "^T", ""),
         ("text-covariance", r"g'\mathbf{K}'", "g'K'"),
         ("theorem-quartic", "=Q", r"\ne Q"),
+        ("theorem-every-top", r"q(\nu)", r"q(\kappa)"),
         ("theorem-band", r"\le0", r"\le1"),
         ("theorem-clebsch", r"\dot F", r"\ddot F"),
         ("theorem-sigma", r"\zeta(t+z_0)", r"\zeta(-t+z_0)"),
