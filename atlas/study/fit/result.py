@@ -20,8 +20,8 @@ from atlas.study.fit.problem import FULL, Problem, lag
 UNSEEN = 0.5
 """Standard error of a combination, in natural units, from which on the data do not determine it."""
 
-SHARE = 0.03
-"""Part of a parameter in such a combination from which on it is not determined either."""
+NULL = 1e-7
+"""Singular values, in parts of the largest, and parts of a combination below which there is nothing but rounding."""
 
 SURPRISE = 5.0
 """Standard deviations of chi square and of a correlation that are no chance."""
@@ -76,6 +76,7 @@ class Fit:
     problem: Problem
     _free: FloatArray
     _units: FloatArray
+    _whole: FloatArray
 
     @classmethod
     def of(cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "") -> "Fit":
@@ -120,7 +121,7 @@ class Fit:
             undetermined=(*[steady] * bool(steady), *seen.words(), *_gauge(problem)),
             doubts=tuple(_doubts(problem, x, residuals, redchi, free)),
             rivals=tuple(_rivals(problem, tried, free * scale**2)), result=result, problem=problem,
-            _free=seen.free * seen.units[:, None], _units=seen.units,
+            _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole,
         )  # fmt: skip
 
     @cached_property
@@ -156,7 +157,7 @@ class Fit:
         J = -there.slopes(self._x)
         if kind == "axis":
             J = R[:, :, :1] * J[:, :1] + R[:, :, 1:2] * J[:, 1:]
-        sigma = np.sqrt(np.einsum("nki,ij,nkj->nk", J, self.covariance, J).clip(0))
+        sigma = np.sqrt(np.einsum("nki,ij,nkj->nk", J, self._whole, J).clip(0))
         lost = abs(J @ self._free).sum(-1) > 1e-6 * abs(J * self._units).max(initial=1.0)
         sigma = np.where(lost, np.inf, sigma)
         return Prediction(value.reshape(*times.shape, *value.shape[1:]), sigma.reshape(*times.shape, -1))
@@ -325,20 +326,32 @@ class _Seen:
         size = np.maximum(size, np.finfo(float).eps * size.max(initial=1.0))
         self.lost = scale / size > UNSEEN
         kept = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
+        null = self.lost & (size < NULL * size.max(initial=1.0))
+        weak = self.lost & ~null
         if problem.loss == "linear":
             self.covariance = kept * scale**2
         else:  # of an M-estimator, whatever the noise
             spread = (J * self.units * scores[:, None]).T @ (J * self.units * scores[:, None])
             self.covariance = kept @ spread @ kept
-        self.covariance = self.covariance * np.outer(self.units, self.units)
+        square = np.outer(self.units, self.units)
+        self.covariance = self.covariance * square
+        self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
+        """Covariance for predictions, which see what is hardly determined as little as the data do."""
+        self.null = turn[null].T
         self.free = turn[self.lost].T
         """Combinations that are not determined, in natural units, (n, count)."""
+        self.errors = np.sqrt(np.diag(self.covariance))
+        self.moved = self._moves(np.diag(self.units), self.errors)
+        """Whether each parameter moves along each of them, by more than its error."""
+
+    def _moves(self, scaled: FloatArray, errors: FloatArray) -> Any:
+        by = abs(scaled @ self.free)
+        return (by * UNSEEN > errors[:, None]) & (by > NULL * np.linalg.norm(scaled, axis=1)[:, None])
 
     def mark(self, result: Any) -> None:
         """Set standard errors and correlations in lmfit's result, None where there are none."""
         problem, params = self.problem, result.params
-        lost = np.linalg.norm(self.free, axis=1) > SHARE
-        errors = np.sqrt(np.diag(self.covariance))
+        lost, errors = self.moved.any(1), self.errors
         result.covar, result.errorbars = self.covariance, not lost.any()
         names = problem.names
         for i, name in enumerate(names):
@@ -350,15 +363,15 @@ class _Seen:
         derived = [name for name, p in params.items() if p.expr]
         by = problem.chain(list(self.x), derived)
         for name, row in zip(derived, by, strict=True):
-            scaled = row * self.units
-            moved = np.linalg.norm(scaled @ self.free) > SHARE * float(np.linalg.norm(scaled))
-            params[name].stderr = None if moved else float(np.sqrt(row @ self.covariance @ row))
+            error = np.sqrt(row @ self.covariance @ row)
+            moved = self._moves((row * self.units)[None], error[None]).any()
+            params[name].stderr = None if moved else float(error)
 
     def words(self) -> list[str]:
         """Return a sentence for each combination that the data do not determine."""
         out = []
-        for u in self.free.T:
-            parts = [int(i) for i in np.argsort(-abs(u)) if abs(u[i]) > SHARE]
+        for k, u in enumerate(self.free.T):
+            parts = [int(i) for i in np.argsort(-abs(u)) if self.moved[i, k]]
             names = [self.problem.names[i] for i in parts]
             if len(names) == 1:
                 out.append(f"{names[0]} is not determined by these data.")
