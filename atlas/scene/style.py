@@ -82,7 +82,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "hyperbola": Style(VIOLET, 1.6, tube=2.8),
         "asymptote": Style(SLATE, 0.7, (5.0, 2.5), tube=1.2),
         "pole": Style(SLATE, 0.7, (1.2, 1.8), tube=1.2),
-        "trajectory": Style(TEAL, 1.2, tube=2.0),
+        "trajectory": Style(TEAL, 1.2, tube=1.8),
         "flight_path": Style(TEAL, 1.2, hidden=False, tube=2.4),
         "trace": Style("#2a57a5", 1.2, tube=2.6),
         "thin_trace": Style("#2a57a5", 0.7, tube=1.2),
