@@ -260,18 +260,13 @@ def test_what_a_parameter_takes_is_said_in_words(tmp_path: Path) -> None:
 
 ENDS = {
     "asymmetric_motion": {"turns": (1e-3, 50.0)},
-    "ball_motion": {"periods": (1e-3, 1e3)},
     "cusps": {"nutations": (0.5, 40.0)},
-    "elliptic_motion": {"periods": (1e-3, 1e3)},
     "flattening": {"stop": (0.1, 200.0)},
-    "free_motion": {"periods": (1e-3, 1e3)},
-    "general_motion": {"periods": (1e-3, 1e3)},
     "monodromy": {"points": (24, 200)},
     "phase_portrait": {"levels": (1, 40)},
     "separatrix": {"decay": (0.1, 30.0)},
     "quadrics_of_tops": {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)},
     "tipping_disk": {"count": (2, 24)},
-    "top_motion": {"periods": (1e-3, 1e3)},
     "turnover": {"reach": (0.1, 100.0)},
     "wells": {"reach": (0.5, 50.0)},
 }
@@ -279,6 +274,7 @@ SHARED = {
     "azimuth": (-360.0, 360.0),
     "elevation": (-90.0, 90.0),
     "turns": (1e-3, 1e3),
+    "periods": (1e-3, 1e3),
     "reach": (1e-2, 1e2),
     "horizon": (1e-3, 1e9),
     "columns": (1, 6),
