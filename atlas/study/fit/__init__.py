@@ -70,8 +70,8 @@ def fit(
 
     Motions are sought from random starts, always the same ones, on short arcs of the data, which grow. A signal of one
     number may tell several motions apart by little: `doubts` says where none was found that follows the data, `rivals`
-    holds the other minima, and `params` take values to start from. Bodies with three moments are integrated while they
-    are sought; `motion` and predictions are in closed form.
+    holds the other minima, and `params` take values to start from, as the ratio of a body that hardly nutates. Bodies
+    with three moments are integrated while they are sought; `motion` and predictions are in closed form.
 
     `loss` "soft_l1", "huber", "cauchy" or "arctan" keeps outliers from carrying the fit off. Raises AtlasError for data
     of another shape, what is no number, no rotation or no parameter, fewer numbers than parameters, and where no motion

@@ -416,7 +416,8 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
         )
     if data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
         wrong = (
-            "the family is not that of the motion (drag, a second field), or sigma is too small"
+            "the family is not that of the motion (drag, a second field), sigma is too small, or this is a false "
+            "minimum, as there are where a nutation is small: give a start by params (--start)"
             if redchi > 1
             else "sigma is too large"
         )
