@@ -103,7 +103,7 @@ def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
     """All that the register lists of a motion or surface."""
     one, given = FAMILIES[case[0]], case[1]
     at = {s.name: lambda m, s=s: s.method_of(m)(t) for s in one.sampled}
-    asked(lambda: one.kernels()(*given), {q.name: q.of for q in one.quantities} | at)
+    asked(lambda: one.kernels()(*given), {q.name: q.value for q in one.quantities} | at)
 
 
 @share(0.1, 40)

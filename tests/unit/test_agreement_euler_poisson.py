@@ -108,7 +108,7 @@ def of_points(say: Ledger, p: Any) -> Any:
     """Return (8) of three masses, counted from their centre."""
     m, x = exact(p.masses), exact(p.places)
     centre = (m.T * x) / sum(m)
-    return say("(8)", "g[i,j]", at0=lambda x: x, m=m, x=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
+    return say("(8)", "g[i,j]", at0=lambda x: x, m=m, moved=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
 
 
 def shell_ratio(f: Floor, p: Any) -> Any:

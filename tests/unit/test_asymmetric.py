@@ -381,7 +381,7 @@ def test_the_command_prints_proven_digits_or_one_line() -> None:
     assert "on a torus" in found.output
     refused = CliRunner().invoke(command, ["motion", *given, "--inertia", "1", "1", "3"])
     assert isinstance(refused.exception, atlas.AtlasError)
-    assert "No body has the moments of inertia 1.0, 1.0, 3.0: " in str(refused.exception)
+    assert "No body has the principal moments [1. 1. 3.]: " in str(refused.exception)
     assert "\n" not in str(refused.exception)
 
 
