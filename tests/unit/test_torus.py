@@ -175,9 +175,12 @@ def test_periods_and_frequencies_belong_together(found: dict[str, Any]) -> None:
 
 
 def test_the_riemann_matrix_is_that_of_the_motion(found: dict[str, Any]) -> None:
-    """It is symmetric with a positive imaginary part, the one that the kernel sums with; it is not called proved."""
-    tau = np.array([[complex(complex_of(x)) for x in row] for row in found["not_proved"]["riemann_matrix"]])
-    assert tau == pytest.approx(tau.T, abs=1e-28)
+    """Two paths give each entry beside the diagonal, to all digits; it is the one that the kernel sums with."""
+    assert "riemann_matrix" not in found["not_proved"]
+    with mpmath.workdps(60):
+        (a, b), (c, d) = ([complex_of(x) for x in row] for row in found["riemann_matrix"])
+        assert abs(b - c) < 1e-39
+    tau = np.array([[complex(x) for x in row] for row in ((a, b), (c, d))])
     assert (np.linalg.eigvalsh(tau.imag) > 0).all()
     assert tau == pytest.approx(atlas.AsymmetricMotion(BODY, FIELD, OMEGA).riemann_matrix, abs=1e-12)
 

@@ -272,8 +272,8 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     def curve(self) -> Any:
         """Spectral curve of one motion on a torus, with proven branch points, periods, frequencies, winding numbers.
 
-        `curve.record(digits)` has all of it as texts of so many digits, also the rational coefficients, and, not
-        proved, the Riemann matrix and the characteristics of the theta functions; see `SpectralCurve`. DomainError for
+        `curve.record(digits)` has all of it as texts of so many digits, also the rational coefficients, the Riemann
+        matrix, and, not proved, the characteristics of the theta functions; see `SpectralCurve`. DomainError for
         a motion without a torus, AtlasError for an array of them.
         """
         from atlas.exact.motions.spectral_curve import SpectralCurve

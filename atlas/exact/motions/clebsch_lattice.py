@@ -13,7 +13,7 @@ until no single one makes det Im tau larger, so that theta series need few terms
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -58,6 +58,9 @@ class Lattice:
     others: tuple[list[acb], list[acb]]
     a: tuple[list[acb], list[acb]]
     b: tuple[list[acb], list[acb]]
+    paths: tuple[tuple[acb, acb], ...] = ()
+    """Ends of the paths whose integrals the periods are sums of, and the whole weights of a1, a2, b1 and b2."""
+    weights: tuple[tuple[int, ...], ...] = ()
 
     @property
     def X(self) -> acb_mat:
@@ -86,12 +89,12 @@ def lattice(motion: Integrals) -> Lattice:
 
 def _of_paths(curve: Curve, each: int) -> Lattice:
     """Return the periods that integrals along some paths make, the best first, no more than are needed."""
-    ways, why = list[list[acb]](), "no paths between zeros were found."
-    for path in curve.paths(each):
+    ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(each)
+    for path in paths:
         ways.append(list(curve.along(*path)))
         if len(ways) >= FEWEST:
             try:
-                return _of_ways(ways)
+                return replace(_of_ways(ways), paths=tuple(paths[: len(ways)]))
             except NotCertifiedError as reason:
                 why = str(reason).removeprefix("not certified: ")
     raise NotCertifiedError(f"not certified: {why}")
@@ -99,14 +102,18 @@ def _of_paths(curve: Curve, each: int) -> Lattice:
 
 def _of_ways(ways: list[list[acb]]) -> Lattice:
     """Return the periods that some integrals generate, if there are four with a polarization of type (1,2)."""
-    periods = sums(ways, generating([_real(way) for way in ways]))
+    weights = generating([_real(way) for way in ways])
+    periods = sums(ways, weights)
     if len(periods) != 4:
         raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")
-    periods = sums(periods, _real_first(_conjugation(periods)))
+    real = _real_first(_conjugation(periods))
+    periods = sums(periods, real)
     basis = _reduced(periods, _symplectic(_polarization(periods)))
+    of_paths = sums(sums(weights, real), basis.tolist())
     a1, a2, b1, b2 = sums(periods, basis.tolist())
     first, second = sums(periods[:2], _shortest(periods, basis))
-    return Lattice((first, second), (periods[2], periods[3]), (a1, a2), (b1, b2))
+    others, whole = (periods[2], periods[3]), tuple(tuple(row) for row in of_paths)
+    return Lattice((first, second), others, (a1, a2), (b1, b2), weights=whole)
 
 
 def _real(period: Sequence[acb]) -> list[arb]:

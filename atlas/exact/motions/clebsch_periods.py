@@ -105,16 +105,19 @@ def real_periods(motion: Integrals) -> list[Pair]:
 
 
 class Curve:
-    """The zeros of Psi on the torus of u, and integrals between them, not analytic at `others`."""
+    """The zeros of Psi on the torus of u, and integrals between them, not analytic at `others`.
 
-    def __init__(self, motion: Integrals) -> None:
-        self.motion, self.g = motion, motion.g
+    What is `proven` keeps the radii of its balls, which grow; else only their centres are taken on.
+    """
+
+    def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
+        self.motion, self.g, self.proven = motion, motion.g, proven
         self.third = arb(motion.e2) / 3
         low, middle, high = sorted(motion.e2 / 3 - motion.D / I for I in motion.moments)
         m, size = arb((middle - low) / (high - low)), arb(high - low).sqrt()
         self.real = 2 * acb(m).elliptic_k().real / size
         self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
-        self.tau = centre(self.imaginary / self.real)
+        self.tau = self._held(self.imaginary / self.real)
         _, second, third, fourth = acb(0).modular_theta(self.tau)
         self.scale, self.foot = arb.pi() / self.real * third * fourth, motion.D / max(motion.moments)
         self.slope = -arb.pi() / self.real * second * second * self.scale * self.scale
@@ -149,13 +152,16 @@ class Curve:
 
     def _place(self, z: acb, v: acb) -> acb:
         """Return the u of a point of the curve, in the cell about zero."""
-        u = centre(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
+        u = self._held(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
         _, found = self.at(u)
         if _far(found - v) > _far(found + v):
             u = -u
         y = round(float(u.imag.mid()) / float(self.imaginary.imag.mid()))
         u -= y * self.imaginary
-        return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
+        return self._held(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
+
+    def _held(self, x: acb) -> acb:
+        return x if self.proven else centre(x)
 
     def paths(self, each: int = EACH) -> list[tuple[acb, acb]]:
         """Return straight paths between zeros, so many for each of four, those farthest from others first."""
@@ -177,6 +183,12 @@ class Curve:
         """Return the other places but the ends of a path."""
         return np.asarray(self.others[(self.others != a) & (self.others != b)])
 
+    def parts(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
+        """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
+        a, b = complex_of(start), complex_of(stop)
+        angles = 2 * np.arcsin(np.sqrt((self._beside(a, b) - a) / (b - a)))
+        return _parts(angles[_rates(0.0, np.pi, angles) < ROOM])
+
     def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
         """Return -2i times the integral of (D, z, v) du/eta along a path.
 
@@ -184,10 +196,8 @@ class Curve:
         shorter where another zero, or the pole of z, is near: as many as its distance has digits.
         """
         way = stop - start
-        a, b = complex_of(start), complex_of(stop)
-        angles = 2 * np.arcsin(np.sqrt((self._beside(a, b) - a) / (b - a)))
         first, second, third, before = acb(0), acb(0), acb(0), None
-        for low, high in _parts(angles[_rates(0.0, np.pi, angles) < ROOM]):
+        for low, high in self.parts(start, stop):
             half = arb.pi() * (high - low) / 2
             for x, weight in _rule():
                 s = arb.pi() * low + half * (1 + x)

@@ -6,14 +6,17 @@ type (1, 2) is the torus. Its branch points over that curve are the zeros of g +
 v = -g/2c. All coefficients are rational, of the inputs as doubles or decimals.
 """
 
+from contextlib import suppress
 from functools import cached_property
+from math import log2
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, arb, fmpq, fmpq_poly, fmpz_poly
+from flint import acb, acb_mat, arb, fmpq, fmpq_poly, fmpz_poly
 
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.digits import certified
 from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.clebsch_riemann import riemann_matrix
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import CHARACTERISTICS
 from atlas.formulas.numbers import workprec
@@ -21,10 +24,10 @@ from atlas.formulas.numbers import workprec
 if TYPE_CHECKING:
     from atlas.exact.motions.clebsch_periods import Integrals
 
-APPROXIMATE = 30
-"""Digits of the Riemann matrix, which is computed to some 50 and not proved."""
+BITS_A_DIGIT = log2(10)
 
-RIEMANN_BITS = 200
+APPROXIMATE, BITS = 30, 200
+"""Digits of a Riemann matrix that is not proved, of some 50 that are computed with so many bits."""
 
 
 class SpectralCurve:
@@ -75,17 +78,22 @@ class SpectralCurve:
     def record(self, digits: int = 20) -> dict[str, Any]:
         """Return the curve by name: rational coefficients, lowest first, and numbers of so many proven digits.
 
-        A complex number is a pair. Under `not_proved` stand the Riemann matrix, whose symmetric parts are theirs to 30
-        digits, and the characteristics [e; d] of the theta functions of K and M; or why there are none.
+        A complex number is a pair. The Riemann matrix has the digits of its integrals proved, to so many places; that
+        the cycles are a basis of type (1,2) rests on integer relations. Under `not_proved` stand the characteristics
+        [e; d] of the theta functions of K and M, or why there are none; and the matrix, to 30 digits, where a zero of
+        eta is so near to another that its integrals are not proved.
         """
         i = self.integrals
-        found = certified(self._proven, digits)
+        found, less = certified(self._proven, digits), self._approximate()
+        with suppress(NotCertifiedError), workprec(int(digits * BITS_A_DIGIT) + 64):
+            found["riemann_matrix"] = _matrix(riemann_matrix(i, self.torus.lattice), digits)
+            less.pop("riemann_matrix", None)
         return {
             "curve": "eta^2 = g(z) + 2*c*v, v^2 = P(z)",
             "g": _texts(i.g), "c": str(i.c), "P": _texts(i.P), "quartic": _texts(self.quartic),
             "body_branch_points": [str(-i.D / I) for I in i.moments],
             **found,
-            "not_proved": self._approximate(),
+            "not_proved": less,
         }  # fmt: skip
 
     def _proven(self) -> dict[str, Any]:
@@ -98,9 +106,8 @@ class SpectralCurve:
 
     def _approximate(self) -> dict[str, Any]:
         try:
-            with workprec(RIEMANN_BITS):
-                tau = self.theta.tau
-                matrix = [[_complex(tau[j, k]) for k in range(2)] for j in range(2)]
+            with workprec(BITS):
+                matrix = _matrix(self.theta.tau, APPROXIMATE)
             forms = {"denominator": self.theta.denominator}
             forms |= {f"{name}{j + 1}": one for name, several in (("K", self.theta.K), ("M", self.theta.M))
                       for j, one in enumerate(several)}  # fmt: skip
@@ -131,7 +138,11 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
     return [str(fmpq(x)) for x in polynomial.coeffs()]
 
 
-def _complex(x: acb) -> list[str]:
-    """Return real and imaginary part, to so many digits as are right; what symmetry makes zero is zero."""
-    parts = (x.real, x.imag)
-    return ["0" if abs(y) < arb(2) ** -100 else arb(y.mid()).str(APPROXIMATE, radius=False) for y in parts]
+def _matrix(tau: acb_mat, digits: int) -> list[list[list[str]]]:
+    """Return real and imaginary parts of a matrix, each with so many digits; what is zero to so many places is zero."""
+    least = arb(10) ** -digits
+
+    def text(x: arb) -> str:
+        return "0" if abs(x) < least else x.str(digits, radius=False)
+
+    return [[[text(x.real), text(x.imag)] for x in row] for row in tau.tolist()]
