@@ -76,6 +76,9 @@ LINES = {
     "grid_out/2": "fifth",
 }
 
+BESIDE = ("heyoka_own", "heyoka_7", "DOP853_7")
+"""Variants of an integrator that tables give, and no figure: they lie next to its line."""
+
 OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
 
 
@@ -185,10 +188,11 @@ def runs_of(record: Results, case: str) -> list[Run]:
 
 
 def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
-    """Return the runs of each method, in the order of the record."""
+    """Return the runs of each method that figures draw, in the order of the record."""
     groups: dict[str, list[Run]] = {}
     for run in runs:
-        groups.setdefault(run.method, []).append(run)
+        if run.method not in BESIDE:
+            groups.setdefault(run.method, []).append(run)
     return groups
 
 

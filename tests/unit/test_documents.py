@@ -69,7 +69,10 @@ def test_the_readme_in_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         ("`ElementaryMotion.rotation`", "ours", None),
         ("the formula in plain NumPy", "plain", None),
         ("heyoka, Taylor series, tolerance 1e-14", "heyoka", 1e-14),
+        ("heyoka, with a quaternion, its own tolerance 2.2e-16", "heyoka_7", 2.22e-16),
+        ("heyoka, in long double", "heyoka_long", 1.084e-19),
         ("SciPy, DOP853, tolerance 1e-7", "DOP853", 1e-7),
+        ("SciPy, DOP853 with a quaternion and compiled rates, tolerance 1e-10", "DOP853_7", 1e-10),
     ],
 )
 def test_the_readme_quotes_the_benchmark(line: str, method: str, tolerance: float | None) -> None:
