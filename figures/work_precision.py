@@ -25,8 +25,7 @@ def scene(
         caption=(
             f"Largest error up to $t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
             f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. Each line is an integrator with one "
-            "dot for each tolerance from $10^{-3}$ to $10^{-14}$; each mark is a closed form. Integrations with a "
-            "quaternion in the place of the matrix lie next to the lines and are in the record alone. "
+            "dot for each tolerance from $10^{-3}$ to $10^{-14}$; each mark is a closed form. "
             f"{benchmark.measured(record)}"
         ),
         alt=(
