@@ -24,8 +24,8 @@ def scene(
         title=title(__doc__),
         caption=(
             f"Largest error up to $t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
-            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. Each line is an integrator with one "
-            "dot for each tolerance from $10^{-3}$ to $10^{-14}$; each mark is a closed form. "
+            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. A line is an integrator, one "
+            "dot a tolerance from $10^{-3}$ to $10^{-14}$; a mark is a closed form. "
             f"{benchmark.measured(record)}"
         ),
         alt=(
