@@ -3,6 +3,8 @@
 Drawn from the stored record of the benchmark, which `make bench` renews.
 """
 
+from dataclasses import replace
+
 from atlas.scene.captions import listed, title
 from atlas.scene.layers import Layer, Plane, Scene
 from atlas.study import benchmark
@@ -10,7 +12,7 @@ from atlas.study import benchmark
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
 LARGE = 10_000
-ROOM = (0.2, 1.0), (0.4, 0.4)
+ROOM = (0.2, 0.3), (0.4, 0.4)
 
 
 def scene(*, columns: int = 1) -> Scene:
@@ -20,7 +22,7 @@ def scene(*, columns: int = 1) -> Scene:
         title=title(__doc__),
         caption=(
             "(a) Time for one rotation matrix of the elementary motion among $N$, on one core. (b) The same over "
-            "the time in which one core fills that memory with a constant, on one core and on two. "
+            "the time in which one core fills that memory with a constant, on one core and on two, with open dots. "
             f"{benchmark.measured(record)}"
         ),
         alt=(
@@ -30,7 +32,7 @@ def scene(*, columns: int = 1) -> Scene:
         ),
         panels=(each(record), multiples(record)),
         columns=columns,
-        size=(columns * 140.0, 2 // columns * 74.0),
+        size=(columns * 140.0, 2 // columns * 66.0),
     )
 
 
@@ -59,8 +61,10 @@ def multiples(record: benchmark.Results) -> Plane:
         ]
         if rows:
             points = benchmark.pairs(rows, lambda row: row.count, lambda row: row.to_fill)
-            label = benchmark.title(method) + (", two cores" if threads == 2 else "")
-            layers.extend(benchmark.line(points, f"{method}/{threads}" if threads == 2 else method, label))
+            curve, dots = benchmark.line(points, method)
+            if threads == 2:
+                curve, dots = replace(curve, label=f"{curve.label}, two cores"), replace(dots, role="rest")
+            layers += [curve, dots]
     return benchmark.panel(
         layers, layers, ("number of matrices $N$", "multiples of filling the memory"), ROOM, "(b) over the memory limit"
     )

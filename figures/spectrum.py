@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector, title
 
-WIDTH, HEIGHT = 120.0, 118.0
+WIDTH, HEIGHT = 120.0, 110.0
 BESIDE = 0.02
 """Part of the width between names that are both written."""
 
@@ -34,15 +34,17 @@ def scene(
     motion = GeneralMotion(ratio, field, omega)
     axis, spin = motion.spectrum("axis", least), motion.spectrum("angular_velocity", least)
     rates = dict(zip((*axis.names, *spin.names), (*axis.rates, *spin.rates), strict=True))
+    top = 1.2 * float(max(axis.frequencies.max(initial=0.0), spin.frequencies.max(initial=0.0))) or 1.0
+    along_field, along_axis = (r"along $\mathbf{B}$", r"across $\mathbf{B}$"), ("along the axis", "across it")
     symbols = {"nutation": "M", "precession": "p", "spin": "s"}
     told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items())
     return Scene(
         title=title(__doc__),
         caption=(
             rf"Lines of the motion of {tex_setting(ratio, field)} from "
-            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field at $m M$, "
-            r"across it at $m M\pm p$. (b) Of $\boldsymbol{\Omega}$, along the axis at $m M$, across it at "
-            r"$m M\pm s$. Heights are amplitudes beside the root of the mean square."
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "
+            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are amplitudes beside the root of the "
+            r"mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "
@@ -51,19 +53,20 @@ def scene(
             f"nutation, {plain(rates.get('nutation', 0.0))}, to the next."
         ),
         panels=(
-            stems(
-                "(a) the body's axis", axis, "l", (r"along $\mathbf{B}$", r"across $\mathbf{B}$"), least, names, unit
-            ),
-            stems("(b) angular velocity in the body", spin, "j", ("along the axis", "across it"), least, names, unit),
+            stems(r"(a) the body's axis, $(m,l)$ at $mM+lp$", axis, along_field, least, names, top, ""),
+            stems(r"(b) angular velocity in the body, $(m,j)$ at $mM+js$", spin, along_axis, least, names, top, unit),
         ),
         size=(WIDTH, HEIGHT),
     )
 
 
 def stems(
-    heading: str, lines: Spectrum, letter: str, kinds: tuple[str, str], least: float, names: int, unit: str
+    heading: str, lines: Spectrum, kinds: tuple[str, str], least: float, names: int, top: float, unit: str
 ) -> Plane:
-    """Return a panel of lines; those that turn about the field, or about the body's axis, are of the second kind."""
+    """Return a panel of lines; those that turn about the field, or about the body's axis, are of the second kind.
+
+    The frequencies go up to ``top``; without a ``unit`` the axis has no name.
+    """
     size = np.sqrt(lines.power / lines.mean_square)
     kept = lines.frequencies >= 0
     f, size, numbers = lines.frequencies[kept], size[kept], np.zeros((kept.sum(), 2), dtype=int)
@@ -75,7 +78,6 @@ def stems(
         for i, n in enumerate(chosen):
             layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i else kind))
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
-    top = float(f.max(initial=0.0)) * 1.16 or 1.0
     written: list[float] = []
     for n in np.argsort(-size):
         if len(written) < names and all(abs(f[n] - x) > BESIDE * top for x in written):
@@ -83,6 +85,6 @@ def stems(
             text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
             layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
     return Plane(
-        tuple(layers), f"frequency (1/{unit})", "amplitude", (-0.08 * top, top), (least / 2, 3.0),
-        y_scale="log", legend=True, title=f"{heading}, $(m,{letter})$",
+        tuple(layers), f"frequency (1/{unit})" if unit else "", "amplitude", (-0.1 * top, top), (least / 2, 3.0),
+        y_scale="log", legend=True, title=heading,
     )  # fmt: skip

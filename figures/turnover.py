@@ -15,7 +15,7 @@ from atlas.scene.captions import plain, tex, tex_vector, title
 
 WIDTH, HEIGHT = 88.0, 62.0
 POINTS = 600
-ROLES = ("main", "third", "second")
+ROLES = ("main", "second", "third")
 RANGES = {"reach": (0.1, 100.0)}
 
 

@@ -49,16 +49,24 @@ def scene(
     for i, (centre, (attitude, name)) in enumerate(zip(row(3, STEP, azimuth), steps, strict=True)):
         layers = [
             *drawn_body(quotient(ratio), attitude, centre, 1.0, fine),
-            Arrow(centre, centre + REACH * attitude[:, 2], "body_axis", r"$\mathbf{R}_3$"),
+            Arrow(
+                centre,
+                centre + REACH * attitude[:, 2],
+                "body_axis",
+                r"$\mathbf{R}_3$",
+                (-15.0, -4.0) if i == 2 else None,
+            ),
             Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$"),
             Label(centre - 1.6 * E3, name, "label", (0.0, -6.0)),
         ]
         if i == 1:
-            layers += sweep(centre + 1.25 * E3, E3, 0.45 * E1, proper, r"$\phi t$", fine)
+            layers += sweep(centre + 1.25 * E3, E3, 0.45 * E1, proper, r"$\phi t$", fine, 0.0)
         if i == 2:
             layers.append(Curve(np.stack([centre, centre + REACH * E3]), "construction"))
             along = float(E3 @ axis)
-            layers += sweep(centre + REACH * along * axis, axis, REACH * (E3 - along * axis), precession, r"$kt$", fine)
+            layers += sweep(
+                centre + REACH * along * axis, axis, REACH * (E3 - along * axis), precession, r"$kt$", fine, 0.6
+            )
         cells.append(layers)
     return Scene(
         title=title(__doc__),
@@ -80,11 +88,11 @@ def scene(
 
 
 def sweep(
-    centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float
+    centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float, along: float
 ) -> list[Layer]:
-    """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, with an arrow at its end and a name."""
+    """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, an arrow at its end, its name beside."""
     last = angle - np.sign(angle) * min(0.35, 0.5 * abs(angle))
     arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, last, tolerance)
     tip = solids.ellipse(centre, radius, np.cross(axis, radius))(np.array([angle]))[0]
-    middle = solids.ellipse(centre, 1.25 * radius, 1.25 * np.cross(axis, radius))(np.array([0.6 * angle]))[0]
+    middle = solids.ellipse(centre, 1.25 * radius, 1.25 * np.cross(axis, radius))(np.array([along * angle]))[0]
     return [Curve(arc, "turn"), Arrow(arc[-1], tip, "turn"), Label(middle, name, "turn", (0.0, 4.0))]

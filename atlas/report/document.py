@@ -56,7 +56,7 @@ class PageView:
         for template, view in zip(self.templates, self.blocks, strict=True):
             place = len(found)
             if template == "figure":
-                while place and found[place - 1][0] == "figure":
+                while place and found[place - 1][0] in {"figure", "table"}:
                     place -= 1
                 if place and found[place - 1][0] == "prose":
                     place -= 1

@@ -72,8 +72,6 @@ LINES = {
     "DOP853_7": "fifth",
     "heyoka_long": "fourth",
     "fill": "limit",
-    "ours_out/2": "fourth",
-    "grid_out/2": "fifth",
 }
 
 BESIDE = ("heyoka_own", "heyoka_7", "DOP853_7")
@@ -202,10 +200,10 @@ def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]
     return np.asarray(np.maximum(points, 1e-18))
 
 
-def line(points: FloatArray, method: str, label: str | None = None) -> tuple[Layer, ...]:
+def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
     """Return the line of a method with a dot where it was measured."""
     role = LINES.get(method, "eighth")
-    return Curve(points, role, title(method) if label is None else label), Points(points, "sample")
+    return Curve(points, role, title(method)), Points(points, "sample")
 
 
 def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> tuple[float, float]:
