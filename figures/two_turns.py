@@ -90,7 +90,7 @@ def scene(
 def sweep(
     centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float, along: float
 ) -> list[Layer]:
-    """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, an arrow at its end, its name beside."""
+    """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, with an arrow and its name."""
     last = angle - np.sign(angle) * min(0.35, 0.5 * abs(angle))
     arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, last, tolerance)
     tip = solids.ellipse(centre, radius, np.cross(axis, radius))(np.array([angle]))[0]
