@@ -1,16 +1,31 @@
 """``atlas fit``: the body, the field and the motion out of a user's own measurements."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import click
 
-from atlas.cli.options import FILE, REAL, Command, Many, Place, examples
+from atlas.cli.options import FILE, REAL, Command, Many, Place, examples, stack
 from atlas.cli.present import dump, picture
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
 KINDS = ("rotation", "quaternion", "axis", "angular_velocity", "field_in_body", "signal")
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+
+fit_options: Callable[[Any], Any] = stack(
+    click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions."),
+    click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, of several kinds."),
+    click.option("--sigma", type=REAL, help="Standard error of each number, of attitudes and axes in radians."),
+    click.option("--fix", cls=Many, metavar="NAME=VALUE [...]", help="Parameters that are known."),
+    click.option("--start", cls=Many, metavar="NAME=VALUE [...]", help="Where a parameter is sought first."),
+    click.option("--epoch", type=REAL, default="0", show_default=True, help="Time at which the parameters hold."),
+    click.option(
+        "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
+    ),
+    click.option("--predict", cls=Many, type=REAL, metavar="T [T ...]", help="Predict what was measured."),
+    click.option("--horizon", type=REAL, metavar="ERROR", help="Until when a prediction is that good."),
+)
 
 
 @click.command(
@@ -24,17 +39,7 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
     ),
 )
 @click.argument("file", type=FILE, metavar="FILE.csv")
-@click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions.")
-@click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, where there are several kinds.")
-@click.option("--sigma", type=REAL, help="Standard error of each number, of attitudes and axes in radians.")
-@click.option("--fix", cls=Many, metavar="NAME=VALUE [...]", help="Parameters that are known.")
-@click.option("--start", cls=Many, metavar="NAME=VALUE [...]", help="Where a parameter is sought first.")
-@click.option("--epoch", type=REAL, default="0", show_default=True, help="Time at which the parameters hold.")
-@click.option(
-    "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
-)
-@click.option("--predict", cls=Many, type=REAL, metavar="T [T ...]", help="Predict what was measured.")
-@click.option("--horizon", type=REAL, metavar="ERROR", help="Until when a prediction is that good.")
+@fit_options
 @click.option(
     "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw data, curve, residuals: svg, pdf, png."
 )
@@ -49,18 +54,35 @@ def command(file: Path, **options: Any) -> int:
     What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
     residuals that are correlated. The exit status is 1 if something does, 2 if the file or an option is wrong.
     """
-    from atlas.study.fit import fit
-    from atlas.study.fit.data import of_file
+    found = fitted(file, options)
+    record, lines = ahead(found, options)
+    if options["as_json"]:
+        dump({"file": file.name, **found.record(), **record})
+    else:
+        click.echo("\n".join([f"{file.name}: {found.report()}", *lines]))
+    picture(found, options["figure"], silent=options["as_json"])
+    return 1 if found.doubts else 0
 
-    t, data, known = of_file(file, options["kind"])
+
+def fitted(file: Path, options: dict[str, Any]) -> Any:
+    """Return the fit that the options ask for."""
+    from atlas.study.fit import fit_file
+
+    return fit_file(file, **arguments(options))
+
+
+def arguments(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the arguments of `fit_file` that the options stand for."""
     params = {name: {"value": value, "vary": False} for name, value in map(_pair, options["fix"])}
     params |= {name: {"value": value} for name, value in map(_pair, options["start"])}
-    sigma = known if options["sigma"] is None else float(options["sigma"])
-    found = fit(
-        t, options["family"], sigma=sigma, params=params, loss=options["loss"], epoch=float(options["epoch"]), **data
-    )
-    record = {"file": file.name, **found.record()} if options["as_json"] else {}
-    lines = [f"{file.name}: {found.report()}"]
+    sigma = None if options["sigma"] is None else float(options["sigma"])
+    same = {name: options[name] for name in ("family", "kind", "loss")}
+    return {**same, "sigma": sigma, "epoch": float(options["epoch"]), "params": params}
+
+
+def ahead(found: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Return what is asked of the time to come, as plain data and in lines."""
+    record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):
         value, error = found.predict(time)
         record.setdefault("predictions", []).append({"t": time, "value": value.tolist(), "sigma": error.tolist()})
@@ -68,12 +90,7 @@ def command(file: Path, **options: Any) -> int:
     if options["horizon"] is not None:
         record["horizon"] = until = found.horizon(float(options["horizon"]))
         lines.append(f"a prediction is good within {float(options['horizon']):g} until t = {until:.6g}")
-    if options["as_json"]:
-        dump(record)
-    else:
-        click.echo("\n".join(lines))
-    picture(found, options["figure"], silent=options["as_json"])
-    return 1 if found.doubts else 0
+    return record, lines
 
 
 def _pair(text: str) -> tuple[str, float]:

@@ -1,7 +1,9 @@
 """``atlas page``: a page for one object in the user's own numbers, as one file to mail, and a PDF."""
 
+import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +21,8 @@ from atlas.cli.family import (
     object_options,
     values_of,
 )
-from atlas.cli.options import Command, examples, jobs_option, out_option, stack
+from atlas.cli.fit import ahead, arguments, fit_options, fitted
+from atlas.cli.options import FILE, Command, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.present import bar
 from atlas.cli.report import status_of
@@ -30,16 +33,20 @@ from atlas.families import FAMILIES, Family
 OWN = {"out", "digits", "title", "name", "jobs", "note"}
 """Options of a page, not of its object."""
 
+page_options: Callable[[Any], Any] = stack(
+    out_option("build/pages"),
+    click.option("--title", help="Title of the page."),
+    click.option("--name", metavar="NAME", help="Name of its files, in the place of its options."),
+    jobs_option,
+)
+
 
 def command_of(family: Family, name: str) -> click.Command:
     """Make the command of a family."""
     more = [
-        out_option("build/pages"),
+        page_options,
         click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
-        click.option("--title", help="Title of the page."),
-        click.option("--name", metavar="NAME", help="Name of its files, in the place of its options."),
         click.option("--note", default="", hidden=True),
-        jobs_option,
     ]
 
     def run(**options: Any) -> int:
@@ -58,6 +65,41 @@ COMMANDS = {
 """By the name of the command; the families that are no command of their own have no name here, only options."""
 
 
+@click.command("fit", cls=Command, help="Make a page: a motion out of measured data, as atlas fit finds it.")
+@click.option("--fit", "file", type=FILE, required=True, metavar="FILE.csv", help="The data.")
+@fit_options
+@page_options
+def of_fit(file: Path, **options: Any) -> int:
+    """Fit a file, and make the page of what is found; the status is that of `atlas fit`."""
+    from atlas.report.fitted import Fitted
+
+    typed = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
+    called, found = _called(options), fitted(file, options)
+    wanted = Fitted(
+        found, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
+        arguments(options), motion_of(found.motion), tuple(ahead(found, options)[1]), options["title"] or "", called,
+    )  # fmt: skip
+    status = make(wanted, options["out"], options["jobs"])
+    for doubt in found.doubts:
+        click.echo(f"atlas: {doubt}", err=True)
+    return status or (1 if found.doubts else 0)
+
+
+def motion_of(made: Any) -> Any:
+    """Return what a page of a motion is asked for, in the axes of its class."""
+    from atlas.core.motions.chosen import motion
+
+    if not hasattr(made, "own"):
+        given = made.arguments
+        made = motion(given["ratio"], given["field"], made.angular_velocity(0.0), given["attitude"])
+    own = in_principal_axes(made)
+    with COMMANDS[in_group(own.family.name)].make_context(own.family.name, own.options) as context:
+        return asked(own.family, context.params)
+
+
+COMMANDS["fit"] = of_fit
+
+
 class ByOptions(click.Group):
     """A group that finds the command by the options, where none is named."""
 
@@ -65,11 +107,13 @@ class ByOptions(click.Group):
         """Put the command in front of its options, and that of its family where several have one name."""
         if args and args[0] in GONE:
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
+        if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
+            args = ["fit", "--fit", *args[1:]]
         if not set(args) & set(ctx.help_option_names):
             if args[:1] == ["motion"]:
                 args = [in_group(family_of(args)), *args[1:]]
             elif args and args[0].startswith("--"):
-                args = [best(args), *args]
+                args = ["fit" if "--fit" in {word.partition("=")[0] for word in args} else best(args), *args]
             if args[:1] == ["asymmetric"]:
                 args = along_principal_axes(args[1:], ctx) or args
         return super().parse_args(ctx, args)
@@ -131,16 +175,20 @@ def _counted(args: Sequence[str]) -> Iterator[tuple[str, int]]:
         "atlas page --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3",
         "atlas page top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3",
         "atlas page elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7",
+        "atlas page --fit mine.csv --sigma 0.01",
     ),
 )
 def command() -> None:
-    """Make a page of one object: a body in a field, a motion, a top.
+    """Make a page of one object: a body in a field, a motion, a top, or what measured data tell of one.
 
     It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
     neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all
     that belongs to it; NAME.pdf is the same to print, and NAME.toml the report that both are made from, to go on with.
     Beside a page or PDF that you edited, or that is another's, the new one is written, as NAME.new.html, and then the
     exit status is 2.
+
+    With --fit FILE.csv and the options of atlas fit it has the parameters with their errors, what the data do not
+    determine, data, curve and residuals, how far ahead a prediction is good, and the figures of the motion.
 
     COMMAND is that of a family and takes its options; without it, it is the one that the options are of: --omega2 makes
     an elementary motion, --omega any motion, neither of them the quadric of the body in the field.
@@ -151,13 +199,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
     from atlas.report.page import Asked
 
-    context = click.get_current_context()
-    typed = {
-        one.opts[0].removeprefix("--"): _texts(options[one.name])
-        for one in context.command.params
-        if one.name in options.keys() - OWN
-        and context.get_parameter_source(one.name) is click.core.ParameterSource.COMMANDLINE
-    }
+    typed = _typed(options.keys() - OWN, options)
     found = dict(
         zip(
             (p.name for p in family.parameters),
@@ -175,10 +217,25 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
         records["body"] = _body(options)
     if in_plane(family):
         records["field"] = _field(options)
-    title, digits = options["title"] or "", options["digits"]
+    title, digits, called = options["title"] or "", options["digits"], _called(options)
+    return Asked(family, typed, values, **records, digits=digits, title=title, called=called, note=options["note"])
+
+
+def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Return those of the options by these names that were typed, each with what was."""
+    context = click.get_current_context()
+    return {
+        one.opts[0].removeprefix("--"): _texts(options[one.name])
+        for one in context.command.params
+        if one.name in names and context.get_parameter_source(one.name) is click.core.ParameterSource.COMMANDLINE
+    }
+
+
+def _called(options: dict[str, Any]) -> str:
+    """Return the name that was asked for, nothing where none was. Raises click.UsageError for what is no name."""
     if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
         raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
-    return Asked(family, typed, values, **records, digits=digits, title=title, called=called, note=options["note"])
+    return called
 
 
 def _texts(value: Any) -> tuple[str, ...]:
@@ -229,22 +286,24 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def make(wanted: Any, out: Path, jobs: int | None) -> int:
-    """Write the report file of a page and build it. Raises AtlasError where the file was changed since it was made."""
+    """Write the report file of a page and build it. Raises AtlasError where a file was changed since it was made."""
     from atlas import processes
 
-    file = out / f"{wanted.name}.toml"
+    file, recipe = (out / f"{wanted.name}{suffix}" for suffix in (".toml", ".py"))
     if not file.exists():  # its figures are to be drawn: what they need is loaded meanwhile
         processes.prepare(processes.DRAWING)
     from atlas.build.report import build_report
-    from atlas.report.page import edited, text
+    from atlas.report.page import edited
 
-    if file.exists() and edited(file.read_text(encoding="utf-8")):
-        raise AtlasError(
-            f"{file} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move it."
-        )
+    for one in (file, recipe):
+        if one.exists() and edited(one.read_text(encoding="utf-8")):
+            raise AtlasError(
+                f"{one} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move "
+                "it."
+            )
     with bar("page") as tell:
-        content = text(wanted, lambda name: (out / f"{name}.html").exists())
-        files.write(file, content.encode())
+        for name, content in wanted.sources(lambda name: (out / f"{name}.html").exists()).items():
+            files.write(out / name, content)
         built = build_report(file, out, tell, formats=("single", "pdf"), jobs=jobs)
     click.echo(built.single)
     click.echo(built.pdf)

@@ -2,7 +2,7 @@
 
 import re
 import shlex
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import chain
@@ -61,10 +61,11 @@ class Asked:
     @property
     def name(self) -> str:
         """The name of its files, made of what was typed."""
-        if self.called:
-            return self.called
-        name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in self.words)
-        return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:8]}"
+        return self.called or name_of(self.words)
+
+    def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
+        """Return the report file by its name; `there` says whether a page of that name lies beside it."""
+        return {f"{self.name}.toml": headed(self, "".join(toml.lines(definition(self, there))))}
 
     def changed(self, family: str, **options: Any) -> "Asked":
         """Return what another object near it is asked for by; an option that is None is left out."""
@@ -92,15 +93,20 @@ HEAD = (
 )
 
 
-def text(asked: Asked, there: Callable[[str], bool]) -> str:
-    """Return the report file; `there` says whether a page of that name lies beside it."""
-    content = "".join(toml.lines(definition(asked, there)))
+def name_of(words: Iterable[str]) -> str:
+    """Return the name of a page's files, made of words of its command."""
+    name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
+    return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:8]}"
+
+
+def headed(asked: Any, content: str) -> str:
+    """Return a file of a page, with the command that makes it at its head."""
     digest = sha256(content.encode()).hexdigest()[:12]
-    return HEAD.format(command=asked.command, digest=digest, name=asked.name) + content
+    return HEAD.format(command=asked.command.replace("\n", " "), digest=digest, name=asked.name) + content
 
 
 def edited(file: str) -> bool:
-    """Whether a report file is no longer as it was made."""
+    """Whether a file of a page is no longer as it was made."""
     head, _, content = file.partition("\n\n")
     found = re.search(r"digest (\w+)\.", head)
     return found is None or sha256(content.encode()).hexdigest()[:12] != found[1]
@@ -112,7 +118,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     thing = Thing.of(Request([_case(asked)], {"family": family.name, **asked.values}, asked.digits))
     thing.kernels(), thing.balls()
     given = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
-    figures = list(_figures(asked, left_out))
+    figures = list(figures_of(asked, left_out))
     left_out += _too_slow(thing.kernels(), asked.time)
     beside = [one for one in FAMILIES.values() if one is not family and one.name != "free" and _holds(family, one)]
     blocks = [
@@ -188,7 +194,7 @@ def _setting() -> dict[str, Any]:
     return {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 
 
-def _figures(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the figures that take the numbers, and note of the others why they don't."""
     from atlas.scene import recipes
 

@@ -16,7 +16,8 @@ from atlas.live.server import Explorer
 RANGES = ["turns=1:3:2", "turns=1:3:3", "t=0:1:2", "turns=1:1e13:9" + "9" * 12, "turns=1:3:\u0663", "turns=1,2:3:2"]
 LINES = {
     "page": [f"{name} {words}" for name, lines in EXAMPLES.items() for words in lines if "--times" not in words]
-    + ["--ratio 1.3 --field 1 2 --omega2 0.7", "--shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --field 1 2"],
+    + ["--ratio 1.3 --field 1 2 --omega2 0.7", "--shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --field 1 2"]
+    + ["--fit no_such.csv --sigma 0.1 --fix ratio=1.5 --predict 1", "fit no_such.csv"],
     "animate": [f"trochoids --dpi 20 --over {over}" for over in RANGES] + ["trochoids --dpi 20", "no_such"],
     "explore": ["--no-browser", "top --no-browser", "trochoids --no-browser", "no_such --no-browser"],
     "tex": ["no_such", "no_such.toml"],

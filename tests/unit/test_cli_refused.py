@@ -101,6 +101,7 @@ CASES = [
     ("motion --shape ring --radius 1 --density 1 --magnetic 1 2 --charge 1 --omega2 1", "--density is of a solid"),
     ("motion --ratio 1 --mu 1C/kg --magnetic 1 2 --units gaussian --omega2 1", "1C/kg is in SI"),
     ("page --ratio 1.5 --field 1 2 --name a/b", "a name has letters, digits and"),
+    ("page --fit {place}/one.csv", "5 times"),
     ("motion --ratio 1.5 --field 1 2", "the start is one of --omega2"),
     ("motion --ratio 1.5 --field 1 2 --omega 1 2 3 --spin 1", "the start is one of --omega W1 W2 W3 and --spin W3"),
     ("motion --tensor 1 1 1 0 0 0 --ratio 1 --field 0 0 1 --spin 1", "found --ratio and --tensor"),

@@ -2,18 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.study.fit.data import Data, of_arrays
+from atlas.study.fit.data import Data, of_arrays, of_file
 from atlas.study.fit.models import OMEGA, B, Model, attitude, carried, in_plane, model_of, unseen, vector
 from atlas.study.fit.problem import Problem, lag
 from atlas.study.fit.result import FOLLOWED, Fit
 from atlas.study.fit.search import grown, rate_of, tries
 
-__all__ = ["Fit", "fit"]
+__all__ = ["Fit", "fit", "fit_file"]
 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
@@ -106,6 +107,12 @@ def fit(
     steady = _steady(problem, tried[0]) if model.name == "general" else None
     best = [steady[0]] if steady else []
     return Fit.of(problem, [*best, *tried[bool(best) :]], float(epoch), steady=steady[1] if steady else "")
+
+
+def fit_file(file: Path, family: str = "general", *, kind: str | None = None, sigma: Any = None, **options: Any) -> Fit:
+    """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
+    t, data, known = of_file(file, kind)
+    return fit(t, family, sigma=known if sigma is None else sigma, **data, **options)
 
 
 def _parameters(model: Model, data: Data, given: Any) -> tuple[Any, dict[str, float]]:

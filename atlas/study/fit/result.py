@@ -14,14 +14,8 @@ from atlas.paper.plain import html_table, table
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.study.fit.data import KINDS, Data
 from atlas.study.fit.least import SCORE
-from atlas.study.fit.models import units_of, unseen
 from atlas.study.fit.problem import FULL, Problem, lag
-
-UNSEEN = 0.5
-"""Standard error of a combination, in natural units, from which on the data do not determine it."""
-
-NULL = 1e-7
-"""Singular values, in parts of the largest, and parts of a combination below which there is nothing but rounding."""
+from atlas.study.fit.seen import Seen, gauge
 
 SURPRISE = 5.0
 """Standard deviations of chi square and of a correlation that are no chance."""
@@ -109,7 +103,7 @@ class Fit:
         score = SCORE[problem.loss](r * r)
         redchi = problem.reduced(r)
         scale = 1.0 if data.known else float(np.sqrt(redchi))
-        seen = _Seen(problem, motion, x, J, result.jac if problem.loss != "linear" else J, score * r, scale)
+        seen = Seen(problem, motion, x, J, result.jac if problem.loss != "linear" else J, score * r, scale)
         seen.mark(result)
         sigma = data.sigma[:, 0] * scale
         residuals = (r / scale).reshape(data.t.size, -1)
@@ -118,7 +112,7 @@ class Fit:
             family=problem.model.name, kind=data.kind, epoch=epoch, params=result.params, names=tuple(names),
             covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
             sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
-            undetermined=(*[steady] * bool(steady), *seen.words(), *_gauge(problem)),
+            undetermined=(*[steady] * bool(steady), *seen.words(), *gauge(problem)),
             doubts=tuple(_doubts(problem, x, residuals, redchi, free)),
             rivals=tuple(_rivals(problem, tried, free * scale**2)), result=result, problem=problem,
             _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole,
@@ -218,23 +212,35 @@ class Fit:
                 digits = max(0, 1 - int(np.floor(np.log10(p.stderr))))
                 rows.append([name, f"{p.value:.{digits}f}", f"{p.stderr:.{digits}f}", note])
             else:
-                note = note or "not determined"
+                note = note if note == "fixed" else f"{note}, not determined".removeprefix(", ")
                 rows.append([name, f"{p.value:.6g}", "-", note])
         return heading, rows
 
     @property
     def _title(self) -> str:
         count = self.t.size
-        noise = "given" if self.problem.data.known else "found"
-        size = f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{self.sigma.min():.3g} to {self.sigma.max():.3g}"
         return (
             f"{self.family} motion, {count} times of {self.kind.replace('_', ' ')}: reduced chi square "
-            f"{self.redchi:.3f}, sigma {size} {noise}"
+            f"{self.redchi:.3f}, sigma {self.noise} {'given' if self.known else 'found'}"
         )
 
+    @property
+    def noise(self) -> str:
+        """The standard error of a measurement, in words."""
+        return f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{self.sigma.min():.3g} to {self.sigma.max():.3g}"
+
+    @property
+    def known(self) -> bool:
+        """Whether the standard error of a measurement was given."""
+        return self.problem.data.known
+
+    @property
+    def others(self) -> list[str]:
+        """The other minima, in sentences."""
+        return [f"another start ended at a reduced chi square of {one.redchi:.3g}" for one in self.rivals]
+
     def _sentences(self) -> list[str]:
-        others = [f"another start ended at a reduced chi square of {one.redchi:.3g}" for one in self.rivals]
-        return [*self.undetermined, *self.doubts, *others]
+        return [*self.undetermined, *self.doubts, *self.others]
 
     def report(self) -> str:
         """Return the parameters with their errors, what is not determined, and doubts."""
@@ -283,7 +289,7 @@ class Fit:
             title=f"A {what}",
             caption=(
                 "Above, the data as points and the fitted motion as curves; below, the residuals in standard errors. "
-                f"{self._title}."
+                f"{self._title[:1].upper()}{self._title[1:]}."
             ),
             alt=f"A {what}: points on curves against time, and residuals scattered about zero.",
             panels=(
@@ -302,106 +308,6 @@ class Fit:
     def plot(self, style: Any = None) -> Any:
         """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
         return notebook("pictures").to_figure(self.scene(), style)
-
-
-class _Seen:
-    """Covariance of the parameters, and the combinations that are not determined, by singular values of J."""
-
-    def __init__(
-        self,
-        problem: Problem,
-        motion: Any,
-        x: FloatArray,
-        J: FloatArray,
-        bent: FloatArray,
-        scores: FloatArray,
-        scale: float,
-    ) -> None:
-        self.problem, self.x = problem, x
-        field, rates = np.linalg.norm(motion.field_in_body(0.0)), np.linalg.norm(motion.angular_velocity(0.0))
-        units = units_of(problem.model, float(rates if problem.model.name == "top" else field + rates) or 1.0)
-        self.units = np.array([units[name] for name in problem.names])
-        scaled = bent * self.units
-        _, size, turn = np.linalg.svd(scaled, full_matrices=False)
-        size = np.maximum(size, np.finfo(float).eps * size.max(initial=1.0))
-        self.lost = scale / size > UNSEEN
-        kept = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
-        null = self.lost & (size < NULL * size.max(initial=1.0))
-        weak = self.lost & ~null
-        if problem.loss == "linear":
-            self.covariance = kept * scale**2
-        else:  # of an M-estimator, whatever the noise
-            spread = (J * self.units * scores[:, None]).T @ (J * self.units * scores[:, None])
-            self.covariance = kept @ spread @ kept
-        square = np.outer(self.units, self.units)
-        self.covariance = self.covariance * square
-        self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
-        """Covariance for predictions, which see what is hardly determined as little as the data do."""
-        self.null = turn[null].T
-        self.free = turn[self.lost].T
-        """Combinations that are not determined, in natural units, (n, count)."""
-        self.errors = np.sqrt(np.diag(self.covariance))
-        self.moved = self._moves(np.diag(self.units), self.errors)
-        """Whether each parameter moves along each of them, by more than its error."""
-
-    def _moves(self, scaled: FloatArray, errors: FloatArray) -> Any:
-        by = abs(scaled @ self.free)
-        return (by * UNSEEN > errors[:, None]) & (by > NULL * np.linalg.norm(scaled, axis=1)[:, None])
-
-    def mark(self, result: Any) -> None:
-        """Set standard errors and correlations in lmfit's result, None where there are none."""
-        problem, params = self.problem, result.params
-        lost, errors = self.moved.any(1), self.errors
-        result.covar, result.errorbars = self.covariance, not lost.any()
-        names = problem.names
-        for i, name in enumerate(names):
-            params[name].stderr = None if lost[i] else float(errors[i])
-            params[name].correl = None if lost[i] else {
-                other: float(self.covariance[i, j] / (errors[i] * errors[j]))
-                for j, other in enumerate(names) if j != i and not lost[j] and errors[i] * errors[j] > 0
-            }  # fmt: skip
-        derived = [name for name, p in params.items() if p.expr]
-        by = problem.chain(list(self.x), derived)
-        for name, row in zip(derived, by, strict=True):
-            error = np.sqrt(row @ self.covariance @ row)
-            moved = self._moves((row * self.units)[None], error[None]).any()
-            params[name].stderr = None if moved else float(error)
-
-    def words(self) -> list[str]:
-        """Return a sentence for each combination that the data do not determine."""
-        out = []
-        for k, u in enumerate(self.free.T):
-            parts = [int(i) for i in np.argsort(-abs(u)) if self.moved[i, k]]
-            names = [self.problem.names[i] for i in parts]
-            if len(names) == 1:
-                out.append(f"{names[0]} is not determined by these data.")
-                continue
-            first = "ratio" if "ratio" in names else names[0]
-            steps = u * self.units
-            steps = steps / steps[self.problem.names.index(first)]
-            moves = ", ".join(
-                f"{self.problem.names[i]} by {steps[i]:+.3g} d" for i in sorted(parts) if self.problem.names[i] != first
-            )
-            out.append(
-                f"{', '.join(names[:-1])} and {names[-1]} are not determined apart: if {first} changes by a small d "
-                f"and {moves}, these data stay the same."
-            )
-        return out
-
-
-def _gauge(problem: Problem) -> list[str]:
-    """Return what the kind of data never shows."""
-    hidden = unseen(problem.model, problem.data.kind)
-    if not hidden:
-        return []
-    if "a1" in hidden:
-        return [
-            "The attitude in the laboratory is not seen: B1 to B3 are along the axes that the body has at the epoch."
-        ]
-    if problem.data.kind != "axis":
-        words = "The turn of the body about the field is not seen, a3 = 0 at the epoch is a convention; and with "
-        return [words + "all of n, k2, k3 and linear the other way the data are the same."]
-    return ["The angle of the body about its axis is not seen: a3 = 0 at the epoch is a convention."]
 
 
 def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:

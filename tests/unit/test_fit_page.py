@@ -1,0 +1,213 @@
+"""`atlas page --fit`: the page of a fit, its numbers and words, the commands on it, and what it refuses."""
+
+import json
+import shlex
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from lxml import html as reader
+from pypdf import PdfReader
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.cli.app import atlas as command
+from atlas.cli.app import main
+from atlas.cli.page import motion_of
+from atlas.errors import AtlasError
+from atlas.families import FAMILIES
+from atlas.report import toml
+from atlas.report.fitted import MEANINGS
+from atlas.study.fit.models import MODELS
+
+NOISE = 0.01
+NAMES = ",".join(f"R{i}{j}" for i in "123" for j in "123")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def few_figures() -> Iterator[None]:
+    """Leave the motion one figure, for each takes half a second."""
+    families = [FAMILIES["general"], FAMILIES["elementary"]]
+    kept = [one.figures for one in families]
+    for one, name in zip(families, ("general_motion", "motion"), strict=True):
+        object.__setattr__(one, "figures", (name,))
+    yield
+    for one, figures in zip(families, kept, strict=True):
+        object.__setattr__(one, "figures", figures)
+
+
+def written(path: Path, motion: Any, slower: float = 0.0) -> Path:
+    """Write 80 attitudes of a motion, with noise; time may slow down."""
+    rng = np.random.default_rng(1)
+    t = np.sort(rng.uniform(0.0, 15.0, 80))
+    noise = Rotation.from_rotvec(rng.normal(0.0, NOISE, (t.size, 3))).as_matrix()
+    R = noise @ motion.rotation(t - slower * t**2 / 2)
+    header = f"# sigma = {NOISE}\nt,{NAMES}"
+    np.savetxt(path, np.column_stack([t, R.reshape(-1, 9)]), delimiter=",", header=header, comments="")
+    return path
+
+
+def nutating() -> Any:
+    """Return the motion that was measured."""
+    return atlas.GeneralMotion(1.3, (0.4, 1.1), omega=(0.9, 0.3, 0.7))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with data and their page, made once."""
+    place = tmp_path_factory.mktemp("fit")
+    file = written(place / "mine.csv", nutating())
+    assert asked(file, place / "out", "--predict", "20").exit_code == 0
+    return place
+
+
+def asked(file: Path, out: Path, *words: str) -> Any:
+    """Make the page of a file."""
+    words = ("page", "--fit", str(file), "--out", str(out), *words)
+    return CliRunner().invoke(command, words, catch_exceptions=False)
+
+
+def rows(page: Path, table: str) -> list[list[str]]:
+    """Return the rows of a table of a page, as plain text with plain spaces and signs."""
+    found = reader.fromstring(page.read_bytes()).get_element_by_id(f"tab-{table}").xpath(".//tbody/tr")
+    texts = [[cell.text_content() for cell in row.xpath("./td")] for row in found]
+    return [[cell.replace("\xa0", " ").replace("\N{MINUS SIGN}", "-").strip() for cell in row] for row in texts]
+
+
+def test_its_numbers_are_those_of_the_fit(folder: Path) -> None:
+    """Parameters and errors to the digits shown, correlations, horizons and a prediction, as `atlas fit` has them."""
+    page = folder / "out" / "fit-mine-predict-20.html"
+    text = CliRunner().invoke(
+        command, ["fit", str(folder / "mine.csv"), "--horizon", "0.1", "--predict", "20", "--json"]
+    )
+    known = json.loads(text.stdout)
+    for name, _, value, _ in rows(page, "parameters"):
+        number, error = map(float, value.split(" ± "))
+        p = known["params"][name]
+        assert abs(number - p["value"]) <= p["stderr"] / 10
+        assert abs(error - p["stderr"]) <= p["stderr"] / 10
+    size = np.sqrt(np.diag(known["covariance"]))
+    for pair, value in rows(page, "correlations"):
+        i, j = (known["names"].index(name) for name in pair.split(", "))
+        assert float(value) == pytest.approx(known["covariance"][i][j] / size[i] / size[j], abs=6e-4)
+        assert abs(float(value)) >= 0.5
+    horizons = rows(page, "horizon")
+    assert [row[0] for row in horizons] == ["0.01 rad", "0.1 rad"]
+    assert float(horizons[1][2]) == pytest.approx(known["horizon"], rel=1e-5)
+    assert "at t = 20: " in page.read_text("utf-8")
+
+
+def test_the_pdf_and_the_file_have_the_pictures(folder: Path) -> None:
+    """Data, curve and residuals, then the motion; both stand in one file, which asks for nothing."""
+    page = folder / "out" / "fit-mine-predict-20.html"
+    tree = reader.fromstring(page.read_bytes())
+    captions = [one.text_content() for one in tree.xpath("//figure[contains(@id, 'fig-')]//figcaption")]
+    assert ["residuals in standard errors" in one for one in captions] == [True, False]
+    assert all(place.startswith("data:") for place in tree.xpath("//img/@src"))
+    text = "".join(one.extract_text() for one in PdfReader(page.with_suffix(".pdf")).pages)
+    assert all(words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "How far ahead"))
+
+
+def test_its_commands_make_it_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first one the same files; the one of the motion is a page of the motion that was measured."""
+    out = folder / "out"
+    before = {file.name: file.read_bytes() for file in out.glob("fit-mine*") if "costs" not in file.name}
+    assert {Path(name).suffix for name in before} == {".toml", ".py", ".html", ".pdf"}
+    texts = reader.fromstring((out / "fit-mine-predict-20.html").read_bytes()).xpath("//main//pre")
+    (first,) = (
+        line for text in texts for line in text.text_content().splitlines() if line.startswith("$ atlas page --fit")
+    )
+    monkeypatch.chdir(folder)
+    again = CliRunner().invoke(command, [*shlex.split(first)[2:], "--out", "out"], catch_exceptions=False)
+    assert again.exit_code == 0
+    assert {file.name: file.read_bytes() for file in out.glob("fit-mine*") if "costs" not in file.name} == before
+
+
+@pytest.fixture
+def unbuilt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stop pages when their sources are written."""
+
+    def build(*_: object, **__: object) -> None:
+        raise AtlasError("not built here")
+
+    monkeypatch.setattr("atlas.build.report.build_report", build)
+
+
+@pytest.mark.usefixtures("unbuilt")
+def test_what_is_not_determined_is_told(tmp_path: Path) -> None:
+    """An elementary motion does not tell the ratio and the field apart: there are no numbers, and a sentence."""
+    file = written(tmp_path / "steady.csv", atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7))
+    with pytest.raises(AtlasError, match="not built here"):
+        asked(file, tmp_path)
+    blocks = toml.loads((tmp_path / "fit-steady.toml").read_text("utf-8"))["pages"][0]["blocks"]
+    assert "What the data do not determine:\n\n- No nutation is seen" in blocks[0]["text"]
+    assert "are not determined apart" in blocks[0]["text"]
+    assert "Nothing in the residuals speaks against" in blocks[0]["text"]
+    values = {name.strip("`"): value for name, _, value, _ in blocks[1]["rows"]}
+    assert {values[name] for name in ("ratio", "B2", "B3", "b")} == {"not determined"}
+    assert "±" in values["omega3"]
+
+
+def test_what_speaks_against_the_family_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A body that slows down: chi square and correlated residuals on the page and on the terminal, with status 1."""
+    file = written(tmp_path / "mine.csv", nutating(), slower=2e-3)
+    with pytest.raises(SystemExit) as ended:
+        main(["page", "--fit", str(file), "--out", str(tmp_path / "out")])
+    assert ended.value.code == 1
+    assert "atlas: The reduced chi square is" in capsys.readouterr().err
+    page = reader.fromstring((tmp_path / "out" / "fit-mine.html").read_bytes()).xpath("//main")[0].text_content()
+    assert "What speaks against this motion:" in page
+    assert "Neighbouring residuals are correlated" in page
+    assert "Nothing in the residuals" not in page
+
+
+def test_a_bad_file_or_a_changed_one_leaves_the_page(folder: Path, tmp_path: Path) -> None:
+    """What is no data, a recipe that was edited and a folder that is read-only are refused; what is there stays."""
+    place = shutil.copytree(folder, tmp_path / "copy")
+    good = {file.name: file.read_bytes() for file in (place / "out").iterdir()}
+    recipe, file = place / "out" / "fit-mine-predict-20.py", place / "mine.csv"
+    recipe.write_text(recipe.read_text("utf-8").replace("Fit again", "Fit once more"), "utf-8")
+    with pytest.raises(AtlasError, match=r"predict-20.py was changed since it was made"):
+        asked(file, place / "out", "--predict", "20")
+    recipe.write_bytes(good[recipe.name])
+    file.write_text("t,R11\n0,1\n", "utf-8")
+    with pytest.raises(AtlasError, match="5 times"):
+        asked(file, place / "out", "--predict", "20")
+    assert {file.name: file.read_bytes() for file in (place / "out").iterdir()} == good
+
+
+TURN = Rotation.from_rotvec([0.3, -0.2, 0.4]).as_matrix()
+MOTIONS = {
+    "general": atlas.GeneralMotion.in_laboratory(1.3, TURN @ (0.0, 0.4, 1.1), TURN, TURN @ (0.9, 0.3, 0.7)),
+    "ball": atlas.GeneralMotion.in_laboratory(1.0, TURN @ (0.0, 0.4, 1.1), TURN, TURN @ (0.9, 0.3, 0.7)),
+    "free": atlas.motion(1.3, (0.0, 0.0, 0.0), (0.9, 0.3, 0.7)),
+    "elementary": atlas.motion(1.5, (0.3, 1.0, 2.0), (0.0, 0.0, 0.3)),
+    "top": atlas.TopMotion.in_laboratory(
+        (1.0, 0.5), (0.0, 0.0, 1.0), TURN, (0.1, 0.2, 5.0), coupling=(0.1, 0.2), linear=3.0
+    ),
+    "elliptic": atlas.EllipticMotion.in_laboratory((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), np.eye(3), z=1.7),
+    "asymmetric": atlas.motion((1.3, 1.0, 0.8), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)),
+}
+
+
+@pytest.mark.parametrize("family", MODELS)
+def test_the_figures_are_of_the_motion(family: str) -> None:
+    """In other axes, and without the attitude, the motion of each family turns as fast at each time."""
+    made = MOTIONS[family]
+    wanted, t = motion_of(made), np.linspace(0.0, 9.0, 7)
+    values = dict(wanted.values)
+    if wanted.body:
+        values |= {"ratio": wanted.body["ratio"], "field": wanted.field["prime"]}
+    own = wanted.family.kernels()(**values)
+    fast = [np.linalg.norm(one.angular_velocity(t), axis=-1) for one in (made, own)]
+    assert np.abs(fast[0] - fast[1]).max() < 1e-12
+
+
+def test_each_parameter_is_explained() -> None:
+    """Every parameter of every family has its words and its unit on the page."""
+    names = {name for model in MODELS.values() for name in model.names} | {"b"}
+    assert all(name in MEANINGS or name.rstrip("123") in MEANINGS for name in names)
