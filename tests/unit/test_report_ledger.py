@@ -175,7 +175,10 @@ def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElemen
 
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
-    """As many errata as entries with a slip, the grave ones first; each with both forms and what breaks the printed."""
+    """As many errata as entries with a slip, the grave ones first; each with both forms and what breaks the printed.
+
+    What several have in common is said once.
+    """
     refuted = {name: verdict for name, verdict in recorded.load().items() if verdict.grade}
     anchors = {f"erratum-{slug(name)}": name for name in refuted}
     found = {anchors[e.get("id")]: e for e in pages["slips.html"].xpath("//section[@id]")}
@@ -184,6 +187,8 @@ def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dic
     assert grades == sorted(grades)
     headings = pages["slips.html"].xpath("//h2[@class='grade']/text()")
     assert headings == [grade.capitalize() for grade in GRADES]
+    notes = [" ".join(element.xpath("string(./p[@class='says'])").split(".")[1:]) for element in found.values()]
+    assert [note for note in notes if note.strip() and notes.count(note) > 1] == []
     for name, element in found.items():
         assert element.xpath("./div[contains(@class, 'sides')]/div[2]//*[@class='changed']"), name
         quote = element.xpath("string(.//p[@class='quote'])")
@@ -193,9 +198,10 @@ def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dic
         assert refuted[name].corrected_verdict in sides[1].xpath("string(./p)")
         if refuted[name].verdict != "refuted":
             continue
-        example = element.xpath("string(./div[@class='counterexample'])")
+        (example,) = element.xpath("./div[@class='counterexample']/p[2]")
         counter = refuted[name].counterexample
-        assert counter.get("relation", counter.get("reason")) in example
+        assert counter.get("reason", f"right {counter['right'].replace('-', '−')}.") in example.text_content()
+        assert len(example.xpath(".//*[local-name()='math']")) >= len(counter) - ("reason" in counter)
         back = {anchor for _, anchor in links(element.xpath("./h3")[0], "slips.html")}
         shared = {f"erratum-{slug(refuted[name].slip)}"} if refuted[name].slip else set()
         assert back == {f"ledger-{slug(name)}"} | shared

@@ -1,29 +1,18 @@
 """The ledger of one section of the paper, and the errata: entries with what the trial found."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import Equation, slug
 from atlas.report.appendices import Finding
 from atlas.report.blocks.composer import Composer, Use
+from atlas.report.blocks.counterexample import written
 from atlas.report.schema import StrictStruct
 
 SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
 GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
 """The kinds of slips, in the order of the errata: those of `atlas.proof.verdict`, which this floor does not load."""
-_WORDS = {"relation", "left", "right", "reason"}
-
-
-@dataclass(frozen=True)
-class Counterexample:
-    """Values of the letters, the relation that they break and what its two sides are; or why it has no meaning."""
-
-    values: tuple[tuple[str, str], ...]
-    relation: str
-    left: str
-    right: str
-    reason: str
 
 
 @dataclass(frozen=True)
@@ -44,7 +33,7 @@ class EntryView:
     corrected: int | None
     corrected_verdict: str
     note: int | None
-    counterexample: Counterexample | None
+    counterexample: int | None
     modules: tuple[str, ...]
     uses: list[Use]
     grade: str = ""
@@ -69,7 +58,7 @@ class EntryView:
         """The places in the manuscript of all its texts."""
         every = (
             *(self.says, self.quote, self.formula, self.assumptions),
-            *(self.how, self.corrected, self.note, self.false, self.said),
+            *(self.how, self.corrected, self.note, self.false, self.said, self.counterexample),
         )
         return [number for number in every if number is not None]
 
@@ -106,7 +95,7 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         corrected=keep(_display(found.corrected)) if found.corrected else None,
         corrected_verdict=found.corrected_verdict,
         note=words(found.note),
-        counterexample=_counterexample(found.counterexample) if found.counterexample else None,
+        counterexample=words(written(found.counterexample, entry.section) if found.counterexample else ""),
         modules=found.modules,
         uses=uses,
         grade=found.grade,
@@ -123,19 +112,14 @@ def _reading(phrase: str, line: str) -> str:
 
 
 def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:
-    """Return entries with a slip, the grave ones first; those that share a slip stand together."""
+    """Return entries with a slip, the grave ones first; those that share a slip stand together, its own one first."""
     place = {entry.name: number for number, entry in enumerate(found)}
 
-    def order(entry: EntryView) -> tuple[int, int, int]:
+    def order(entry: EntryView) -> tuple[int, int, bool, int]:
         own = place[entry.name]
-        return GRADES.index(entry.grade), place.get(entry.slip, own), own
+        return GRADES.index(entry.grade), place.get(entry.slip, own), bool(entry.slip), own
 
     return tuple(sorted(found, key=order))
-
-
-def _counterexample(found: Mapping[str, str]) -> Counterexample:
-    values = tuple((name, value) for name, value in found.items() if name not in _WORDS)
-    return Counterexample(values, *(found.get(name, "") for name in ("relation", "left", "right", "reason")))
 
 
 def _display(tex: str) -> str:
@@ -180,7 +164,10 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
 
 
 def view_errata(_block: Errata, composer: Composer) -> ErrataView:
-    """Set out the entries with a slip, the grave ones first."""
+    """Set out the entries with a slip, the grave ones first; a note that several share is said once."""
     composer.document.errata = composer.slug
-    found = entries(lambda _, one: bool(one.grade), composer.recorded.findings, composer.text, composer.uses)
-    return ErrataView(by_grade(found), composer.ledger)
+    findings = composer.recorded.findings
+    ordered = by_grade(entries(lambda _, one: bool(one.grade), findings, composer.text, composer.uses))
+    first = {findings[entry.name].note: entry.name for entry in reversed(ordered)}
+    once = (entry if first[findings[entry.name].note] == entry.name else replace(entry, note=None) for entry in ordered)
+    return ErrataView(tuple(once), composer.ledger)
