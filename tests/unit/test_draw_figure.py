@@ -301,9 +301,12 @@ def test_dark_marks_stand_off_a_map_by_a_white_ring(mapped: bool) -> None:
 
 
 def test_a_path_of_an_svg_is_short_and_the_same() -> None:
-    """To a hundredth of a point, no point twice, and what is no path or no straight line stays."""
-    given = '<path d="M 1.234567 2 \nL 1.2349 2.001 \nL 3.5 -0.001 \nQ 1 2 3.14159 4 \nL 5 6 \nz\n" style="w: 1.2345"/>'
-    assert _short(given) == '<path d="M 1.23 2 3.5 0 \nQ 1 2 3.14 4 \nL 5 6 \nz\n" style="w: 1.2345"/>'
+    """To a hundredth of a point, each point from the one before, none twice; what is no path stays."""
+    given = (
+        '<path d="M 1.234567 2 \nL 1.2349 2.001 \nL 3.5 -0.001 \nQ 1 2 3.14159 4 \nL 5 6 \nz\nM 1 1 \n" '
+        'style="w: 1.2345"/>'
+    )
+    assert _short(given) == '<path d="m1.23 2 2.27-2q-2.5 2-.36 4l1.86 2zm-.23-1" style="w: 1.2345"/>'
 
 
 ROD = np.array([[0.0, 0.0], [1.0, 1.0]])
