@@ -185,6 +185,23 @@ def test_the_riemann_matrix_is_that_of_the_motion(found: dict[str, Any]) -> None
     assert tau == pytest.approx(atlas.AsymmetricMotion(BODY, FIELD, OMEGA).riemann_matrix, abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("inertia", "field", "omega"),
+    [
+        ((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (3.0, 0.7, 0.2)),
+        ((822.0, 857.0, 1150.0), (-2.8e-4, 1.29e-3, 1.0e-3), (-5.42e-3, -3.78e-3, -3.5e-4)),
+        ((0.79, 0.86, 1.28), (-0.12, 2.1, -1.1), (-0.76, 4.1, 1.3)),
+    ],
+)
+def test_actions_and_riemann_matrix_are_those_of_the_motion(inertia: Any, field: Any, omega: Any) -> None:
+    """In any units, also where paths are long: means over the torus, and the matrix that the kernel sums with."""
+    motion = atlas.AsymmetricMotion(inertia, field, omega)
+    record = motion.curve.record(16)
+    assert [float(x) for x in record["actions"]] == pytest.approx(motion.actions.values, rel=1e-12)
+    tau = np.array([[complex(*map(float, x)) for x in row] for row in record["riemann_matrix"]])
+    assert tau == pytest.approx(motion.riemann_matrix, abs=1e-12)
+
+
 def test_more_digits_begin_with_fewer(found: dict[str, Any]) -> None:
     """Digits of 20 are those of 40, but for the last, which is rounded; in Python they are those of the doubles."""
     short = atlas.AsymmetricMotion(BODY, FIELD, OMEGA).curve.record(14)

@@ -197,7 +197,8 @@ class Motion(Shown, Generic[Single]):
 
         That of precession is (M, n), the canonical momentum along the field, that of spin M3, that of an
         `AsymmetricMotion` for each of its `frequencies`; in the unit of inertia by that of time, over I2 where the body
-        has a ratio. A slow change keeps them, see `atlas.drift`. They are integrals over the phases, right to rounding.
+        has a ratio. A slow change keeps them, see `atlas.drift`. They are integrals over the phases, right to rounding;
+        `curve.actions` of an `AsymmetricMotion` has them in proven digits.
         Raises DomainError and AtlasError as `spectrum` does.
 
             >>> found = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).actions

@@ -9,7 +9,6 @@ left goes by Taylor series, `atlas.exact.motions.clebsch_flow`:
 Nothing is taken from the theory of theta functions but where to look for the periods, which are then proved.
 """
 
-from dataclasses import replace
 from itertools import chain
 from operator import mul
 from typing import Any
@@ -74,9 +73,7 @@ class OnTorus:
         """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
         periods = self.torus.periods(ctx.prec + GUARD)
         with workprec(ctx.prec + GUARD):
-            turn = 2 * arb.pi()
-            least = [replace(p, angle=p.angle - turn * nearest(p.angle / turn)) for p in periods]
-            return [x * self.rate for x in frequencies(least, self.b)]
+            return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
         """Return the elliptic motion that it is, if it is one whose z is rational."""

@@ -58,8 +58,9 @@ class Lattice:
     others: tuple[list[acb], list[acb]]
     a: tuple[list[acb], list[acb]]
     b: tuple[list[acb], list[acb]]
-    paths: tuple[tuple[acb, acb], ...] = ()
-    """Ends of the paths whose integrals the periods are sums of, and the whole weights of a1, a2, b1 and b2."""
+    paths: tuple[tuple[acb, acb, acb], ...] = ()
+    """Ends of the paths whose integrals the periods are sums of, each with its T_H, which tells its sign; and the whole
+    weights of a1, a2, b1 and b2."""
     weights: tuple[tuple[int, ...], ...] = ()
 
     @property
@@ -94,7 +95,8 @@ def _of_paths(curve: Curve, each: int) -> Lattice:
         ways.append(list(curve.along(*path)))
         if len(ways) >= FEWEST:
             try:
-                return replace(_of_ways(ways), paths=tuple(paths[: len(ways)]))
+                gone = zip(paths, ways, strict=False)
+                return replace(_of_ways(ways), paths=tuple((*ends, way[0]) for ends, way in gone))
             except NotCertifiedError as reason:
                 why = str(reason).removeprefix("not certified: ")
     raise NotCertifiedError(f"not certified: {why}")

@@ -146,7 +146,7 @@ class Curve:
 
         There theta3 and theta4 stand for their values at zero; v is half the derivative of z.
         """
-        below, *above = (u / self.real).modular_theta(self.tau)
+        below, *above = (self.in_cell(u) / self.real).modular_theta(self.tau)
         x, y, w = (a / below for a in above)
         return (self.scale * x) ** 2 - self.foot, self.slope * x * y * w
 
@@ -156,9 +156,12 @@ class Curve:
         _, found = self.at(u)
         if _far(found - v) > _far(found + v):
             u = -u
-        y = round(float(u.imag.mid()) / float(self.imaginary.imag.mid()))
-        u -= y * self.imaginary
-        return self._held(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
+        return self._held(self.in_cell(u))
+
+    def in_cell(self, u: acb) -> acb:
+        """Return what u is modulo the periods of wp, in the cell about zero."""
+        u -= round(float(u.imag.mid()) / float(self.imaginary.imag.mid())) * self.imaginary
+        return u - round(float(u.real.mid()) / float(self.real.mid())) * self.real
 
     def _held(self, x: acb) -> acb:
         return x if self.proven else centre(x)

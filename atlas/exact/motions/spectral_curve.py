@@ -6,20 +6,19 @@ type (1, 2) is the torus. Its branch points over that curve are the zeros of g +
 v = -g/2c. All coefficients are rational, of the inputs as doubles or decimals.
 """
 
-from contextlib import suppress
 from functools import cached_property
 from math import log2
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, acb_mat, arb, fmpq, fmpq_poly, fmpz_poly
+from flint import acb, acb_mat, arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.digits import certified
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.clebsch_riemann import riemann_matrix
+from atlas.exact.motions.clebsch_cycles import action, cycles, riemann_matrix
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import CHARACTERISTICS
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import by_precision, workprec
 
 if TYPE_CHECKING:
     from atlas.exact.motions.clebsch_periods import Integrals
@@ -70,6 +69,22 @@ class SpectralCurve:
         f1, f2, f3 = self.motion.frequencies
         return [f2 / f1, f3 / f1]
 
+    @property
+    def actions(self) -> list[arb]:
+        """(J1, J2, J3), whose rates are the frequencies, in the unit of inertia by that of time; J3 = (M, B)/|B|.
+
+        J1 and J2 are integrals of eta du over cycles, see `atlas.exact.motions.clebsch_cycles`. Raises
+        NotCertifiedError where they are not proved.
+        """
+        i = self.torus.integrals
+        b = arb(i.square).sqrt()
+        J = [*(action(self._cycles, p.least(), i.c, b) for p in self.torus.periods(_bits())), arb(i.c) / b]
+        return [x * self.unit * self.rate for x in J]
+
+    @by_precision
+    def _cycles(self) -> list[list[acb]]:
+        return cycles(self.torus.integrals, self.torus.lattice)
+
     @cached_property
     def theta(self) -> ThetaMotion:
         """The theta functions of the motion, approximate."""
@@ -80,14 +95,18 @@ class SpectralCurve:
 
         A complex number is a pair. The Riemann matrix has the digits of its integrals proved, to so many places; that
         the cycles are a basis of type (1,2) rests on integer relations. Under `not_proved` stand the characteristics
-        [e; d] of the theta functions of K and M, or why there are none; and the matrix, to 30 digits, where a zero of
-        eta is so near to another that its integrals are not proved.
+        [e; d] of the theta functions of K and M, or why there are none; and where a zero of eta is so near to another
+        that integrals are not proved, the matrix, to 30 digits, and why there are no actions.
         """
         i = self.integrals
         found, less = certified(self._proven, digits), self._approximate()
-        with suppress(NotCertifiedError), workprec(int(digits * BITS_A_DIGIT) + 64):
-            found["riemann_matrix"] = _matrix(riemann_matrix(i, self.torus.lattice), digits)
+        try:
+            found["actions"] = certified(lambda: self.actions, digits)
+            with workprec(int(digits * BITS_A_DIGIT) + 64):
+                found["riemann_matrix"] = _matrix(riemann_matrix(self._cycles), digits)
             less.pop("riemann_matrix", None)
+        except NotCertifiedError as reason:
+            less.setdefault("actions", str(reason))
         return {
             "curve": "eta^2 = g(z) + 2*c*v, v^2 = P(z)",
             "g": _texts(i.g), "c": str(i.c), "P": _texts(i.P), "quartic": _texts(self.quartic),
@@ -128,8 +147,6 @@ def _at(polynomial: fmpq_poly, z: acb) -> acb:
 
 
 def _bits() -> int:
-    from flint import ctx
-
     return int(ctx.prec) + 32
 
 

@@ -12,7 +12,7 @@ components are then those of the start, since H, F and both Casimirs are, and th
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
@@ -21,7 +21,7 @@ from flint import arb, arb_mat, fmpq
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.clebsch_flow import Arrival, Flow
 from atlas.exact.motions.clebsch_lattice import Lattice, lattice
-from atlas.exact.motions.clebsch_periods import Integrals, real_periods
+from atlas.exact.motions.clebsch_periods import Integrals, nearest, real_periods
 from atlas.formulas.numbers import Vector, cross, dot, workprec
 
 GOOD, FIRST = 320, 200
@@ -41,6 +41,11 @@ class Period:
     H: arb
     F: arb
     angle: arb
+
+    def least(self) -> "Period":
+        """Return it with the angle that is at most half a turn."""
+        turn = 2 * arb.pi()
+        return replace(self, angle=self.angle - turn * nearest(self.angle / turn))
 
 
 class Torus:
