@@ -270,7 +270,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @property
     def curve(self) -> Any:
-        """Spectral curve of one motion on a torus: branch points, periods, frequencies, winding numbers, actions, proven.
+        """Spectral curve of one motion on a torus, with proven branch points, periods, frequencies, windings, actions.
 
         `curve.record(digits)` has all of it as texts of so many digits, also the rational coefficients, the Riemann
         matrix, and, not proved, the characteristics of the theta functions; see `SpectralCurve`. DomainError for
