@@ -30,6 +30,8 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
 
     A quantity of pint or astropy is taken in that `unit` of SI, and refused where it has none.
     """
+    if type(value) is float and isfinite(value):
+        return frozen(np.array(value + 0.0))
     if type(value) is not np.ndarray:
         value = bare(value, name, unit)
     if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):

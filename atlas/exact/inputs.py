@@ -2,6 +2,7 @@
 
 import operator
 from fractions import Fraction
+from math import isfinite
 from typing import Any, TypeAlias
 
 from flint import arb, fmpq
@@ -19,6 +20,8 @@ def rational(value: Any, name: str) -> fmpq:
     """
     if isinstance(value, fmpq):
         return value
+    if type(value) is float and isfinite(value):
+        return fmpq(*value.as_integer_ratio())
     if isinstance(value, bool):
         raise AtlasError(f"{name} must be a real number, not {value}.")
     try:

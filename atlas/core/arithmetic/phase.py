@@ -6,6 +6,7 @@ their rounding errors, and the whole turns are dropped before anything is rounde
 """
 
 from collections.abc import Sequence
+from math import frexp, inf, ldexp, nextafter
 from typing import Self
 
 import numpy as np
@@ -76,24 +77,26 @@ class Phases:
         self, turns: Sequence[Number], origins: Sequence[Number] | None = None, rounder: FloatArray = ROUNDER
     ) -> None:
         halves = [scaled(middle(turn), 1) for turn in turns]
-        moving = [p for p in halves if p != 0]
         exponents = _exponents(halves)
-        small = [scaled(p, -x) for p, x in zip(halves, exponents, strict=True)]
-        self.exponents = np.array(exponents)[:, None] if any(exponents) else None
+        small = halves
+        self.exponents = None
+        if any(exponents):
+            small = [scaled(p, -x) for p, x in zip(halves, exponents, strict=True)]
+            self.exponents = np.array(exponents)[:, None]
         self._keep(_columns([words(p, 2) for p in small]))
-        with workprec():
-            self._within(min((_reach(p) for p in moving), default=float("inf")))
-            self.near = min((nearest(NEAR / abs(p * QUARTER)) for p in moving), default=float("inf"))
-            radians = [p * QUARTER for p in small]
         self.rounder = rounder
-        self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
-        self.radians = _columns([_head(p)[:2] for p in radians])
+        with workprec():
+            fastest = max(abs(p * QUARTER) for p in halves)
+            self._within(_reach(fastest))
+            self.near = nearest(NEAR / fastest) if fastest != 0 else inf
+            self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
+            self.radians = _columns([_head(p * QUARTER)[:2] for p in small])
+            self.head, *rest = _columns([_head(p) for p in small])
         if self.origins is not None:
-            first, rest = self.origins
-            self.starts = -first * MINUS_HEAD, rest * QUARTER_TURN - first * MINUS_TAIL
-        start = [] if self.origins is None else [self.origins[1]]
-        self.head, *rest = _columns([_head(p) for p in small])
-        self.table = QUARTER_TURN * np.hstack([*start, *rest, np.eye(len(halves))])
+            first, low = self.origins
+            self.starts = -first * MINUS_HEAD, low * QUARTER_TURN - first * MINUS_TAIL
+            rest = [low, *rest]
+        self.table = QUARTER_TURN * np.hstack([*rest, np.eye(len(halves))])
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
@@ -103,7 +106,7 @@ class Phases:
         still = words[0] == 0
         self.exponents = np.where(still, NEVER, 0) if still.any() else None
         self.origins, self.rounder, self.near = None, ROUNDER, -1.0
-        self._within(float("inf"))
+        self._within(inf)
         return self
 
     def _keep(self, words: FloatArray) -> None:
@@ -298,25 +301,21 @@ def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
     return np.array(rows).T[:, :, None]
 
 
-def _reach(halves: Number) -> float:
-    """Return the longest time within LIMIT."""
-    return float(np.nextafter(nearest(LIMIT / abs(halves * QUARTER * 2)), np.inf))
+def _reach(fastest: Number) -> float:
+    """Return the longest time within LIMIT, at a rate of half the phase."""
+    return nextafter(nearest(LIMIT / (2 * fastest)), inf) if fastest != 0 else inf
 
 
 def _head(x: Number) -> tuple[float, float, float]:
     """Cut a number into a double of 26 digits and the rest; and the number."""
-    if x == 0:
-        return 0.0, 0.0, 0.0
-    x = middle(x)
-    size = magnitude(x)
-    head = round(nearest(scaled(x, 26 - size))) * 2.0 ** (size - 26)
-    with workprec():
-        return head, nearest(x - head), nearest(x)
+    value = nearest(x)
+    size = frexp(value)[1]
+    head = ldexp(round(ldexp(value, 26 - size)), size - 26)
+    return head, nearest(x - head), value
 
 
 def _cut(turn: Number) -> tuple[float, float]:
     """Cut a phase in turns into half turns: a multiple of 2^-25, at most one, and the rest."""
-    half = scaled(turn_of(turn), 1)
-    head = round(nearest(scaled(half, 25))) / 2.0**25
-    with workprec():
-        return head, nearest(half - head)
+    whole = turn_of(turn)
+    head = round(ldexp(nearest(whole), 26)) / 2.0**25
+    return head, 2 * nearest(whole - head / 2)

@@ -6,7 +6,7 @@ import numpy as np
 from flint import fmpq
 
 from atlas.core.arithmetic.double_double import over
-from atlas.core.bodies.body import SymmetricBody, kept_ratio, moments
+from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.bodies.symmetric_top import moments_of_one
 from atlas.core.inputs import FloatArray, components, finite, kept, plain, real, vector
 from atlas.core.motions.integrals import integrals, shape_factors
@@ -16,7 +16,7 @@ from atlas.core.nutation.scalars import IN_ARRAYS, KINDS
 from atlas.core.nutation.single import SingleGeneral
 from atlas.core.quantities import RATE
 from atlas.errors import DomainError
-from atlas.exact.bodies.body import ratio_of
+from atlas.exact.bodies.body import Moments
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.integrals import NAMES, constants
@@ -36,7 +36,7 @@ def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Singl
 
 def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
     with workprec(FIRST):
-        return Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega)
+        return Balls(Moments(I2, I3), (B2, B3), omega)
 
 
 class GeneralMotion(SymmetricMotion[SingleGeneral]):
@@ -99,9 +99,8 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         motion = cls.__new__(cls)
         motion.ratio, motion.shape = kept_ratio(ratio, I3), ()
         motion.made_by = "GeneralMotion.in_laboratory"
-        body = ratio_of(SymmetricBody(I2, I3))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
-        motion._made = {0: SingleGeneral(Balls.at_state(body, w, B), matrix)}  # noqa: SLF001  of this class
+        motion._made = {0: SingleGeneral(Balls.at_state(Moments(I2, I3), w, B), matrix)}  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
         motion.arguments = {
             "ratio": motion.ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,

@@ -82,7 +82,8 @@ class Motion(Shown, Generic[Single]):
         if i not in self._made:
             if len(self._made) >= KEPT:
                 self._made.clear()
-            row = (np.broadcast_to(x, self.shape).flat[i] for x in self._inputs)
+            values = (np.asarray(x) for x in self._inputs)
+            row = (np.broadcast_to(x, self.shape).flat[i] if self.shape else x[()] for x in values)
             self._made[i] = self._make(*(x if x is None else float(x) for x in row))
         return self._made[i]
 

@@ -172,8 +172,8 @@ class Products:
         return out
 
 
-def entries(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
+def _entries() -> FloatArray:
+    """Return the weights (10, 3, 3) of the products in the entries of R(alpha, beta)."""
     w, x, y, z = QUATERNION
     table = np.zeros((4, 4, 3, 3))
     for i, j, (row, column), c in (
@@ -187,7 +187,15 @@ def entries(left: FloatArray, right: FloatArray) -> FloatArray:
         (w, z, (1, 0), 2), (w, y, (2, 0), -2), (w, x, (2, 1), 2),
     ):  # fmt: skip
         table[min(i, j), max(i, j), row, column] += c
-    return np.array([left @ table[i, j] @ right for i, j in PAIRS]).reshape(10, 9)
+    return np.array([table[i, j] for i, j in PAIRS])
+
+
+ENTRIES = _entries()
+
+
+def entries(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
+    return (left @ ENTRIES @ right).reshape(10, 9)
 
 
 def evaluate(

@@ -4,6 +4,7 @@ alpha and beta, up to a common real factor, are sums of the functions of time of
 """
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -104,10 +105,15 @@ class CayleyKlein:
             self.phases = self._phases()
             self.values = np.concatenate([_real_parts(table, largest) for table in tables])
             self.lost = self._lost(tables[0])
-            self.alternates = self.periodic and found.alternates
             least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True
+
+    @cached_property
+    def alternates(self) -> bool:
+        """Whether both change their sign with each whole turn that is left out of the phase in a period."""
+        with workprec(self.precision):
+            return self.periodic and self._solution().alternates
 
     def _lost(self, values: list[list[acb]]) -> bool:
         """Return whether alpha or beta is too small for a float beside the other, but not zero."""

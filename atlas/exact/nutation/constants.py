@@ -56,13 +56,39 @@ class Turning:
         """Return y > 0 where u(i y) = u, for u beyond the interval."""
         return acb.elliptic_rf(*(-self._above(u, i) for i in self.others)).real
 
+    @cached_property
     def imaginary_time_to_infinity(self) -> arb:
-        """Return y > 0 where u(i y) is infinite."""
+        """The y > 0 where u(i y) is infinite."""
         return acb.elliptic_rf(*(self.w(i) for i in self.others)).real
 
     def real_time_to_infinity(self) -> arb:
         """Return x > 0 where u(x) is infinite, from an outermost root beyond which Q is positive."""
         return acb.elliptic_rf(*(-self.w(i) for i in self.others)).real
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """The lattice of Omega3, decided by the multiple roots there are."""
+        other = self.quartic.low + self.quartic.high - self.place
+        multiple = self.roots[other].multiplicity
+        if multiple == 3:
+            return Lattice("linear", arb("inf"), arb("inf"), oblique=False, rate=arb(1))
+        if multiple == 2:
+            (last,) = [i for i in self.others if i != other] or [other]
+            rate = (self.w(other) - self.w(last)).real.sqrt()
+            return Lattice("hyperbolic", arb("inf"), arb.pi() / (2 * rate), oblique=False, rate=rate)
+        first = self.w(other)
+        second, third = (self.w(i) for i in self.others if i != other)
+        if not any(root.is_complex for root in self.roots):
+            ends = sorted((second.real, third.real), key=lambda x: -x.mid())
+            longer, shorter = (first.real - ends[1]).sqrt(), (first.real - ends[0]).sqrt()
+            half = arb.pi() / (2 * longer.agm(shorter))
+            if any(root.multiplicity == 2 for root in self.roots):
+                return Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb.pi() / (2 * half))
+            imaginary = arb.pi() / (2 * longer.agm((ends[0] - ends[1]).sqrt()))
+            return _balanced(half, imaginary, oblique=False)
+        # the complex pair: sqrt(z) and its conjugate have the mean Re sqrt(z) and the product |z|
+        half, imaginary = (_of_pair(z) for z in (first - second, second - first))
+        return _balanced(half, imaginary, oblique=True)
 
     def _above(self, u: arb, place: int) -> acb:
         """Return wp(u) - wp(r) for another root r, formed without cancellation."""
@@ -79,6 +105,7 @@ class Nutation:
         self.quartic, self.sphere = quartic, sphere
         self.roots = tuple(quartic.roots())
         self.real = [root.value.real for root in self.roots if root.is_real]
+        self.turnings = dict[int, Turning]()
 
     def solution(self, *, trigonometric: bool = False) -> Solution:
         """Return all constants, with trigonometric sums if that is asked for and there is a period."""
@@ -86,7 +113,7 @@ class Nutation:
             return self._heteroclinic()
         self.start = self._start()
         self.other = self.quartic.low + self.quartic.high - self.start.place
-        self.lattice = self._lattice(self.start)
+        self.lattice = self.start.lattice
         if trigonometric and not infinite(self.lattice.half):
             self.lattice = self.lattice.as_trigonometric()
         origin = self._origin()
@@ -96,7 +123,7 @@ class Nutation:
 
     def turning(self, place: int) -> Turning:
         """Return a simple real root as a turning point."""
-        return Turning(self.quartic, self.roots, place)
+        return self.turnings.setdefault(place, Turning(self.quartic, self.roots, place))
 
     def _start(self) -> Turning:
         """Return the turning point next to which the motion is fast: near a separatrix, the one it comes back from."""
@@ -110,35 +137,11 @@ class Nutation:
             if len(real) > 2:
                 return self.turning(high if high == len(real) - 1 else low)
             upper = self.turning(high)
-            imaginary = self._lattice(upper).imaginary
-            return upper if 2 * upper.imaginary_time_to_infinity().mid() <= imaginary.mid() else self.turning(low)
+            inner = 2 * upper.imaginary_time_to_infinity.mid() <= upper.lattice.imaginary.mid()
+            return upper if inner else self.turning(low)
         if self.quartic.bend == 0:  # no other root lies between the turning point and infinity
             return self.turning(low if high < len(real) - 1 else high)
         return self.turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
-
-    def _lattice(self, start: Turning) -> Lattice:
-        """Return the lattice of Omega3, decided by the multiple roots there are."""
-        other = self.quartic.low + self.quartic.high - start.place
-        multiple = self.roots[other].multiplicity
-        if multiple == 3:
-            return Lattice("linear", arb("inf"), arb("inf"), oblique=False, rate=arb(1))
-        if multiple == 2:
-            (last,) = [i for i in start.others if i != other] or [other]
-            rate = (start.w(other) - start.w(last)).real.sqrt()
-            return Lattice("hyperbolic", arb("inf"), arb.pi() / (2 * rate), oblique=False, rate=rate)
-        first = start.w(other)
-        second, third = (start.w(i) for i in start.others if i != other)
-        if not any(root.is_complex for root in self.roots):
-            ends = sorted((second.real, third.real), key=lambda x: -x.mid())
-            longer, shorter = (first.real - ends[1]).sqrt(), (first.real - ends[0]).sqrt()
-            half = arb.pi() / (2 * longer.agm(shorter))
-            if any(root.multiplicity == 2 for root in self.roots):
-                return Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb.pi() / (2 * half))
-            imaginary = arb.pi() / (2 * longer.agm((ends[0] - ends[1]).sqrt()))
-            return _balanced(half, imaginary, oblique=False)
-        # the complex pair: sqrt(z) and its conjugate have the mean Re sqrt(z) and the product |z|
-        half, imaginary = (_of_pair(z) for z in (first - second, second - first))
-        return _balanced(half, imaginary, oblique=True)
 
     def _origin(self) -> arb:
         """Return the time since the turning point, positive where Omega3 moves away from it."""

@@ -112,7 +112,7 @@ def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
         depth = lattice.rate * outermost.real_time_to_infinity()
         odd, even = _apart(lattice, depth, sense / A.sqrt())
     elif quartic.A < 0:
-        odd, even = _across(lattice, nutation.start.imaginary_time_to_infinity(), sense / (-A).sqrt())
+        odd, even = _across(lattice, nutation.start.imaginary_time_to_infinity, sense / (-A).sqrt())
     elif quartic.a.is_zero:
         amplitude = nutation.roots[nutation.other].value.real - nutation.start.u
         like = Sum(lattice, (), (), arb(0), doubled=True)
