@@ -8,7 +8,7 @@ import hashlib
 import os
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -142,7 +142,7 @@ def _build(
     from atlas.report import bibliography
     from atlas.report.compose import compose
     from atlas.report.load import load
-    from atlas.report.pictures import pictures
+    from atlas.report.pictures import on_cards, pictures
 
     times = {"start": time.perf_counter()}
     sources.closure([file])  # as it is read now
@@ -150,7 +150,8 @@ def _build(
     _check(report.name, file)
     cache.prune()
     found = pictures(report)
-    wanted = _figures(found, formats, style or report.style or None, gl.library())
+    cards = on_cards(report) if "html" in formats and len(report.pages) > 1 else ()
+    wanted = _figures(found, formats, style or report.style or None, gl.library(), cards)
     figures.find(list(wanted), cache, sources, gl.library())
     times["look"] = time.perf_counter()
     steps, jobs = len(wanted) + 2, jobs or figures.cores()
@@ -217,26 +218,29 @@ def _check(name: str, file: Path) -> None:
 
 
 def _figures(
-    found: "Mapping[str, Picture]", formats: Sequence[str], style: str | None, library: str | None
+    found: "Mapping[str, Picture]",
+    formats: Sequence[str],
+    style: str | None,
+    library: str | None,
+    cards: Container[str] = (),
 ) -> "dict[FigureBuild, Picture]":
     """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
 
-    The pages offer each figure as PDF and PNG too, and its data as CSV; they stack its panels on a narrow screen, and
-    turn those in space.
+    The pages offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen, and turn
+    those in space. What `cards` are cut from, pictures by their keys, is drawn as PNG as well.
     """
     from atlas.build.figures import FigureBuild
 
-    pages: tuple[tuple[str, ...], ...] = (
-        ("svg", "pdf", "png", "csv.gz", "narrow", "scene", "moves"),
-        ("png", "csv.gz", "narrow", "scene", "moves"),
-    )
-    lines, shaded = pages if {"html", "single"} & set(formats) else (("pdf",), ("png",))
-    if "html" not in formats:  # what is mailed holds no picture twice
-        lines = tuple(kind for kind in lines if kind != "png")
+    shown = ("csv.gz", "narrow", "scene", "moves") if {"html", "single"} & set(formats) else ()
+
+    def kinds(key: str, renderer: str) -> tuple[str, ...]:
+        if renderer == "shaded" and library:
+            return "png", *shown
+        return *(("svg",) if shown else ()), "pdf", *(("png",) if key in cards else ()), *shown
+
     return {
-        FigureBuild(one.recipe, one.parameters, one.renderer, kinds, style): one
-        for one in found.values()
-        for kinds in [shaded if one.renderer == "shaded" and library else lines]
+        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(key, one.renderer), style): one
+        for key, one in found.items()
         if not one.failure
     }
 

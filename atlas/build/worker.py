@@ -126,7 +126,7 @@ def _beside(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
 def _compressed(content: bytes) -> bytes:
     """Return a file of gzip, the same bytes with every Python: `gzip.compress` writes another header from 3.13 on."""
     buffer = BytesIO()
-    with gzip.GzipFile(fileobj=buffer, mode="wb", mtime=0) as file:
+    with gzip.GzipFile(fileobj=buffer, mode="wb", compresslevel=6, mtime=0) as file:
         file.write(content)
     return buffer.getvalue()
 

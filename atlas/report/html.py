@@ -108,17 +108,12 @@ def _with_sections(page: str) -> str:
 
 
 def _figures(document: Document) -> list[Card]:
-    """Return the figures that are drawn, in their order."""
-    return [
-        Card(page, block)
-        for page in document.pages
-        for block in page.blocks
-        if isinstance(block, FigureView) and not block.failure
-    ]
+    """Return the figures, in their order."""
+    return [Card(page, block) for page in document.pages for block in page.blocks if isinstance(block, FigureView)]
 
 
 def cards(document: Document) -> list[Card]:
-    """Return the cards of the pages: the first figure of each, or the one of the report that its thumbnail names."""
+    """Return the cards of the pages: of the figures `pictures.on_cards`, those that are drawn."""
     figures, found = _figures(document), []
     cuts = {one.slug: one.thumbnail for one in document.report.pages}
     for page in document.pages:
@@ -127,7 +122,7 @@ def cards(document: Document) -> list[Card]:
             one for one in figures if (one.figure.id == f"fig-{wanted.figure}" if wanted.figure else one.page is page)
         )
         chosen = next(fits, None)
-        if chosen:
+        if chosen and not chosen.figure.failure:
             found.append(Card(page, chosen.figure, wanted))
         elif wanted.figure:
             raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn in this report.")
@@ -158,7 +153,8 @@ def _cover(document: Document) -> Card | None:
     anchor = f"fig-{document.report.cover}"
     if f"fig:{document.report.cover}" not in document.targets:
         raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
-    return next((card for card in _figures(document) if card.figure.id == anchor), None)
+    drawn = (card for card in _figures(document) if card.figure.id == anchor and not card.figure.failure)
+    return next(drawn, None)
 
 
 def _neighbours(pages: Sequence[Any]) -> list[tuple[Any, Any, Any]]:

@@ -38,6 +38,17 @@ def keys(block: Figure, report: Report) -> list[str]:
     return [name for name, _ in _wanted(block, report)]
 
 
+def on_cards(report: Report) -> set[str]:
+    """Return the keys of the pictures that stand for pages: the first of each, or what its thumbnail names."""
+    figures = [(page.slug, block) for page in report.pages for block in page.blocks if isinstance(block, Figure)]
+    named = {page.slug: page.thumbnail.figure for page in report.pages}
+    wanted = [
+        next((block for slug, block in figures if (block.id == name if name else slug == page)), None)
+        for page, name in named.items()
+    ]
+    return {keys(block, report)[0] for block in wanted if block}
+
+
 def _wanted(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
     """Go through the pictures of a figure block with their keys; a misspelt parameter is an error."""
     recipe, failure = _recipe(block.recipe)
