@@ -28,8 +28,8 @@ from atlas.exact.surfaces import hyperbola, quadric
 from atlas.formulas.numbers import workprec
 from benchmarks.case import FloatArray
 from benchmarks.clock import interleave, one_core, ratio
-from benchmarks.elementary import constants, formula
-from benchmarks.results import MATRIX, NUTATION, SCALARS, SURFACE, TURNED, Rows
+from benchmarks.results import MATRIX, NUTATION, SCALARS, SURFACE, TURNED, Rows, spread
+from benchmarks.rotations import constants, formula
 
 SEED, CHECKED, BITS = 7, 40, 80
 GENERAL, ALONE = 10, 20
@@ -61,9 +61,8 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
             times = interleave(jobs, rounds)
         for method in ("ours", "alone" if task.alone else "plain"):
             values = jobs[method]()
-            chosen = np.unique(np.linspace(0, len(values) - 1, CHECKED).astype(int)).tolist()
             with workprec(BITS + 16):
-                worst = max(max(task.errors(values[i].flat, task.true(i))) for i in chosen)
+                worst = max(max(task.errors(values[i].flat, task.true(i))) for i in spread(len(values), CHECKED))
             yield Rows(
                 task.name,
                 method,
@@ -168,8 +167,8 @@ def _plain_curve(w2: FloatArray) -> FloatArray:
 
 
 def _quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:
-    found = Quadric(I, (B2, B3))
-    return np.concatenate([found.a2[:, None], found.a3[:, None], found.semi_axes, found.axes.reshape(-1, 9)], axis=1)
+    q = Quadric(I, (B2, B3))
+    return np.concatenate([q.a2[:, None], q.a3[:, None], q.semi_axes, q.axes.reshape(-1, 9)], axis=1)
 
 
 def _plain_quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:

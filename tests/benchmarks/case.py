@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -12,27 +11,8 @@ FloatArray: TypeAlias = NDArray[np.float64]
 Parameters: TypeAlias = Mapping[str, Any]
 
 
-@dataclass(frozen=True)
-class Grid:
-    """The times ``start + i step``, i = 0 ... count - 1, at which every method is asked."""
-
-    start: float
-    step: float
-    count: int
-
-    @cached_property
-    def times(self) -> FloatArray:
-        """The times themselves; the benchmark chooses start and step so that each is a float exactly."""
-        return np.asarray(self.start + self.step * np.arange(self.count), dtype=np.float64)
-
-
-def grid(horizon: float, count: int) -> Grid:
-    """Return ``count`` times from 0 up to, but without, ``horizon``; with a power of two no time is rounded."""
-    return Grid(0.0, horizon / count, count)
-
-
-Solve: TypeAlias = Callable[[Grid], FloatArray]
-"""Values at the times of a grid: (N, 3, 3) for a rotation, (N, 6) for position and velocity."""
+Solve: TypeAlias = Callable[[FloatArray], FloatArray]
+"""Values at times (N,): (N, 3, 3) for a rotation, (N, 6) for position and velocity."""
 
 
 @dataclass(frozen=True)
@@ -106,26 +86,27 @@ def in_quaternions(case: Case) -> Case:
     return QuaternionCase(**same | {"initial": lambda: [1, 0, 0, 0, *case.initial()[9:]], "rates": rates})
 
 
+def even(horizon: float, count: int) -> FloatArray:
+    """Return ``count`` times from 0 up to, but without, ``horizon``; with a power of two no time is rounded."""
+    return np.asarray(horizon / count * np.arange(count))
+
+
 def rotation_case(make: Callable[[], Any], exact: Any, momentum: Sequence[Any], *others: Method, **facts: Any) -> Case:
     """Return the case of a rotation R(t): the motion that `make` makes, in balls `exact`, and other closed forms.
 
     The state is R, row by row, and after it ``momentum``, what else the equations of motion advance, at t = 0.
     """
 
-    def ours() -> Solve:
-        motion = make()
-        return lambda grid: motion.rotation(grid.times)
-
     def ours_on_grid() -> Solve:
         motion = make()
-        return lambda grid: motion.rotation_grid(grid.start, grid.step, grid.count)
+        return lambda times: motion.rotation_grid(float(times[0]), float(times[1] - times[0]), len(times))
 
     return Case(
         shape=(3, 3),
         initial=lambda: [1, 0, 0, 0, 1, 0, 0, 0, 1, *momentum],
         exact=lambda t: [x for row in exact.rotation(t) for x in row],
         scale=lambda values: np.ones((len(values), 1, 1)),
-        closed=(*others, Method("ours", ours), Method("ours_grid", ours_on_grid)),
+        closed=(*others, Method("ours", lambda: make().rotation), Method("ours_grid", ours_on_grid)),
         **facts,
     )
 

@@ -6,9 +6,17 @@ The elementary motion only: R(t) by the plain formula, by its peers and by the a
 memory given with `out=`, on one thread and on two, beside filling the same memory with a constant. All are timed by
 turns in one run; times are seeded random numbers, |t| < 1e8 and, as `far`, |t| < 5e14. A uniform grid is also timed
 beside `rotation` at its times.
+
+Thousands of times at once, beside the plain formula, are also timed in a fresh process each, `python -m benchmarks.cost
+COUNT`: once as it comes, and once with an allocator that is told to keep what it has (glibc). What do pages of memory
+cost that each call gives back and the next one faults in again?
 """
 
-from collections.abc import Callable, Sequence
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from statistics import median
@@ -18,14 +26,16 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.exact.motions.elementary import ElementaryMotion as Exact
 from atlas.formulas.numbers import workprec
 from atlas.study.benchmark import Cost
-from benchmarks.case import FloatArray, Grid
+from benchmarks.case import FloatArray
 from benchmarks.clock import Job, interleave, one_core, ratio
-from benchmarks.elementary import exact_motion, formula, frequencies, motion, turns
 from benchmarks.oracle import BITS, nearest
 from benchmarks.peers import composed, lambdified
-from benchmarks.results import said
+from benchmarks.results import FRESH, Rows, said, spread
+from benchmarks.rotations import SOLENOID, formula, frequencies, plain, turns
 
 SEED = 89
 SAMPLES = 32
@@ -38,16 +48,8 @@ GRID, EVEN = "grid_out/1", "even_out/1"
 """The grid, and the same times one by one, with which it is compared."""
 
 
-@dataclass(frozen=True)
-class Times(Grid):
-    """Arbitrary times in the place of a grid."""
-
-    given: FloatArray
-
-    @property
-    def times(self) -> FloatArray:
-        """The times themselves."""
-        return self.given
+KEEPING = {"MALLOC_MMAP_THRESHOLD_": "67108864", "MALLOC_TRIM_THRESHOLD_": "134217728"}
+ROUNDS = 31
 
 
 @dataclass(frozen=True)
@@ -73,10 +75,11 @@ class Work:
         """Return the largest error at a few of the times, spread evenly; none for what computes nothing."""
         if self.truth is None:
             return None
-        where = np.unique(np.linspace(0, len(self.times) - 1, SAMPLES).astype(int))
-        exact = exact_motion()
+        where = spread(len(self.times), SAMPLES)
         with workprec(BITS):
-            true = np.array([np.vectorize(nearest)(self.truth(exact, float(self.times[i]))) for i in where])
+            true = np.array(
+                [np.vectorize(nearest)(self.truth(Exact(*SOLENOID.values()), float(self.times[i]))) for i in where]
+            )
         return float(np.abs(values[where] - true).max())
 
 
@@ -136,11 +139,10 @@ def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
     """Return all jobs for ``count`` matrices; the atlas takes two threads by itself where they help."""
     generator = np.random.default_rng(SEED)
     near, far = (generator.uniform(-size, size, count) for size in (NEAR, FAR))
-    grid = Grid(0.0, STEP, count)
+    grid = STEP * np.arange(count)
     out = np.zeros((count, 3, 3))
-    made, constants = motion(), frequencies()
+    motion, constants = ElementaryMotion(*SOLENOID.values()), frequencies()
     compiled, composition = lambdified(turns()), composed(turns())
-    given = Times(0.0, 0.0, count, near)
 
     def both(job: Callable[[slice], Any]) -> Job:
         def run() -> FloatArray:
@@ -154,22 +156,46 @@ def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
         Work("plain", lambda: formula(constants, near), near),
         Work("plain_out", lambda: formula(constants, near, out), near),
         Work("plain_out_far", lambda: formula(constants, far, out), far, against="plain_out_far"),
-        Work("lambdify", lambda: compiled(given), near),
-        Work("rotation", lambda: composition(given), near),
-        Work("ours", lambda: made.rotation(near), near),
-        Work("ours_out", lambda: made.rotation(near, out=out), near),
-        Work("ours_out_far", lambda: made.rotation(far, out=out), far, against="plain_out_far"),
-        Work("grid", lambda: made.rotation_grid(0.0, STEP, count), grid.times),
-        Work("grid_out", lambda: made.rotation_grid(0.0, STEP, count, out=out), grid.times),
-        Work("even_out", lambda: made.rotation(grid.times, out=out), grid.times),
-        Work("third_axis", lambda: made.third_axis(near), near, truth=lambda exact, t: exact.third_axis(t)),
-        Work("omega", lambda: made.angular_velocity(near), near, truth=lambda exact, t: exact.angular_velocity(t)),
+        Work("lambdify", lambda: compiled(near), near),
+        Work("rotation", lambda: composition(near), near),
+        Work("ours", lambda: motion.rotation(near), near),
+        Work("ours_out", lambda: motion.rotation(near, out=out), near),
+        Work("ours_out_far", lambda: motion.rotation(far, out=out), far, against="plain_out_far"),
+        Work("grid", lambda: motion.rotation_grid(0.0, STEP, count), grid),
+        Work("grid_out", lambda: motion.rotation_grid(0.0, STEP, count, out=out), grid),
+        Work("even_out", lambda: motion.rotation(grid, out=out), grid),
+        Work("third_axis", lambda: motion.third_axis(near), near, truth=lambda exact, t: exact.third_axis(t)),
+        Work("omega", lambda: motion.angular_velocity(near), near, truth=lambda exact, t: exact.angular_velocity(t)),
     ]
     if count >= PARALLEL:
         works += [
-            Work("fill", both(lambda part: out[part].fill(1.0)), near, 2, truth=None),
-            Work("plain_out", both(lambda part: formula(constants, near[part], out[part])), near, 2),
-            Work("ours_out", lambda: made.rotation(near, out=out), near, 2),
-            Work("grid_out", lambda: made.rotation_grid(0.0, STEP, count, out=out), grid.times, 2),
+            Work("fill", both(lambda half: out[half].fill(1.0)), near, 2, truth=None),
+            Work("plain_out", both(lambda half: formula(constants, near[half], out[half])), near, 2),
+            Work("ours_out", lambda: motion.rotation(near, out=out), near, 2),
+            Work("grid_out", lambda: motion.rotation_grid(0.0, STEP, count, out=out), grid, 2),
         ]
     return works
+
+
+def fresh(counts: tuple[int, ...]) -> Iterator[Rows]:
+    """Yield error and time a matrix of ours in fresh processes, over the plain formula: as it comes, memory kept."""
+    for count in counts:
+        for method, settings in (("ours", {}), ("kept", KEEPING)):
+            command = [sys.executable, "-m", "benchmarks.cost", str(count)]
+            told = subprocess.run(command, capture_output=True, check=True, env=os.environ | settings).stdout
+            error, ours, over = json.loads(told)
+            yield Rows(FRESH, method, count, error, ours, over)
+
+
+def here(count: int) -> tuple[float, float, float]:
+    """Return our error in ulps of 1, nanoseconds a matrix, and these over the plain formula's, in this process."""
+    motion, formula, times = ElementaryMotion(*SOLENOID.values()), plain(), STEP * np.arange(count)
+    with one_core():
+        seconds = interleave({"ours": lambda: motion.rotation(times), "plain": lambda: formula(times)}, ROUNDS, 0.0)
+    work = Work("ours", lambda: motion.rotation(times), times)
+    ours, theirs = (median(seconds[name]) / count * 1e9 for name in ("ours", "plain"))
+    return (work.error(work.job()) or 0.0) / float(np.finfo(float).eps), ours, ours / theirs
+
+
+if __name__ == "__main__":
+    print(json.dumps(here(int(sys.argv[1]))))  # noqa: T201  what the other process reads

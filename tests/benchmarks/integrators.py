@@ -20,7 +20,7 @@ import numpy as np
 from flint import arb
 
 from atlas.formulas.numbers import workprec
-from benchmarks.case import Case, FloatArray, Grid, Solve, in_quaternions
+from benchmarks.case import Case, FloatArray, Solve, in_quaternions
 from benchmarks.oracle import BITS, nearest
 
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
@@ -109,7 +109,7 @@ def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[fl
 
         initial, rates = start(case), right_of(case)
 
-        def solve(grid: Grid) -> FloatArray:
+        def solve(times: FloatArray) -> FloatArray:
             deadline = perf_counter() + limit
 
             def right(_t: float, state: FloatArray) -> list[float]:
@@ -117,7 +117,6 @@ def _scipy(name: str, right_of: Callable[[Case], Callable[[list[float]], list[fl
                     raise TimedOutError
                 return rates(state.tolist())
 
-            times = grid.times
             with warnings.catch_warnings(record=True) as said:
                 warnings.simplefilter("always")
                 solution = solve_ivp(
@@ -154,10 +153,10 @@ def _heyoka(kind: Any, case: Case, tolerance: float, _limit: float) -> Solve:
             list(zip(unknowns, rates, strict=True)), initial, fp_type=python, tol=python(tolerance)
         )
 
-    def solve(grid: Grid) -> FloatArray:
-        integrator.time = python(grid.times[0])
+    def solve(times: FloatArray) -> FloatArray:
+        integrator.time = python(times[0])
         integrator.state[:] = initial
-        outcome, *_, states = integrator.propagate_grid(grid.times.astype(kind))
+        outcome, *_, states = integrator.propagate_grid(times.astype(kind))
         if outcome != heyoka.taylor_outcome.time_limit:
             raise FailedError(f"heyoka stopped early: {outcome.name}")
         return case.values(np.asarray(states, dtype=np.float64))

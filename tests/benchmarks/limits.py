@@ -47,12 +47,12 @@ def _speed(machine: Machine, costs: list[Cost]) -> Iterator[Limit]:
 def _never_slower(costs: list[Cost]) -> Iterator[Limit]:
     """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below; a grid over its times."""
     for least, most, limit in ((1_000, 10**9, 1.0), (1, 999, 1.5)):
-        found = [
+        ratios = [
             cost.to_plain
             for cost in costs
             if cost.method in {"ours_out", "ours_out_far"} and least <= cost.count <= most and cost.threads == 1
         ]
-        measured = [ratio for ratio in found if ratio is not None]
+        measured = [ratio for ratio in ratios if ratio is not None]
         where = f"from N = {least} up" if limit == 1.0 else "below N = 1000"
         yield _below(f"ours over the plain formula, {where}, at worst", max(measured, default=None), limit)
     grids = [cost.to_times for cost in costs if cost.to_times is not None]
@@ -62,16 +62,16 @@ def _never_slower(costs: list[Cost]) -> Iterator[Limit]:
 def _latency(setups: list[Setup], costs: list[Cost]) -> Iterator[Limit]:
     single = _ratio(costs, "ours", 1, "nanoseconds")
     yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
-    made = [item.again for item in setups if item.case == "elementary" and item.method == "ours" and item.again]
-    yield _below("a motion made (ms)", made[0] * 1e3 if made else None, 1.0)
+    again = [item.again for item in setups if item.case == "elementary" and item.method == "ours" and item.again]
+    yield _below("a motion made (ms)", again[0] * 1e3 if again else None, 1.0)
 
 
 def _many(rows: list[Rows]) -> Iterator[Limit]:
     """Measure a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
-    found = {(row.quantity, row.method): row.nanoseconds for row in rows}
+    nanoseconds = {(row.quantity, row.method): row.nanoseconds for row in rows}
     for quantity, method, limit in LIMITS:
-        if (quantity, method) in found:
-            yield _below(f"{quantity} (ns)", found.get((quantity, method)), limit)
+        if (quantity, method) in nanoseconds:
+            yield _below(f"{quantity} (ns)", nanoseconds.get((quantity, method)), limit)
     every = [row.to_plain for row in rows if (row.quantity, row.method) == (FRESH, "ours")]
     if every:
         yield _below("thousands of times in a fresh process, over the plain formula, at worst", max(every), 1.0)
@@ -79,26 +79,26 @@ def _many(rows: list[Rows]) -> Iterator[Limit]:
     if slopes is not None:
         yield _below("derivatives in six parameters, over R", slopes, 5.0)
     for quantity, method, factor in ((ANY, "ours", 3.0), (EVEN, "ours_grid", 15.0)):
-        theirs, ours = found.get((quantity, "heyoka")), found.get((quantity, method))
+        theirs, ours = nanoseconds.get((quantity, "heyoka")), nanoseconds.get((quantity, method))
         if ours is not None:
             yield _above(f"{quantity}, heyoka's dense output over ours", theirs and theirs / ours, factor)
 
 
 def _ratio(costs: list[Cost], method: str, count: int, field: str) -> float | None:
     """Return a number of one row on one thread, if it was measured."""
-    found = (cost for cost in costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
-    return next((getattr(cost, field) for cost in found), None)
+    rows = (cost for cost in costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
+    return next((getattr(cost, field) for cost in rows), None)
 
 
-def _below(says: str, found: float | None, limit: float) -> Limit:
-    return Limit(says, f"at most {limit:g}", found, _verdict(found, met=found is not None and found <= limit))
+def _below(says: str, value: float | None, limit: float) -> Limit:
+    return Limit(says, f"at most {limit:g}", value, _verdict(value, met=value is not None and value <= limit))
 
 
-def _above(says: str, found: float | None, limit: float) -> Limit:
-    return Limit(says, f"at least {limit:g}", found, _verdict(found, met=found is not None and found >= limit))
+def _above(says: str, value: float | None, limit: float) -> Limit:
+    return Limit(says, f"at least {limit:g}", value, _verdict(value, met=value is not None and value >= limit))
 
 
-def _verdict(found: float | None, met: bool) -> Verdict:
-    if found is None:
+def _verdict(value: float | None, met: bool) -> Verdict:
+    if value is None:
         return "not measured"
     return "met" if met else "missed"

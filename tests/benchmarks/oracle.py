@@ -15,7 +15,7 @@ import numpy as np
 from flint import arb, arb_poly, arb_series, ctx
 
 from atlas.formulas.numbers import workprec
-from benchmarks.case import Case, FloatArray, Grid
+from benchmarks.case import Case, FloatArray
 
 BITS = 256
 ORDER = 40
@@ -24,7 +24,7 @@ STEP = 0.125
 
 @dataclass(frozen=True)
 class Reference:
-    """True values ``high + low`` at the times of a grid, and the scale of the errors there."""
+    """True values ``high + low`` at some times, and the scale of the errors there."""
 
     high: FloatArray
     low: FloatArray
@@ -38,11 +38,11 @@ class Reference:
         return float(difference.max()) if np.isfinite(difference).all() else float("inf")
 
 
-def reference(case: Case, grid: Grid) -> Reference:
+def reference(case: Case, times: FloatArray) -> Reference:
     """Return the true values of a case."""
     with workprec(BITS):
-        words = [_two_words(x) for t in grid.times.tolist() for x in case.exact(t)]
-    high, low = np.array(words).T.reshape(2, grid.count, *case.shape)
+        words = [_two_words(x) for t in times.tolist() for x in case.exact(t)]
+    high, low = np.array(words).T.reshape(2, len(times), *case.shape)
     return Reference(high, low, case.scale(high))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from atlas.core.motions.particle import ParticleMotion
 from atlas.exact.motions.particle import ParticleMotion as Exact
-from benchmarks.case import Case, FloatArray, Grid, Method, Parameters, Solve, cross
+from benchmarks.case import Case, FloatArray, Method, Parameters, Solve, cross
 
 PARAMETERS: Parameters = {
     "mu": 1.0,
@@ -44,8 +44,8 @@ def plain() -> Solve:
     """Evaluate the trochoid, (98), in NumPy as anyone would write it."""
     start, steady, u, across, omega = constants()
 
-    def solve(grid: Grid) -> FloatArray:
-        t = grid.times[:, None]
+    def solve(times: FloatArray) -> FloatArray:
+        t = times[:, None]
         c, s = np.cos(omega * t), np.sin(omega * t)
         position = start + steady * t + (u * s + across * (1 - c)) / omega
         return np.concatenate([position, steady + u * c + across * s], axis=1)
@@ -62,7 +62,7 @@ def lambdified() -> Solve:
     c, s = sympy.cos(omega * t), sympy.sin(omega * t)
     y = [start[i] + steady[i] * t + (u[i] * s + across[i] * (1 - c)) / omega for i in range(3)]
     entries = sympy.lambdify(t, y + [sympy.diff(x, t) for x in y], "numpy", cse=True)
-    return lambda grid: np.stack(np.broadcast_arrays(*entries(grid.times)), axis=-1)
+    return lambda times: np.stack(np.broadcast_arrays(*entries(times)), axis=-1)
 
 
 def rotations() -> Solve:
@@ -72,8 +72,8 @@ def rotations() -> Solve:
     start, steady, u, across, omega = constants()
     axis = -omega * np.array(PARAMETERS["B"]) / np.linalg.norm(PARAMETERS["B"])
 
-    def solve(grid: Grid) -> FloatArray:
-        t = grid.times[:, None]
+    def solve(times: FloatArray) -> FloatArray:
+        t = times[:, None]
         turn = Rotation.from_rotvec(t * axis)
         position = start + steady * t + (across - turn.apply(across)) / omega
         return np.concatenate([position, steady + turn.apply(u)], axis=1)
@@ -81,16 +81,10 @@ def rotations() -> Solve:
     return solve
 
 
-def motion() -> ParticleMotion:
-    """Make the motion."""
-    p = PARAMETERS
-    return ParticleMotion(p["mu"], p["E"], p["B"], p["position"], p["velocity"])
-
-
 def ours() -> Solve:
     """Evaluate `ParticleMotion.position` and `.velocity`."""
-    made = motion()
-    return lambda grid: np.concatenate([made.position(grid.times), made.velocity(grid.times)], axis=1)
+    motion = ParticleMotion(*PARAMETERS.values())
+    return lambda times: np.concatenate([motion.position(times), motion.velocity(times)], axis=1)
 
 
 def scale(values: FloatArray) -> FloatArray:
@@ -102,14 +96,13 @@ def scale(values: FloatArray) -> FloatArray:
 
 def case() -> Case:
     """Return the case; its true values are those of `atlas.exact`."""
-    p = PARAMETERS
-    exact = Exact(p["mu"], p["E"], p["B"], p["position"], p["velocity"])
+    exact = Exact(*PARAMETERS.values())
     return Case(
         name="particle",
         parameters=PARAMETERS,
         shape=(6,),
         rates=rates,
-        initial=lambda: [*p["position"], *p["velocity"]],
+        initial=lambda: [*PARAMETERS["position"], *PARAMETERS["velocity"]],
         exact=lambda t: [*exact.position(t), *exact.velocity(t)],
         scale=scale,
         closed=(

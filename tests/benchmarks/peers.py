@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from benchmarks.case import FloatArray, Grid, Solve
+from benchmarks.case import FloatArray, Solve
 
 Turn: TypeAlias = tuple[tuple[float, float, float], float]
 """A unit vector and the frequency of the turn about it."""
@@ -24,7 +24,7 @@ def lambdified(turns: Sequence[Turn]) -> Solve:
     t = sympy.symbols("t", real=True)
     product = reduce(mul, (_symbolic(sympy, axis, frequency * t) for axis, frequency in turns))
     entries = sympy.lambdify(t, list(product), "numpy", cse=True)
-    return lambda grid: np.stack(entries(grid.times), axis=-1).reshape(-1, 3, 3)
+    return lambda times: np.stack(entries(times), axis=-1).reshape(-1, 3, 3)
 
 
 def composed(turns: Sequence[Turn]) -> Solve:
@@ -33,9 +33,8 @@ def composed(turns: Sequence[Turn]) -> Solve:
 
     rates = [frequency * np.array(axis) for axis, frequency in turns]
 
-    def solve(grid: Grid) -> FloatArray:
-        t = grid.times[:, None]
-        return np.asarray(reduce(mul, (Rotation.from_rotvec(t * rate) for rate in rates)).as_matrix())
+    def solve(times: FloatArray) -> FloatArray:
+        return np.asarray(reduce(mul, (Rotation.from_rotvec(times[:, None] * rate) for rate in rates)).as_matrix())
 
     return solve
 
@@ -43,16 +42,16 @@ def composed(turns: Sequence[Turn]) -> Solve:
 def compiled(constants: Sequence[float]) -> Solve:
     """Compile compiled.c for this machine: k and phi in two words each, and the components of the axis."""
     with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder) / "compiled.so"
+        library = Path(folder) / "compiled.so"
         flags = "-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC"
-        subprocess.run(["cc", *flags, str(Path(__file__).with_name("compiled.c")), "-lm", "-o", made], check=True)  # noqa: S607  whatever compiler there is
-        rotations = ctypes.CDLL(str(made)).rotations
-    given, floats = np.array(constants), np.ctypeslib.ndpointer(np.float64, flags="C")
+        subprocess.run(["cc", *flags, str(Path(__file__).with_name("compiled.c")), "-lm", "-o", library], check=True)  # noqa: S607  whatever compiler there is
+        rotations = ctypes.CDLL(str(library)).rotations
+    words, floats = np.array(constants), np.ctypeslib.ndpointer(np.float64, flags="C")
     rotations.argtypes, rotations.restype = (floats, ctypes.c_size_t, floats, floats), None
 
-    def solve(grid: Grid) -> FloatArray:
-        out, t = np.empty((grid.count, 3, 3)), grid.times
-        rotations(t, grid.count, given, out)
+    def solve(times: FloatArray) -> FloatArray:
+        out = np.empty((len(times), 3, 3))
+        rotations(times, len(times), words, out)
         return out
 
     return solve

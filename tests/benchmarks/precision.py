@@ -9,7 +9,7 @@ from statistics import median
 from msgspec.structs import replace
 
 from atlas.study.benchmark import Run, Status
-from benchmarks.case import Case, Grid, Solve, grid
+from benchmarks.case import Case, FloatArray, Solve, even
 from benchmarks.clock import interleave, once
 from benchmarks.integrators import Integrator, TimedOutError
 from benchmarks.oracle import Reference, reference
@@ -32,11 +32,11 @@ class Plan:
 
 @dataclass(frozen=True)
 class Bench:
-    """One case, ready: the grids up to each horizon, the true values there, and the plain formula to compare with."""
+    """One case, ready: the times up to each horizon, the true values there, and the plain formula to compare with."""
 
     case: Case
     plan: Plan
-    grids: dict[float, Grid]
+    times: dict[float, FloatArray]
     truths: dict[float, Reference]
     plain: Solve
 
@@ -44,10 +44,10 @@ class Bench:
     def of(cls, case: Case, plan: Plan) -> "Bench":
         """Compute what all methods share."""
         count = min(plan.samples, case.samples or plan.samples)
-        grids = {horizon: grid(horizon, count) for horizon in plan.horizons}
-        truths = {horizon: reference(case, g) for horizon, g in grids.items()}
+        times = {horizon: even(horizon, count) for horizon in plan.horizons}
+        truths = {horizon: reference(case, t) for horizon, t in times.items()}
         plain = case.base or next(method for method in case.closed if method.name == "plain").prepare
-        return cls(case, plan, grids, truths, plain())
+        return cls(case, plan, times, truths, plain())
 
 
 def closed(bench: Bench) -> Iterator[Setup | Run]:
@@ -62,17 +62,17 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
             yield Setup(case.name, method.name, "done", seconds=seconds, again=again)
         except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
             yield Setup(case.name, method.name, "failed", note=said(raised))
-    for horizon, g in bench.grids.items():
+    for horizon, t in bench.times.items():
         errors: dict[str, float] = {}
         for name, solve in ready.items():
             try:
-                errors[name] = bench.truths[horizon].error(solve(g))
+                errors[name] = bench.truths[horizon].error(solve(t))
             except Exception as raised:  # noqa: BLE001  the same
-                yield Run(case.name, name, horizon, g.count, "failed", note=said(raised))
-        jobs = {name: partial(ready[name], g) for name in errors}
-        times = interleave({"base": partial(bench.plain, g)} | jobs, bench.plan.rounds)
+                yield Run(case.name, name, horizon, len(t), "failed", note=said(raised))
+        jobs = {name: partial(ready[name], t) for name in errors}
+        times = interleave({"base": partial(bench.plain, t)} | jobs, bench.plan.rounds)
         for name, error in errors.items():
-            yield _measured(Run(case.name, name, horizon, g.count, "done"), error, times[name])
+            yield _measured(Run(case.name, name, horizon, len(t), "done"), error, times[name])
 
 
 def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
@@ -94,7 +94,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         yield Setup(case.name, integrator.name, "done", tolerance, setup)
         pace = 0.0
         for horizon in plan.horizons:
-            run = Run(case.name, integrator.name, horizon, bench.grids[horizon].count, "done", tolerance)
+            run = Run(case.name, integrator.name, horizon, len(bench.times[horizon]), "done", tolerance)
             if beaten and not pace:
                 yield _unmeasured(run, "skipped", f"out of time at {beaten:.0e} already, so at longer horizons")
                 break
@@ -112,11 +112,11 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
 
 def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     """Solve, grade and time one run beside the plain formula."""
-    g = bench.grids[run.horizon]
+    t = bench.times[run.horizon]
     try:
-        seconds, values = once(partial(solve, g))
+        seconds, values = once(partial(solve, t))
         error = bench.truths[run.horizon].error(values)
-        jobs = {"base": partial(bench.plain, g)} | ({"peer": partial(solve, g)} if seconds < SHORT else {})
+        jobs = {"base": partial(bench.plain, t)} | ({"peer": partial(solve, t)} if seconds < SHORT else {})
         times = interleave(jobs, bench.plan.rounds if seconds < SHORT / 10 else 3)
     except TimedOutError:
         return _unmeasured(run, "timed out", f"stopped after {bench.plan.limit:g} s, so at longer horizons")

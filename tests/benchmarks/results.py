@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import msgspec
+import numpy as np
 
 from atlas import __version__, files
 from atlas.core.arithmetic.machine import processors
@@ -49,12 +50,15 @@ class Rows(Item, frozen=True):
     to_plain: float
 
 
+def spread(count: int, few: int) -> list[int]:
+    """Return a few indices, evenly from the first to the last."""
+    return sorted({round(i) for i in np.linspace(0, count - 1, few).tolist()})
+
+
 def machine() -> Machine:
     """Describe this machine without its name."""
-    import numpy as np
-
-    found = np.show_config(mode="dicts")["SIMD Extensions"]
-    extensions = [*found.get("baseline", ()), *found.get("found", ())]
+    simd = np.show_config(mode="dicts")["SIMD Extensions"]
+    extensions = [*simd.get("baseline", ()), *simd.get("found", ())]
     return Machine(
         processor=_processor(),
         cores=processors(),
@@ -65,8 +69,9 @@ def machine() -> Machine:
 
 def versions() -> dict[str, str]:
     """Versions of Python, of the atlas and of every peer; one that is not installed is said to be absent."""
-    found = {"python": platform.python_version(), "atlas": __version__}
-    return found | {name: release(name) or "absent" for name in PEERS}
+    return {"python": platform.python_version(), "atlas": __version__} | {
+        name: release(name) or "absent" for name in PEERS
+    }
 
 
 def today() -> str:
@@ -76,12 +81,12 @@ def today() -> str:
 
 def write(record: Results, path: Path) -> None:
     """Write a record, a row a line, whole or not at all."""
-    parts = []
+    items = []
     for name, value in msgspec.to_builtins(record).items():
         many = isinstance(value, list)
         rows = ",\n".join(f"  {msgspec.json.encode(item).decode()}" for item in value) if many else ""
-        parts.append(f' "{name}": [\n{rows}\n ]' if many else f' "{name}": {msgspec.json.encode(value).decode()}')
-    files.write(path, "{\n" + ",\n".join(parts) + "\n}\n")
+        items.append(f' "{name}": [\n{rows}\n ]' if many else f' "{name}": {msgspec.json.encode(value).decode()}')
+    files.write(path, "{\n" + ",\n".join(items) + "\n}\n")
 
 
 def said(error: Exception) -> str:

@@ -11,21 +11,7 @@ from msgspec.structs import replace
 from atlas import files
 from atlas.errors import AtlasError
 from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, measured, stored
-from benchmarks import (
-    arrays,
-    asymmetric,
-    ball,
-    dense,
-    derivatives,
-    elementary,
-    elliptic,
-    fits,
-    fresh,
-    general,
-    heavy,
-    particle,
-)
-from benchmarks.cost import costs
+from benchmarks import arrays, cost, general, particle, rotations
 from benchmarks.integrators import integrators
 from benchmarks.limits import targets
 from benchmarks.oracle import check
@@ -39,13 +25,13 @@ PRECISE, FEW, LEAST = ("elementary", "ball", "particle"), 1e4, 1e2
 """The cases drawn with all tolerances, up to which time they are kept, and up to which those of the others."""
 
 CASES = {
-    "elementary": elementary.case,
-    "general": general.case,
-    "ball": ball.case,
+    "elementary": rotations.elementary_case,
+    "general": rotations.general_case,
+    "ball": rotations.ball_case,
     "particle": particle.case,
-    "heavy": heavy.case,
-    "elliptic": elliptic.case,
-    "asymmetric": asymmetric.case,
+    "heavy": rotations.heavy_case,
+    "elliptic": rotations.elliptic_case,
+    "asymmetric": rotations.asymmetric_case,
 }
 
 
@@ -100,15 +86,15 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=stored(), help="keep the record here")
     options = parser.parse_args()
     files.check(options.out)
-    found = []
+    items = []
     # where true values take long, only if it is asked for or there is time
     names = options.case or [name for name in CASES if not options.quick or name not in {"asymmetric", "elliptic"}]
     for item in measure(names, QUICK if options.quick else FULL):
         print(item, flush=True)  # noqa: T201  the record holds what is shown, the terminal the rest, and what failed
-        found.append(_short(item))
-    runs, prices, setups, rows = ([x for x in found if isinstance(x, kind)] for kind in (Run, Cost, Setup, Rows))
+        items.append(_short(item))
+    runs, prices, setups, rows = ([x for x in items if isinstance(x, kind)] for kind in (Run, Cost, Setup, Rows))
     limits = targets(machine(), setups, prices, rows)
-    done = [cost for cost in prices if cost.status == "done"]
+    done = [price for price in prices if price.status == "done"]
     record = Results(FORMAT, "make bench", today(), machine(), versions(), shown(runs), done, limits)
     for limit in limits:
         print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
@@ -134,14 +120,14 @@ def measure(names: Sequence[str], scope: Scope) -> Iterator[Any]:
     if "elementary" in names:
         prices = list[Cost]()
         for count in scope.counts:
-            prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
+            prices.extend(cost.costs(count, scope.rounds(count), scope.cost_limit, prices))
         yield from prices
         yield from arrays.rows(scope.rows, scope.rounds(scope.rows))
-        yield from fresh.rows(scope.fresh)
+        yield from cost.fresh(scope.fresh)
     if "general" in names:
-        yield from dense.rows(scope.rows, scope.rounds(scope.rows))
-        yield from derivatives.rows(1_000, 5)
-        yield from fits.rows(3)
+        yield from general.matrices(scope.rows, scope.rounds(scope.rows))
+        yield from general.derivatives(1_000, 5)
+        yield from general.fits(3)
 
 
 def shown(runs: Sequence[Run]) -> list[Run]:

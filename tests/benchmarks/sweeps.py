@@ -95,12 +95,12 @@ def main() -> None:
         command = [sys.executable, "-m", "benchmarks.sweeps", "--family", options.family]
         command += ["--rows", str(options.rows), "--way", *way]
         ended = subprocess.run(command, capture_output=True, text=True, check=True)
-        found = json.loads(ended.stdout.splitlines()[-1])
-        digests.add(found["digest"])
+        answer = json.loads(ended.stdout.splitlines()[-1])
+        digests.add(answer["digest"])
         print(  # noqa: T201  what was asked for
-            f"{way[0]} {way[1]:10} {found['rows']} rows in {found['seconds']:6.1f} s, cpu {found['cpu']:6.1f} s, "
-            f"{found['rows'] / found['seconds']:9.0f} rows/s, {found['own']:5.0f} MB, largest worker "
-            f"{found['worker']:5.0f} MB, {found['digest']}",
+            f"{way[0]} {way[1]:10} {answer['rows']} rows in {answer['seconds']:6.1f} s, cpu {answer['cpu']:6.1f} s, "
+            f"{answer['rows'] / answer['seconds']:9.0f} rows/s, {answer['own']:5.0f} MB, largest worker "
+            f"{answer['worker']:5.0f} MB, {answer['digest']}",
             flush=True,
         )
     print("the same bytes" if len(digests) == 1 else "THE TABLES DIFFER")  # noqa: T201  the same
