@@ -1,9 +1,13 @@
 """Small things that several test files need."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 from atlas.files import WRITTEN
 from atlas.paper import EQUATIONS
@@ -14,6 +18,18 @@ from atlas.proof.verdict import Verdict
 def names(folder: Path) -> list[str]:
     """Return the names in a folder, without the list of what was written there."""
     return sorted(path.name for path in folder.iterdir() if path.name != WRITTEN)
+
+
+@contextmanager
+def dask_client(workers: int) -> Iterator[Any]:
+    """Give a client of a local cluster of Dask, in threads of this process; skip the test where there is no Dask."""
+    distributed = pytest.importorskip("distributed")
+    place = {"processes": False, "dashboard_address": "127.0.0.1:0"}
+    with (
+        distributed.LocalCluster(n_workers=workers, threads_per_worker=1, **place) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        yield client
 
 
 def ulps_apart(found: float, certified: str, size: float) -> float:

@@ -70,20 +70,6 @@ def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any,
     )
 
 
-@share(0.05, 25)
-@given(ratios, st.tuples(numbers, numbers), st.tuples(numbers, numbers, numbers), times, st.floats(-10, 10))
-def test_general_motion(I: Any, field: Any, omega: Any, t: Any, step: float) -> None:
-    """All that a general motion answers."""
-    asked(
-        lambda: atlas.GeneralMotion(I, field, omega),
-        attributes("turning_points", "period", "precession_per_period", "spin_per_period", "modulus", "nome")
-        | at_times(t)
-        | {
-            "rotation_grid": lambda m: m.rotation_grid(step, step, 9),
-        },
-    )
-
-
 @st.composite
 def families(draw: Any) -> tuple[str, list[Any]]:
     """Draw a family of the register and its parameters: as they stand there, ordinary or extreme."""
@@ -100,9 +86,10 @@ def families(draw: Any) -> tuple[str, list[Any]]:
 @share(0.1, 60)
 @given(families(), times)
 def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
-    """All that the register lists of a motion or surface."""
+    """All that the register lists of a motion or surface, and a grid of its matrices."""
     one, given = FAMILIES[case[0]], case[1]
     at = {s.name: lambda m, s=s: s.method_of(m)(t) for s in one.sampled}
+    at |= {"rotation_grid": lambda m: m.rotation_grid(-0.3, 0.7, 9)} if "R" in at else {}
     asked(lambda: one.kernels()(*given), {q.name: q.value for q in one.quantities} | at)
 
 

@@ -4,12 +4,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, matrices, of, signed, unit
+from agreement import Floor, Ledger, Tie, agree, each, length, letters, matrices, of, signed, unit
 
-from atlas.core.arithmetic.rotation import DoubleRotation
-from atlas.core.motions import ball
 from atlas.proof.model import rodrigues
 
 
@@ -100,18 +97,3 @@ TIES = (
 def test_the_ball_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
     """Its axis, its frequency, its matrix and its vectors, for a momentum along the field too."""
     agree(tie, floor)
-
-
-def test_a_larmor_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """-alpha for alpha: only the matrix (30) of a ball with m2 = 0 does not depend on it."""
-    right = ball.turning
-    monkeypatch.setattr(ball, "turning", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
-    moved = [tie for tie in TIES if tie.names not in {"(30)", "theorem-ball-rest"}]
-    disagree(moved, *{tie.quantity for tie in moved})
-
-
-def test_a_transposed_matrix_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """R_k(gamma t) R_z(alpha t) for the inverse of it."""
-    right = DoubleRotation.rotation
-    monkeypatch.setattr(DoubleRotation, "rotation", lambda *given: right(*given).swapaxes(-2, -1))
-    disagree(TIES, "BallMotion.rotation")

@@ -3,7 +3,6 @@
 from functools import partial
 from typing import Any
 
-import pytest
 import sympy
 from agreement import (
     Floor,
@@ -11,7 +10,6 @@ from agreement import (
     Tie,
     agree,
     bodies,
-    disagree,
     each,
     elementary,
     length,
@@ -23,8 +21,6 @@ from agreement import (
     unit_field,
 )
 
-from atlas.core.motions import elementary as kernel
-from atlas.formulas import elementary as formulas
 from atlas.proof.model import rodrigues
 
 POINTS = bodies(76, 8)
@@ -270,28 +266,3 @@ def test_the_motions_that_equation_71_loses_are_those_of_the_ledger(tie: Tie, fl
 def test_the_free_body_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
     """Any launch, with omega1 too."""
     agree(tie, floor)
-
-
-def test_a_wrong_sign_in_the_constants_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """(omega2 - 2 B2) for (omega2 + 2 B2) in (72)."""
-    right = formulas.proper
-
-    def wrong(I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any) -> Any:
-        return right(I2, I3, B2, B3, omega2) * (omega2 - B2 - B2) / (omega2 + B2 + B2)
-
-    monkeypatch.setattr(formulas, "proper", wrong)
-    moved = ("phi", "rotation", "column", "rotation_grid", "angular_velocity", "field_in_body")
-    disagree(PRECESSION, *(f"ElementaryMotion.{name}" for name in moved))
-
-
-def test_a_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """R_n(-k t) for R_n(k t): the axis turned round, in every motion of the file."""
-    right = kernel.DoubleRotation.__init__
-
-    def wrong(self: Any, axis: Any, precession: Any, proper: Any) -> None:
-        right(self, tuple(-n for n in axis), precession, proper)
-
-    monkeypatch.setattr(kernel.DoubleRotation, "__init__", wrong)
-    disagree(PRECESSION, "ElementaryMotion.rotation", "ElementaryMotion.third_axis")
-    disagree([tie for tie in SPECIAL if tie.points in (BALL, EQUATOR)], "ElementaryMotion.rotation")
-    disagree(ALONE, "FreeMotion.rotation", "FreeMotion.column", "FreeMotion.third_axis", "FreeMotion.rotation_grid")

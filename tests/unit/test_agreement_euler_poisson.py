@@ -5,11 +5,8 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, power, signed, vector
-
-from atlas.core.motions import euler_poisson
+from agreement import Floor, Ledger, Tie, agree, bodies, each, letters, power, signed, vector
 
 
 def states(seed: int, count: int) -> list[Any]:
@@ -326,19 +323,3 @@ def test_the_equations_of_motion_are_those_of_the_ledger(tie: Tie, floor: str) -
 def test_what_the_equations_are_made_of_is_what_the_ledger_says(tie: Tie, floor: str) -> None:
     """Inertia tensors, mass matrices, and the field B' in both systems of units."""
     agree(tie, floor)
-
-
-def test_a_wrong_sign_of_the_magnetic_torque_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """+2 g K for -2 g K in (16), (17) and (18)."""
-    right = euler_poisson.mass_matrix
-    monkeypatch.setattr(euler_poisson, "mass_matrix", lambda inertia: -right(inertia))
-    lost = ("angular_acceleration", "body_momentum_rate", "momentum_rate")
-    disagree(TIES, *(f"euler_poisson.{name}" for name in lost))
-
-
-def test_a_vector_product_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """[b, a] for [a, b]: the sign of (12), which text-force-matrix loses in print."""
-    right = euler_poisson.hat
-    monkeypatch.setattr(euler_poisson, "hat", lambda omega: -right(omega))
-    lost = ("rotation_rate", "field_rate", "angular_acceleration", "bracket", "hat")
-    disagree(TIES, *(f"euler_poisson.{name}" for name in lost))

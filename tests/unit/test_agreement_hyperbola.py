@@ -7,8 +7,6 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters, of
 
-from atlas.core.surfaces import hyperbola
-from atlas.formulas import hyperbola as formulas
 from atlas.paper import EQUATIONS
 from atlas.proof import formula
 from atlas.proof.run import trial
@@ -120,20 +118,6 @@ TIES = (
 def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
     """Its points, where it begins and ends, its frequencies and its stability."""
     agree(tie, floor)
-
-
-def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """(1 + I) for (1 - I) in (72) and I for (2 - I) in (71)."""
-
-    def ordinate(I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any) -> Any:
-        return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 * omega2 + I3 * B2)
-
-    def proper(I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any) -> Any:
-        return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 + I3) * (omega2 + B2 + B2)
-
-    monkeypatch.setattr(hyperbola, "ordinate", ordinate)
-    monkeypatch.setattr(formulas, "proper", proper)
-    disagree(TIES, "Hyperbola.omega3", "Hyperbola.frequencies", "Hyperbola.sample", "Hyperbola.branches")
 
 
 def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -192,18 +192,6 @@ def test_the_motion_of_omega3_is_that_of_the_ledger(tie: Tie, floor: str) -> Non
     agree(tie, floor)
 
 
-def test_a_wrong_sign_of_one_less_the_ratio_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """I - 1 for 1 - I in the cubic."""
-    right = pseudo_oscillator.shape_factors
-    monkeypatch.setattr(
-        pseudo_oscillator, "shape_factors", lambda ratio: (right(ratio)[0], -right(ratio)[1], right(ratio)[2])
-    )
-    lost = ("coefficients", "quartic_coefficients", "stiffness")
-    disagree(
-        TIES, *(f"PseudoOscillator.{name}" for name in lost), "pseudo_oscillator.cubic", "pseudo_oscillator.quartic"
-    )
-
-
 def test_the_paper_s_slip_in_equation_48_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(2-1)^2 for (2-I)^2, as printed: the kernel holds the corrected form, and so does the ledger."""
     right = pseudo_oscillator.cubic

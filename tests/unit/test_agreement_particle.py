@@ -24,7 +24,6 @@ from agreement import (
 )
 
 from atlas.core.motions import particle_rows as charge
-from atlas.formulas import particle as formulas
 
 
 def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
@@ -235,13 +234,6 @@ TIES = (
 def test_the_particle_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
     """Its path, the circle and the drift of which it is made, and the path of a point of a body."""
     agree(tie, floor)
-
-
-def test_a_force_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """[B, v] for [v, B]."""
-    right = formulas.cross
-    monkeypatch.setattr(formulas, "cross", lambda a, b: right(b, a))
-    disagree(TIES, "ParticleMotion.drift", "ParticleMotion.velocity", "ParticleMotion.guiding_centre")
 
 
 def test_the_paper_s_sense_of_rotation_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,11 +2,8 @@
 
 from typing import Any
 
-import pytest
 import sympy
-from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letters, of
-
-from atlas.formulas import quadric as formulas
+from agreement import Ledger, Tie, agree, bodies, each, length, letters, of
 
 POINTS = bodies(58, 8)
 TWO_SHEETS = bodies(61, 3, body=1.7)
@@ -73,21 +70,3 @@ TIES = (
 def test_the_quadric_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
     """Its shape, its frame and what it leaves of any point."""
     agree(tie, floor)
-
-
-def test_a_wrong_sign_in_the_eigenvalues_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """1 - sin(beta) for 1 + sin(beta), and the other way round."""
-    right = formulas._direction
-    monkeypatch.setattr(formulas, "_direction", lambda I2, I3, B2, B3: right(I2, I3, B2, -B3))
-    disagree(TIES, "Quadric.a2", "Quadric.a3", "Quadric.semi_axes", "Quadric.axes", "Quadric.canonical")
-
-
-def test_a_wrong_sign_in_the_quadric_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """(2 + I) for (2 - I) in (50): its two ties are both gone."""
-    right = formulas.residual
-
-    def wrong(I2: Any, I3: Any, B2: Any, B3: Any, w1: Any, w2: Any, w3: Any) -> Any:
-        return right(I2, I3, B2, B3, w1, w2, w3) + (I3 + I3) / I2 * B2 * B3 * w2
-
-    monkeypatch.setattr(formulas, "residual", wrong)
-    disagree(TIES, "Quadric.residual")

@@ -179,32 +179,6 @@ def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.Mon
         animation.check("mp4", 20)
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        ("cone", "'cone' has no time t"),
-        ("cone --over azimuth=0:720:5", "azimuth must lie between -360 and 360, not 540"),
-        ("cone --over azimuth=0:90", "KEY=START:STOP:COUNT"),
-        ("film_strip --over=", "KEY=START:STOP:COUNT"),
-        ("cone --over azimuth=0:x:5", "from a number to a number"),
-        ("cone --over azimuth=0:90:1", "from 2 to 2000 frames, not 1"),
-        ("cone --over azimuth=0:90:10000000000000", "from 2 to 2000 frames, not 10000000000000"),
-        ("cone --over azimuth=0:90:\u0663", "KEY=START:STOP:COUNT"),
-        ("cone --over tilt=0:90:4", "no parameter 'tilt'"),
-        ("cone --over azimuth=0:90:4 --set azimuth=3", "it can't have the value 3 too"),
-        ("rolling_cones --over omega2=-1:1:3", "omega2 = -1.0: omega2 = -B2 = -1.0 is the pole"),
-        ("cone --over azimuth=0:90:4 --fps 55", "gif has from 1 to 50 frames a second, not 55"),
-        ("no_such --over azimuth=0:90:4", "no figure 'no_such'"),
-    ],
-)
-def test_errors_are_one_line_and_leave_nothing(tmp_path: Path, words: str, says: str) -> None:
-    """What is wrong is said, and no file is written."""
-    done = run(words, tmp_path / "out")
-    assert says in (str(done.exception) + done.output).replace("\n", " ")
-    assert done.exit_code != 0
-    assert not (tmp_path / "out").exists() or not list((tmp_path / "out").iterdir())
-
-
 def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)

@@ -2,7 +2,6 @@
 
 from itertools import product
 from random import Random
-from typing import Any
 
 import numpy as np
 import pytest
@@ -260,23 +259,6 @@ def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
         (line,) = (layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == "trace")
         motion = AsymmetricMotion((I1, 1.0, 1.5), (0.0, 1.0, 0.5), (0.0, 0.9, 3.0))
         assert np.abs(line[-1] - upright @ motion.rotation(6.0)[:, 2]).max() <= 1e-8
-
-
-@pytest.mark.parametrize(
-    ("name", "parameters"),
-    [
-        ("bifurcation", {"momentum": (1.0, 2.0, 3.0, 4.0, 5.0)}),
-        ("torus_of_flows", {"stop": 1e5}),
-        ("torus_of_flows", {"omega": (0.0, 0.0, 0.0)}),
-        ("flattening", {"field": (0.0, 0.0)}),
-        ("geometric_phase", {"z": (1.0, -1.0)}),
-        ("geometric_phase", {"z": (0.0, 1.0)}),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
-    """Each figure says in one line what it needs."""
-    with pytest.raises(DomainError, match=f"figure {name}"):
-        recipes.load(name).scene(**parameters)
 
 
 @pytest.mark.parametrize("c", [0.7, -1.9])

@@ -173,6 +173,7 @@ def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, 
     assert content(folder) == undisturbed
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_one_line_and_the_last_good_report_stays(undisturbed: dict[str, str], copy: Path) -> None:
     """When a file cannot be written in full, the command says so in one line and leaves what was there."""
     words = command(copy)
@@ -200,6 +201,7 @@ def test_a_folder_that_cannot_be_is_one_line(tmp_path: Path) -> None:
     assert (tmp_path / "out").read_text() == "in the way"
 
 
+@pytest.mark.slow
 def test_nothing_changed_means_nothing_built(copy: Path) -> None:
     """A second build takes the report as it is; a lost file is made again, an edited one stays, the new beside it."""
     words = command(copy)

@@ -23,7 +23,6 @@ from atlas.build.cache import Cache
 from atlas.build.figures import FigureBuild, build_figures, draw, find, parts_of
 from atlas.build.report import describe, key_of
 from atlas.report.picture import Picture
-from atlas.scene import recipes
 from atlas.sources import PACKAGE, Sources, digest
 
 ROOT = PACKAGE.parent
@@ -177,27 +176,6 @@ def test_the_place_of_the_checkout_does_not_matter(checkout: Path, keys: Keys, m
     checkout.rename(elsewhere)
     use(elsewhere, monkeypatch)
     assert not different(before, keys())
-
-
-@pytest.mark.parametrize("name", recipes.names())
-def test_a_recipe_declares_the_records_that_it_reads(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What a recipe opens of reports/data is what its RECORDS say, for its key depends on them."""
-    data, opened = places.folder("reports") / "data", set[str]()
-    for method in ("open", "read_text", "read_bytes"):
-        monkeypatch.setattr(Path, method, _noting(getattr(Path, method), data, opened))
-    recipe = recipes.load(name)
-    recipe.scene()
-    assert opened == set(recipe.records)
-    assert all((data / record).is_file() for record in recipe.records)
-
-
-def _noting(method: Any, data: Path, opened: set[str]) -> Any:
-    def call(path: Path, *arguments: Any, **more: Any) -> Any:
-        if path.parent == data:
-            opened.add(path.name)
-        return method(path, *arguments, **more)
-
-    return call
 
 
 def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:

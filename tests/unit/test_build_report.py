@@ -189,18 +189,6 @@ def test_the_pdf_has_the_same_content(built: Built) -> None:
     assert not re.search(r"\\[a-z]{2,}|\$|@mf", whole)
 
 
-@pytest.mark.slow
-def test_the_same_file_gives_the_same_bytes(built: Built, toml: Path, tmp_path: Path) -> None:
-    """A second build in another folder gives the same files with the same bytes."""
-    again = build_report(toml, tmp_path / "elsewhere")
-    folder = built.index.parent
-    files = sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
-    assert len(files) > 7
-    assert again.pdf.read_bytes() == built.pdf.read_bytes()
-    for file in files:
-        assert (again.index.parent / file).read_bytes() == (folder / file).read_bytes(), file
-
-
 def test_a_citation_that_leads_nowhere_is_an_error(tmp_path: Path) -> None:
     """A misspelt label names the block and the nearest label, and nothing is written."""
     file = tmp_path / "mine.toml"
@@ -221,6 +209,7 @@ def test_misspelt_recipes_and_parameters_are_errors(tmp_path: Path) -> None:
         build_report(file, tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_text_is_escaped_for_html(tmp_path: Path) -> None:
     """Signs that HTML and Typst give a meaning are only signs in a title."""
     file = tmp_path / "mine.toml"

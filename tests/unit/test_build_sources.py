@@ -29,6 +29,16 @@ def scene():
 '''
 
 
+@pytest.fixture(scope="module")
+def memory(tmp_path_factory: pytest.TempPathFactory) -> Cache:
+    """Remember the files of the package, which are parsed once."""
+    folder = tmp_path_factory.mktemp("memory")
+    sources = Sources(Cache(folder / "cache"))
+    sources.closure([write(folder / "recipe.py", "import atlas\n")])
+    sources.save()
+    return Cache(folder / "cache")
+
+
 def write(path: Path, text: str) -> Path:
     """Write a file whose time differs from the last one's."""
     stamp = path.stat().st_mtime_ns + 10**9 if path.exists() else None
@@ -63,12 +73,14 @@ def test_a_recipe_reaches_what_it_imports_and_nothing_else(tmp_path: Path) -> No
         ("core.surfaces.hyperbola import Hyperbola", "core.surfaces.quadric import Quadric as Hyperbola", False),
     ],
 )
-def test_comments_and_formatting_change_no_digest(tmp_path: Path, old: str, new: str, same: bool) -> None:
+def test_comments_and_formatting_change_no_digest(
+    tmp_path: Path, memory: Cache, old: str, new: str, same: bool
+) -> None:
     """Comments and line breaks leave the digest alone; code, titles and imports do not."""
     recipe = tmp_path / "recipe.py"
-    before = Sources().closure([write(recipe, RECIPE)])
+    before = Sources(memory).closure([write(recipe, RECIPE)])
     assert old in RECIPE
-    after = Sources().closure([write(recipe, RECIPE.replace(old, new))])
+    after = Sources(memory).closure([write(recipe, RECIPE.replace(old, new))])
     assert (before == after) is same
 
 
@@ -97,7 +109,7 @@ def test_a_file_that_is_remembered_is_not_parsed(tmp_path: Path, monkeypatch: py
 
 def test_a_damaged_memory_does_no_harm(tmp_path: Path) -> None:
     """Where what was remembered is damaged, the files are parsed again."""
-    recipe, cache = write(tmp_path / "recipe.py", RECIPE), Cache(tmp_path / "cache")
+    recipe, cache = write(tmp_path / "recipe.py", "import atlas.errors\n"), Cache(tmp_path / "cache")
     sources = Sources(cache)
     before = sources.closure([recipe])
     sources.save()
@@ -126,24 +138,26 @@ def test_a_file_that_is_no_python_has_a_digest(tmp_path: Path, text: str) -> Non
         ("from atlas import simulate", "study/simulate.py"),
     ],
 )
-def test_public_names_reach_the_modules_that_they_come_from(tmp_path: Path, statement: str, module: str) -> None:
+def test_public_names_reach_the_modules_that_they_come_from(
+    tmp_path: Path, memory: Cache, statement: str, module: str
+) -> None:
     """The package loads its public names when they are used; a recipe that uses one depends on its kernel."""
     recipe = write(tmp_path / "recipe.py", f"{statement}\n")
-    assert PACKAGE / module in Sources().reached([recipe])
+    assert PACKAGE / module in Sources(memory).reached([recipe])
 
 
-def test_one_public_name_reaches_no_other(tmp_path: Path) -> None:
+def test_one_public_name_reaches_no_other(tmp_path: Path, memory: Cache) -> None:
     """A recipe that uses one public name does not depend on the kernels of the others."""
     recipe = write(tmp_path / "recipe.py", "from atlas import ParticleMotion, __version__\n")
-    reached = {path.relative_to(PACKAGE).as_posix() for path in Sources().reached([recipe]) if path != recipe}
+    reached = {path.relative_to(PACKAGE).as_posix() for path in Sources(memory).reached([recipe]) if path != recipe}
     assert "core/motions/particle.py" in reached
     assert "core/surfaces/hyperbola.py" not in reached
 
 
-def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path) -> None:
+def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path, memory: Cache) -> None:
     """What a recipe borrows from another one is part of it."""
     recipe = write(tmp_path / "recipe.py", "from figures.hyperbola import caption\n")
-    assert folder("figures") / "hyperbola.py" in Sources().reached([recipe])
+    assert folder("figures") / "hyperbola.py" in Sources(memory).reached([recipe])
 
 
 def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

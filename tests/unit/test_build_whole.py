@@ -68,6 +68,7 @@ def test_a_failing_pdf_leaves_the_last_good_report(tmp_path: Path, monkeypatch: 
     assert state(out) == before
 
 
+@pytest.mark.slow
 def test_a_killed_build_leaves_the_last_good_report(tmp_path: Path) -> None:
     """SIGKILL between pages and PDF changes no file; the next build succeeds."""
     out = tmp_path / "out"

@@ -19,7 +19,7 @@ from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 BODY = {"inertia": (0.8, 1.0, 1.3), "field": (0.2, 1.0, 0.6), "omega": (0.3, 0.7, 0.2)}
 TOP = {"inertia": (1.0, 0.5), "coupling": (0.3, 0.4), "direction": (0.6, 0.8), "omega": (0.1, 0.2, 5.0)}
 POTENTIAL = (3.0, 0.5)
-TIMES = [0.25, 1.0, 3.5, 12.0]
+TIMES = [0.25, 1.0, 2.0, 3.5]
 COLUMNS = [*MATRIX, *OMEGA]
 
 

@@ -98,75 +98,11 @@ def test_floats_in_json_read_back_the_same() -> None:
     assert out["samples"][0]["t"] == 1000.0
 
 
-@pytest.mark.parametrize(
-    ("words", "tells"),
-    [
-        ("classify --ratio 2.5 --field 1 2", "2.5"),
-        ("classify --ratio 0 --field 1 2", "0"),
-        ("classify --ratio -1 --field 1 2", "-1"),
-        ("classify --field 1 2", "--ratio"),
-        ("classify --ratio 1 --inertia 1 1 --field 1 2", "--inertia"),
-        ("classify --ratio 1", "--field"),
-        ("classify --ratio nan --field 1 2", "nan"),
-        ("classify --ratio one --field 1 2", "one"),
-        ("classify --ratio 1 --field 1", "--field"),
-        ("classify --shape banana --field 1 2", "banana"),
-        ("classify --shape ring --field 1 2", "--radius"),
-        ("classify --shape ball --field 1 2", "cylindrical-shell"),
-        ("classify --shape ring --radius 1 --height 1 --field 1 2", "--height"),
-        ("classify --ratio 1.5 --field 1 2 --mu 3", "--mu goes with --magnetic"),
-        ("classify --ratio 1.5 --field 1 2 --units si", "--units goes with --magnetic"),
-        ("hyperbola --ratio 1.5 --field 1e300 1e-300", "too far apart"),
-        ("hyperbola --ratio 1.5 --field 1e-300 1e300", "too far apart"),
-        ("hyperbola --ratio 1.5 --field 1e308 1e308", "beyond the largest float"),
-        ("check nosuch.csv", "nosuch.csv"),
-        ("classify --shape thin-rod --length 1 --field 1 2", "I3 = 0"),
-        ("classify --shape thin-rod --field 1 2 --json", "--shape solid-cylinder"),
-        ("classify --shape ring --radius 1e308 --field 1 2", "--radius 1e308"),
-        ("classify --shape ring --radius 1e-200 --field 1 2 --json", "another unit of length"),
-        ("classify --shape ring --radius 0 --field 1 2", "radius must be positive"),
-        ("classify --inertia 1 3 --field 1 2 --json", "at most 2 I2"),
-        ("classify --ratio 1.5 --magnetic 1e308 2 --mu 1e308", "larger units"),
-        ("classify --ratio 1.5 --field 1 2 --digits 1001", "1001"),
-        ("hyperbola --ratio 1.5 --field 0 0", "no curve"),
-        ("hyperbola --ratio 1.5 --field 1 2 --count 1", "--count"),
-        ("ball --larmor 1 --momentum 1 1 --inertia 0", "inertia"),
-        ("particle --mu 1e308 --magnetic 0 0 1e308 --velocity 1 0 0 --times 1 --json", "larger units"),
-        ("particle --magnetic 0 0 1", "A point charge needs --mass and --charge, or --mu"),
-        ("particle --charge 1 --magnetic 0 0 1", "needs --mass,"),
-        ("particle --mass 2 --charge 1 --mu 1", "--mass has no place beside it"),
-        ("particle --mass 0 --charge 1", "mass must be positive"),
-        ("verify 999", "999"),
-        ("figure", "--all"),
-        ("figure hyperbola --set ratio", "KEY=VALUE"),
-        ("figure hyperbola --set ratio=5/2", "2.5"),
-        ("figure hyperbola --format pdf --renderer shaded", "PNG"),
-        ("figure hyperbola --set field=1e308,1e308", "field must be two numbers"),
-        ("classify --ratio 1e-9999999999 --field 1 2 --decimal", "exponent"),
-        ("classify --ratio 1e-1_000_000 --field 1 2 --decimal", "'1e-1_000_000' is not a finite number"),
-        ("classify --ratio \N{ARABIC-INDIC DIGIT ONE} --field 1 2", "is not a finite number"),
-        ("classify --ratio 1_0 --field 1 2", "'1_0' is not a finite number"),
-        ("classify --ratio 1e999 --field 1 2", "beyond the largest float"),
-        (f"classify --ratio {'9' * 5000} --field 1 2", "has 5000 characters; a number has at most 2000"),
-        ("motion --ratio 1.5 --field 1 2 --omega2 -1 --times 0", "-1"),
-        ("motion --ratio 1.5 --field 1 2 --omega2 1 --times", "--times"),
-        ("motion --ratio 1.5 --field 1 2 --omega2 1 --times 0 --grid 0 1 5", "--grid"),
-        ("motion --ratio 1.5 --field 1 2 --omega2 1 --grid 0 1 2.5", "2.5"),
-        ("motion --ratio 1.5 --field 1 2 --omega2 1e3 --times 1e30 --json", "2^50"),
-        ("figure nosuchfigure", "nosuchfigure"),
-        ("report nosuchreport", "nosuchreport"),
-        ("clasify --ratio 1", "clasify"),
-        ("classify --rato 1", "--rato"),
-    ],
-)
-def test_a_wrong_input_gets_one_line_and_status_two(words: str, tells: str) -> None:
-    """What was wrong stands in one line on standard error, without a traceback."""
-    result = run(*words.split())
-    assert result.returncode == 2
-    assert result.stdout == ""
-    assert result.stderr.count("\n") == 1
-    assert tells in result.stderr
-    assert len(result.stderr) < 1000
+def test_a_wrong_input_gets_one_line_and_status_two() -> None:
+    """In a process of its own: on standard error, without a traceback. The others are in test_cli_refused."""
+    result = run(*"classify --ratio 2.5 --field 1 2".split())
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert "2.5" in result.stderr
 
 
 def test_what_a_terminal_would_obey_is_not_printed() -> None:
@@ -357,7 +293,7 @@ def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
     for _ in ("drawn", "taken from the store"):
         result = CliRunner().invoke(command, words, standalone_mode=False)
         assert result.return_value == 0
-        assert result.stderr == "atlas: no panel in space, so drawn by the vector renderer: hyperbola\n"
+        assert "atlas: no panel in space, so drawn by the vector renderer: hyperbola\n" in result.stderr
     assert (tmp_path / "hyperbola.png").exists()
 
 
@@ -472,19 +408,6 @@ def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, more: str
     assert says in result.stderr
     assert result.stderr.count("\n") == bool(says)
     assert (result.stdout != "") == (status < 2)
-
-
-def test_general_prints_its_numbers_once_as_floats_and_once_as_digits() -> None:
-    """`atlas motion --omega` agrees with itself: doubles in JSON, and thirty certified digits that round to them."""
-    words = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1e6".split()
-    floats, texts = record("motion", *words), record("motion", *words, "--digits", "30")
-    assert floats["kind"] == texts["kind"] == "nutation, four real roots"
-    assert len(floats["roots"]) == 4
-    for name in ("period", "precession_per_period", "spin_per_period", "modulus", "nome"):
-        assert floats[name] == pytest.approx(float(texts[name]), rel=1e-15, abs=0.0)
-    for one, other in zip(floats["samples"], texts["samples"], strict=True):
-        for row, digits in zip(one["R"], other["R"], strict=True):
-            assert row == pytest.approx([float(x) for x in digits], abs=2e-15)
 
 
 def test_general_says_what_a_separatrix_has_not() -> None:

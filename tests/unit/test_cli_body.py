@@ -12,7 +12,6 @@ from click.testing import CliRunner
 import atlas
 from atlas.cli import family
 from atlas.cli.app import atlas as command
-from atlas.cli.app import main
 from atlas.families import FAMILIES, Command
 from atlas.report.body_and_field import body_and_field
 from atlas.report.load import load
@@ -97,48 +96,3 @@ def test_a_sweep_takes_body_and_field_by_the_same_options(tmp_path: Path) -> Non
     assert heading == "ratio,B2 [1/s],B3 [1/s],omega2 [1/s],k [1/s]"
     expected = record("motion", *SHELL.split(), "--omega2", "0.5")["k"]
     assert float(first.rpartition(",")[2]) == pytest.approx(expected, rel=1e-15, abs=0.0)
-
-
-@pytest.mark.parametrize(
-    ("words", "tells"),
-    [
-        ("classify --ratio 1.5 --magnetic 1 2", "needs --mass and --charge, or --mu"),
-        ("classify --ratio 1.5 --magnetic 1 2 --mass 1", "needs --charge"),
-        ("classify --ratio 1.5 --mu 1 --magnetic 0 1 2", "--magnetic takes 2 numbers, B2 B3"),
-        ("page --ratio 1.5 --field 1 --omega2 0.7", "--field takes 2 numbers, B2 B3"),
-        ("sweep general --ratio 1.5 --mu 1 --magnetic 1 2 2 --quantity k", "--magnetic takes 2 numbers, B2 B3"),
-        ("sweep --ratio 1.5 --field 1 general --quantity k", "--field takes 2 numbers, B2 B3"),
-        ("classify --ratio 1.5 --magnetic 1 2 --charge 1", "needs --mass"),
-        ("classify --ratio 1.5 --magnetic 1 2 --charge 1 --mass 0", "mass must be positive"),
-        ("classify --ratio 1.5 --magnetic 1 2 --charge 1 --mass 1 --mu 1", "--mass has no place"),
-        ("classify --ratio 1.5 --field 1 2 --charge 1", "--charge goes with --magnetic only"),
-        ("classify --points {ring} --ratio 1 --field 1 2", "--ratio and --points"),
-        ("classify --points {ring} --mass 1 --magnetic 1 2", "--mass has no place"),
-        ("classify --points {bald} --magnetic 1 2", "no column charge"),
-        ("classify --points {lop} --field 1 2", "I1 = I2 would be needed"),
-        ("classify --points {skew} --field 1 2", "I13 = "),
-        ("classify --points {mixed} --magnetic 1 2", "goes from 1 to 2"),
-        ("classify --points {bald} --field 1 2 --decimal --digits 5", "not with --points"),
-        ("classify --points {void} --field 1 2", "x, y, z, mass"),
-        ("sweep elementary --ratio 1 --set ratio=1 --field 1 2 --quantity k --out {out}", "ratio is given 2 times"),
-    ],
-)
-def test_what_is_missing_is_said(words: str, tells: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """What does not describe a body and a field ends with one line that says what is missing, and status 2."""
-    files = {
-        "ring": TETRAGON,
-        "bald": "x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n",
-        "lop": "x,y,z,mass\n1,0,0,1\n-1,0,0,1\n0,0,1,1\n0,0,-1,1\n",
-        "skew": "x,y,z,mass\n1,0,1,1\n-1,0,-1,1\n0,1,0,1\n0,-1,0,1\n",
-        "mixed": "x,y,z,mass,charge\n1,0,0,1,1\n0,1,0,1,2\n-1,0,0,1,1\n0,-1,0,1,2\n",
-        "void": "x,y\n1,2\n",
-    }
-    for name, text in files.items():
-        (tmp_path / f"{name}.csv").write_text(text, encoding="utf-8")
-    places = {name: tmp_path / f"{name}.csv" for name in (*files, "out")}
-    with pytest.raises(SystemExit) as ended:
-        main(words.format(**places).split())
-    assert ended.value.code == 2
-    said = capsys.readouterr().err
-    assert tells in said
-    assert said.count("\n") == 1

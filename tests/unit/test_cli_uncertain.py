@@ -91,22 +91,6 @@ def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        ("page --ratio 1.3(1) --field 1 2 --omega2 0.3", "nothing follows"),
-        ("sweep elementary --ratio 1.3(1) --field 1 2 --set omega2=1 --quantity k --out k.csv", "nothing follows"),
-        ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --times 1(1)", "nothing follows"),
-        ("motion --ratio 1.3(1) --field 1 2 --omega2 0.3 --digits 20", "without an uncertainty"),
-    ],
-)
-def test_where_an_uncertainty_has_no_effect_it_is_refused(words: str, says: str) -> None:
-    """Nothing that was typed is left out silently."""
-    status, out = run(words)
-    assert status == 2
-    assert says in out
-
-
-@pytest.mark.parametrize(
     ("value", "sigma", "text"),
     [
         (12.5663, 0.31, "12.57(31)"),

@@ -90,17 +90,17 @@ def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], Fl
     [
         ("flight", {}),
         ("frequencies", {}),
-        ("hyp_a", {}),
+        pytest.param("hyp_a", {}, marks=pytest.mark.slow),
         ("hyperbola", {}),
-        ("hyperbolas", {}),
+        pytest.param("hyperbolas", {}, marks=pytest.mark.slow),
         ("magn", {}),
-        ("motion", {}),
-        ("motion_sphere", {}),
+        pytest.param("motion", {}, marks=pytest.mark.slow),
+        pytest.param("motion_sphere", {}, marks=pytest.mark.slow),
         ("pseudo_oscillator", {}),
         ("quadric", {"ratio": 0.3, "field": (-2.0, 0.7)}),
-        ("quadric_leak", {}),
+        pytest.param("quadric_leak", {}, marks=pytest.mark.slow),
         ("stability", {"ratio": 1.5, "field": (1.0, 2.0)}),
-        ("trochoids", {}),
+        pytest.param("trochoids", {}, marks=pytest.mark.slow),
     ],
 )
 def test_every_recipe_draws_to_a_quarter_of_a_pixel(name: str, parameters: dict[str, Any]) -> None:

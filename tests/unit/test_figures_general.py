@@ -329,30 +329,6 @@ def test_no_amplitude_is_beyond_the_scale_of_colours(field: tuple[float, float],
     assert max(image.values.max() for image in images) <= end
 
 
-@pytest.mark.parametrize(
-    ("name", "parameters"),
-    [
-        ("rosettes", {"field": (1.0, 0.0)}),
-        ("stability_map", {"rates": (1.5,)}),
-        ("rolling_cones", {"omega2": 0.0}),
-        ("film_strip", {"count": 1}),
-        ("two_turns", {"ratio": 1.0}),
-        ("phase_portrait", {"field": (0.0, 1.0)}),
-        ("nutation_traces", {"field": (1.0, 0.0)}),
-        ("larmor_pair", {"field": (1.0, 0.0)}),
-        ("larmor_pair", {"omega": (0.0, 0.0, 0.0)}),
-        ("tipping_disk", {"ratio": 0.5}),
-        ("separatrix", {"omega2": 1.0}),
-        ("energy_momentum", {"b": (-1.0,)}),
-        ("motion_map", {"cells": 1}),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
-    """Each figure says in one line what it needs."""
-    with pytest.raises(DomainError, match=f"figure {name}"):
-        panels(name, **parameters)
-
-
 def test_the_drawn_curves_of_three_moments_are_starts_of_elliptic_motions() -> None:
     """Drawn points are on the curve that leaves z out, 1e-9; what is dashed is unstable, and what is not is stable."""
     count = 0

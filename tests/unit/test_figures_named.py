@@ -106,22 +106,6 @@ def test_a_flight_has_at_most_two_hundred_turns() -> None:
         scene("flight", stop=1.5 * longest)
 
 
-@pytest.mark.parametrize(
-    ("name", "last", "first"),
-    [
-        ("ball_torus", {"ratios": (2.5,), "turns": (2.0,)}, {"ratios": (2.5,), "turns": (160.01,)}),
-        ("frequencies", {"order": 8}, {"order": 9}),
-        ("kinds_of_quadric", {"cells": 60}, {"cells": 59}),
-        ("kinds_of_quadric", {"cells": 61}, {"cells": 2001}),
-    ],
-)
-def test_the_last_is_drawn_and_the_next_refused(name: str, last: dict[str, Any], first: dict[str, Any]) -> None:
-    """The bounds are those that the refusal names."""
-    assert scene(name, **last).panels
-    with pytest.raises(AtlasError, match=f"figure {name}|number of cells"):
-        scene(name, **first)
-
-
 def test_a_trace_of_too_many_turns_is_left_out() -> None:
     """The second trace is drawn while the faster of both angles stays below 400."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)

@@ -183,23 +183,6 @@ def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> N
     assert np.ptp(axes[:, 0]) > 0.1
 
 
-@pytest.mark.parametrize(
-    ("name", "parameters"),
-    [
-        ("body_ruler", {"field": (0.0, 1.0)}),
-        ("kinds_of_quadric", {"C1": (-1.0,)}),
-        ("frequencies", {"order": 50}),
-        ("flight_poster", {"ratio": 2.0}),
-        ("ribbon", {"ratio": 1.0}),
-        ("ball_torus", {"ratios": (2.5,)}),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
-    """Each figure says in one line what it needs."""
-    with pytest.raises(DomainError, match=f"figure {name}"):
-        panels(name, **parameters)
-
-
 def test_a_ball_is_refused_a_ratio_that_none_has() -> None:
     """gamma/alpha is at least |1 + m3/alpha|; the sentence has the one asked for, the least, and the way out."""
     with pytest.raises(DomainError, match=r"gamma/alpha = 0\.1 is below .* = 1\.625, .* nearer to -0\.8"):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawing import layers
 
-from atlas import DomainError, TopMotion
+from atlas import TopMotion
 from atlas.core.maps.wells import Wells
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.scene import Arrow, Curve, Label, Points, Region, Scene, Space, Surface, recipes
@@ -126,22 +126,3 @@ def test_a_spin_beyond_the_reach_is_neither_drawn_nor_named() -> None:
         (panel,) = scene.panels
         assert len(layers(panel, Points)) == count
         assert ("spins" in scene.caption) == any("spin" in one.text for one in layers(panel, Label)) == bool(count)
-
-
-@pytest.mark.parametrize(
-    ("name", "parameters"),
-    [
-        ("wells", {"cosines": (1.0,)}),
-        ("wells", {"momenta": (0.0, 0.1, 0.2, 0.3)}),
-        ("cusps", {"linear": -1.0}),
-        ("cusps", {"omega2": (-0.5, 0.0, 0.25, 0.3)}),
-        ("monodromy", {"ratio": 0.5}),
-        ("monodromy", {"M3": 1.5}),
-        ("quadrics_of_tops", {"direction": (1.0, 0.0)}),
-        ("quadrics_of_tops", {"ratio": 2.5}),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
-    """Each figure says in one line what it needs."""
-    with pytest.raises(DomainError, match=f"figure {name}"):
-        made(name, **parameters)

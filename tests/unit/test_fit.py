@@ -146,27 +146,6 @@ def test_bounds_and_expressions_are_kept() -> None:
     assert "B2" not in found.names
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ({}, "Give one of rotation"),
-        ({"axis": np.ones((9, 2))}, "an array"),
-        ({"axis": np.zeros((9, 3))}, "no vector of length 1"),
-        ({"rotation": np.zeros((9, 3, 3))}, "no rotation matrix"),
-        ({"angular_velocity": np.full((9, 3), np.nan)}, "finite"),
-        ({"angular_velocity": np.ones((9, 3)), "sigma": -1.0}, "sigma"),
-        ({"angular_velocity": np.ones((9, 3)), "family": "round"}, "family"),
-        ({"angular_velocity": np.ones((9, 3)), "params": {"mass": 1.0}}, "no 'mass'"),
-        ({"angular_velocity": np.ones((9, 3)), "epoch": 1e6}, "epoch"),
-        ({"signal": np.ones(9)}, "function"),
-    ],
-)
-def test_what_cannot_be_fitted_is_refused(arguments: dict[str, Any], says: str) -> None:
-    """In one line that says what was wrong."""
-    with pytest.raises(atlas.AtlasError, match=says):
-        atlas.fit(np.arange(9.0), **arguments)
-
-
 def test_times_may_come_in_any_order() -> None:
     """The data are sorted, with their errors."""
     t, sigma = np.array([3.0, 1.0, 2.0, 0.0, 4.0]), np.arange(1.0, 6.0)
@@ -205,27 +184,6 @@ def test_the_command_fits_a_file(tmp_path: Path) -> None:
     assert found["horizon"] > 15
     assert (tmp_path / "mine.svg").stat().st_size > 1000
     assert found["sigma"] == NOISE
-
-
-@pytest.mark.parametrize(
-    ("rows", "words", "says"),
-    [
-        ("t,R11\n0,1\n", [], "5 times"),
-        ("t,q0\n0,1\n", [], "four columns"),
-        ("t,Omega1,Omega2,Omega3\n0,1,0,x\n", [], "not a number"),
-        ("t,Omega1\n" + "0,1\n" * 9, [], "no columns"),
-        ("t,Omega1,Omega2,Omega3\n" + "0,1,0,0\n" * 9, ["--of", "axis"], "no columns of axis"),
-        ("t,Omega1,Omega2,Omega3\n" + "0,1,0,0\n" * 9, ["--fix", "ratio"], "NAME=VALUE"),
-        ("t,Omega1,Omega2,Omega3\n" + "0,1,0,0\n" * 9, [], "All times are equal"),
-    ],
-)
-def test_a_bad_file_is_refused(tmp_path: Path, rows: str, words: list[str], says: str) -> None:
-    """By a line, as in `atlas check`."""
-    file = tmp_path / "bad.csv"
-    file.write_text(rows)
-    result = CliRunner().invoke(command, ["fit", str(file), *words])
-    assert result.exit_code != 0
-    assert says in f"{result.output} {result.exception}"
 
 
 def test_the_command_knows_the_families() -> None:

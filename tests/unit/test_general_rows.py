@@ -27,7 +27,7 @@ from atlas.errors import DomainError
 from atlas.exact.motions.general import GeneralMotion as Balls
 
 SCALARS = ("period", "modulus", "complementary_modulus", "nome", "precession_per_period", "spin_per_period")
-PER_REGIME = 12
+PER_REGIME = 8
 
 
 def ordinary(count: int, seed: int = 0) -> Any:
@@ -244,23 +244,6 @@ def test_the_bound_on_a_root_does_not_depend_on_the_unit(power: int) -> None:
     assert np.isfinite(plain.rel).all()
     assert (np.ldexp(plain.hi, power) == scaled.hi).all()
     assert (np.abs(plain.rel / scaled.rel - 1) <= 16 * np.finfo(float).eps).all()
-
-
-@pytest.mark.parametrize("off", [2.0**-53, 2.0**-40, 2.0**-30, 2.0**-25])
-def test_a_root_is_refined_to_within_its_bound_from_any_start_that_it_takes(off: float) -> None:
-    """Roots of (v - r)(v - s)(a v^2 + b v + c), r to 2^-25 off: what is returned is as near to r as it says, or near.
-
-    Nothing is known of r where the start is too far off, as next to another root.
-    """
-    r, s, (a, b, c) = np.array([0.75, -1.5, 3.0, 0.5]), np.array([-2.0, 2.5, 3.5, 0.625]), (-1.0, 0.5, -4.0)
-    p, q = r + s, r * s
-    coefficients = c * q, b * q - c * p, a * q - b * p + c, b - a * p, a + 0 * p
-    with np.errstate(divide="ignore"):
-        found = nutation_roots._refined(r * (1 + off), tuple(DoubleDouble(np.asarray(x)) for x in coefficients))
-    error = abs((found.hi - r) + found.lo) / abs(r)
-    assert (error <= found.rel).all()
-    assert found.rel[0] < 2.0**-70
-    assert (found.rel[:2] < 2.0**-70).all() == (off < 2.0**-25)
 
 
 @pytest.mark.parametrize("power", [-90, 40, 90])

@@ -79,7 +79,7 @@ def test_omega_meets_the_taylor_series(power: int) -> None:
 @pytest.mark.parametrize("power", [-300, -30, *POWERS])
 def test_omega_keeps_its_digits_near_rest(power: int, least: float) -> None:
     """Alone and in arrays Omega is within the promise of the balls, for slender bodies and long times too."""
-    *_, t = inputs = motions(power, 6, 2, least)
+    *_, t = inputs = motions(power, 3, 2, least)
     I, B, omega, _ = inputs
     together = GeneralMotion(I, tuple(B), tuple(omega)).angular_velocity(t)
     for i, time in enumerate(t.tolist()):
@@ -92,7 +92,7 @@ def test_omega_keeps_its_digits_near_rest(power: int, least: float) -> None:
 def test_omega_keeps_its_digits_in_every_regime(regime: str) -> None:
     """So it is next to separatrices and triple roots, along the field, and at any scale, over some periods."""
     random, drawn = Random(3), []  # noqa: S311  draws of test inputs
-    for _ in range(5):
+    for _ in range(3):
         I, B, omega = GENERAL[regime](random)
         motion = GeneralMotion(I, B, omega)
         t = 10 ** random.uniform(-2, 2) * (
@@ -115,7 +115,7 @@ def test_a_sweep_near_rest_writes_true_numbers() -> None:
 @pytest.mark.parametrize("power", [-16, -8, -1, 0, 3])
 def test_field_and_momentum_are_within_what_is_said(power: int) -> None:
     """K is within 1.8e-15 of |B'| and m within 7e-15 of its length, alone and in arrays."""
-    *_, t = inputs = motions(power, 10, 4)
+    *_, t = inputs = motions(power, 5, 4)
     together = GeneralMotion(inputs[0], tuple(inputs[1]), tuple(inputs[2]))
     for i, time in enumerate(t.tolist()):
         alone, exact = GeneralMotion(*one(inputs, i)), Balls(*one(inputs, i))

@@ -162,15 +162,6 @@ def test_named_points_and_asymptotes() -> None:
     assert curve.pole == -1.0
 
 
-def test_arrays_of_omega2_give_arrays() -> None:
-    """Each function takes an array of any shape, and gives a float for a float."""
-    curve, omega2 = Hyperbola(1.5, (1.0, 2.0)), np.array([[0.7, -2.0], [3.0, -0.5]])
-    assert curve.omega3(omega2).shape == curve.stability(omega2).shape == (2, 2)
-    k, phi = curve.frequencies(omega2)
-    assert k.shape == phi.shape == (2, 2)
-    assert isinstance(curve.omega3(0.7), float)
-
-
 @pytest.mark.parametrize("bad", [lambda h: h.omega3(-1.0), lambda h: h.frequencies([0.0, -1.0]), lambda h: h.sample(1)])
 def test_the_pole_and_too_few_points_are_errors(bad: Any) -> None:
     """At omega2 = -B2 there is no omega3, and two branches need two points."""

@@ -235,7 +235,14 @@ title = "Own"
     assert found["general/period"][0].replace(" ", "") in re.sub(r"[\s\u2009\u202f]", "", printed)
 
 
-@pytest.mark.parametrize("formula", [r"\input{/etc/passwd}", r"\write18{ls}", "x^", r"\frac{\frac{a}{b}}{c}"])
+@pytest.mark.parametrize(
+    "formula",
+    [
+        r"\input{/etc/passwd}",
+        "x^",
+        *(pytest.param(tex, marks=pytest.mark.slow) for tex in (r"\write18{ls}", r"\frac{\frac{a}{b}}{c}")),
+    ],
+)
 def test_a_formula_that_pages_refuse_is_refused_here(formula: str, tmp_path: Path) -> None:
     """One rule for a report's formulas: none comes into the paper that the pages and the PDF would not take."""
     file = tmp_path / "own.toml"

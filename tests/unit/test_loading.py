@@ -57,11 +57,12 @@ atexit.register(Watch.find_spec)
 
 
 class Case(NamedTuple):
-    """A command line, the heavy modules that it loads, no more and no less, and its exit status."""
+    """A command line, the heavy modules that it loads, no more and no less, its exit status, and if it takes long."""
 
     words: str
     loads: str
     status: int = 0
+    slow: bool = False
 
 
 MOTION = "--ratio 1.5 --field 1 2 --omega2 0.7"
@@ -72,13 +73,13 @@ DRAWING = "matplotlib contourpy fontTools numpy flint multiprocessing"  # Matplo
 
 CASES = [
     Case("classify --ratio 1.5 --field 1 2", "flint rich"),
-    Case("classify --ratio 1.5 --field 1 2 --json", "flint numpy"),
-    Case("classify --ratio 1.5 --field 1 2 --json --digits 30", "flint"),
+    Case("classify --ratio 1.5 --field 1 2 --json", "flint numpy", slow=True),
+    Case("classify --ratio 1.5 --field 1 2 --json --digits 30", "flint", slow=True),
     Case("classify --shape ring --radius 1 --field 1 2", "flint rich numpy"),
     Case("hyperbola --ratio 1.5 --field 1 2", "flint rich numpy"),
-    Case("hyperbola --ratio 1.5 --field 1 2 --omega2 1 2", "flint rich"),
-    Case("hyperbola --ratio 1.5 --field 1 2 --json", "flint numpy"),
-    Case("motion --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --json", "flint numpy"),
+    Case("hyperbola --ratio 1.5 --field 1 2 --omega2 1 2", "flint rich", slow=True),
+    Case("hyperbola --ratio 1.5 --field 1 2 --json", "flint numpy", slow=True),
+    Case("motion --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --json", "flint numpy", slow=True),
     Case("elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7 --json", "flint numpy"),
     Case("top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --json", "flint numpy"),
     Case(f"motion {MOTION} --times 1", "flint rich"),
@@ -86,20 +87,26 @@ CASES = [
     Case(f"motion {GENERAL} --grid 0 1 9 --json", "flint numpy"),
     Case(f"ball {BALL} --json", "flint numpy"),
     Case(f"particle {PARTICLE} --json", "flint numpy"),
-    Case("list", "numpy rich"),
+    Case("list", "numpy rich", slow=True),
     Case("list --json", "numpy"),
     Case(f"check true.csv {MOTION}", "flint msgspec numpy"),
-    Case(f"check true.csv {MOTION} --json --figure error.svg", "flint msgspec matplotlib contourpy fontTools numpy"),
     Case(
-        "fit turns.csv --sigma 0.01", "flint lmfit msgspec numpy scipy matplotlib pandas multiprocessing"
-    ),  # lmfit itself loads the last three
+        f"check true.csv {MOTION} --json --figure error.svg",
+        "flint msgspec matplotlib contourpy fontTools numpy",
+        slow=True,
+    ),
+    Case(
+        "fit turns.csv --sigma 0.01",
+        "flint lmfit msgspec numpy scipy matplotlib pandas multiprocessing",  # lmfit itself loads the last three
+        slow=True,
+    ),
     Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
     Case(
         "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
     ),
     Case("figure hyperbola --format svg", DRAWING),
-    Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules"),
-    Case("animate hyperbola --over ratio=0.5:1.5:2 --dpi 30", DRAWING.replace(" multiprocessing", "")),
+    Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules", slow=True),
+    Case("animate hyperbola --over ratio=0.5:1.5:2 --dpi 30", DRAWING.replace(" multiprocessing", ""), slow=True),
     Case("explore nosuchthing", "numpy flint", status=2),
     Case("report nosuchreport", "msgspec", status=2),
     Case("page --ratio 1.3 --field 1", "", status=2),
@@ -205,7 +212,9 @@ def test_every_command_has_a_case() -> None:
     assert {case.words.split()[0] for case in CASES} == set(command_line.commands)
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.words)
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, id=case.words, marks=[pytest.mark.slow] * case.slow) for case in CASES]
+)
 def test_a_command_loads_what_it_lists(room: Room, case: Case) -> None:
     """A real run loads exactly the heavy modules on its list: a number no drawing library, a 2-D figure no VTK."""
     if "shaded" in case.words and gl.library() is None:

@@ -170,22 +170,3 @@ def test_the_matrix_does_not_depend_on_the_unit_of_inertia(
     assert found.p[0] == found.p[-1]
     assert found.radius < 1e-30
     assert found.step < 0.25
-
-
-@pytest.mark.parametrize(
-    ("inertia", "M3", "rest", "says"),
-    [
-        ((1.0, 0.5), 3.0, {"linear": 1.0}, "no isolated one"),
-        ((1.0, 3.0), 1.0, {}, "I3 is at most 2 I2"),
-        ((0.0, 0.0), 1.0, {}, "both are positive"),
-        ((1.0, 1.0), 1e308, {"linear": 1e308}, "too large or too small"),
-        ((1.0, 1.0), 0.0, {"linear": 5e-324}, "too large or too small"),
-        ((1.0, 0.5), 0.5, {"linear": 1.0, "points": 3}, "give more points"),
-    ],
-)
-def test_a_loop_that_says_nothing_is_refused(
-    inertia: tuple[float, float], M3: float, rest: dict[str, Any], says: str
-) -> None:
-    """Round a stable spin, of no body, in units that floats do not hold, of too few points: a sentence, no matrix."""
-    with pytest.raises(atlas.DomainError, match=says):
-        atlas.monodromy(inertia, M3, **rest)

@@ -180,26 +180,6 @@ def test_every_class_takes_the_laboratory() -> None:
         atlas.ElementaryMotion.in_laboratory(1.5, B, A, w)
 
 
-@pytest.mark.parametrize(
-    ("given", "says"),
-    [
-        (((1, 1, 5.0), (0, 0, 1), (0, 0, 1)), r"5 > 1 \+ 1"),
-        (((1, 2), (0, 0, 1), (0, 0, 1)), "three moments"),
-        (([[1, 0.2, 0], [0, 1, 0], [0, 0, 1]], (0, 0, 1), (0, 0, 1)), "has 0.2 and 0 across its diagonal"),
-        ((-np.eye(3), (0, 0, 1), (0, 0, 1)), "must be positive"),
-        ((1.5, (0, 1), (0, 0, 1)), "The field must have"),
-        ((1.5, (0, 1, 2), (0, 1)), "The angular velocity must have"),
-        ((1.5, (0, 1, 2), (0, 1, 1), -np.eye(3)), "must be a rotation matrix"),
-        (((1, 1, np.array([1.5, 1.0])) , (0, 1, 2), (0, 1, 1), np.zeros((2, 2))), "must be a rotation matrix"),
-        (((1, np.array([1.0, 1.2]), 1.5), (0, 1, 2), (0, 1, 1)), "Some of these bodies are symmetric"),
-    ],
-)  # fmt: skip
-def test_what_is_no_motion_is_refused(given: Any, says: str) -> None:
-    """In one line that says what would be right."""
-    with pytest.raises(atlas.AtlasError, match=says):
-        atlas.motion(*given)
-
-
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-0.4, 0.3)])
 def test_mean_rates_are_what_the_axis_and_the_body_turn_by(field: tuple[float, float]) -> None:
     """Over 50 periods the azimuth of the axis about B grows by the rate; without nutation they are k and phi."""

@@ -44,6 +44,7 @@ def test_cells_print_what_stands_below_them(ran: Any) -> None:
     assert printed >= 5
 
 
+@pytest.mark.slow
 def test_objects_and_figures_show_themselves(ran: Any) -> None:
     """A motion as a table and as LaTeX, a figure as a picture: without %matplotlib, and without pyplot."""
     shown = {source.splitlines()[-1]: given for source, given, _ in outputs(ran)}

@@ -157,14 +157,6 @@ def ball(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 
 @pytest.mark.slow
-def test_a_page_made_twice_is_the_same(ball: list[Path], tmp_path: Path) -> None:
-    """Another folder, the same bytes of page, PDF and report file."""
-    first, other = ball, [Path(x) for x in page(BALL, tmp_path)]
-    assert [x.read_bytes() for x in first] == [x.read_bytes() for x in other]
-    files = [x[1].with_suffix(".toml").read_bytes() for x in (first, other)]
-    assert files[0] == files[1]
-
-
 def test_neighbours_are_linked_when_they_are_there(tmp_path: Path) -> None:
     """A page beside this one is a link in the row of its command; an object of no body has none."""
     (tmp_path / "classify-ratio-1-field-0-2.html").write_text("x", "utf-8")
@@ -226,33 +218,6 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
 def test_the_family_is_that_of_the_options(words: str, name: str) -> None:
     """Options that only one family takes choose it, by their names and by how many numbers they have."""
     assert best(words.split()) == name
-
-
-@pytest.mark.parametrize(
-    ("words", "tells"),
-    [
-        ("--ratio 3 --field 1 2 --omega2 1", "at most 2"),
-        ("--ratio 1.3 --field 1 2 --omega2 -1", "pole"),
-        ("--ratio 1.3 --omega2 1", "the field is one of"),
-        ("--omega2 1", "the body is one of"),
-        ("--ratio 1.3 --field 1 2 --omega 1 2", "--omega"),
-        ("--ratio 1.3 --field 1 2 --omeg 1 2 3", "--omeg"),
-        ("motion --ratio 1.3 --field 1 2", "--omega2"),
-        ("nosuch --ratio 1", "nosuch"),
-        ("top --inertia 1 1 --omega 1 2 3", "--direction is missing"),
-    ],
-)
-def test_what_is_no_object_is_refused(
-    words: str, tells: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """One line says why, with status 2, and nothing is written."""
-    with pytest.raises(SystemExit) as ended:
-        main(["page", *words.split(), *(["--out", str(tmp_path / "x")] if "nosuch" not in words else [])])
-    assert ended.value.code == 2
-    told = capsys.readouterr().err
-    assert tells in told
-    assert told.count("\n") == 1
-    assert not (tmp_path / "x").exists()
 
 
 @pytest.fixture

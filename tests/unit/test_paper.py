@@ -3,7 +3,6 @@
 import json
 import re
 import subprocess
-import sys
 from collections import Counter
 
 import pypandoc
@@ -113,12 +112,6 @@ def test_no_formula_uses_old_font_switches() -> None:
     r"""The TeX is modern: no {\bf B}, no eqnarray, no \mbox, no bare bars."""
     for entry in EQUATIONS.values():
         assert not re.search(r"\\bf\b|eqnarray|\\mbox|\\cr\b|\\nonumber|\\name|\|", entry.tex), entry.name
-
-
-def test_the_ledger_loads_nothing_heavy() -> None:
-    """Data only: neither NumPy nor SymPy is loaded."""
-    script = "import sys, atlas.paper; print([name for name in ('numpy', 'sympy', 'mpmath') if name in sys.modules])"
-    assert subprocess.check_output([sys.executable, "-c", script], text=True).strip() == "[]"
 
 
 WORST = json.loads((folder("reports") / "data" / "worst_errors.json").read_text())["worst"]

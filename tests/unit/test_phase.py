@@ -72,34 +72,6 @@ def test_the_tangent_is_within_an_ulp() -> None:
     assert (np.array(errors) <= np.spacing(np.tan(x))).all()
 
 
-@pytest.mark.parametrize("word", [0, 1])
-def test_either_word_of_a_frequency_is_needed(word: int) -> None:
-    """A phase of 2^49 is lost if a word of the frequency is dropped, and with both words it is not."""
-    f, t = 1.2345, np.linspace(0.9, 1.0, 20) * 2.0**49
-    phases = phases_of(f)
-    assert worst(phases, f, t) <= PROVEN
-    phases.words[word] = 0.0
-    assert worst(phases, f, t) > 100
-
-
-def test_the_lower_half_of_the_first_word_is_needed() -> None:
-    """The exact error of the product, made from halves, carries digits wherever two words of time are multiplied."""
-    f, t = 1.2345, np.linspace(9e6, 1e7, 20)
-    phases = phases_of(f)
-    assert worst(phases, f, t) < 4
-    phases.halves[1] = 0.0
-    assert worst(phases, f, t) > 100
-
-
-def test_the_rest_of_half_a_frequency_is_needed() -> None:
-    """At moderate phases, where a head of 26 digits is multiplied exactly, what it lacks carries digits."""
-    f, t = 1.2345, np.linspace(900, 1000, 20)
-    phases = phases_of(f)
-    assert worst(phases, f, t) < 4
-    phases.radians[1] = 0.0
-    assert worst(phases, f, t) > 100
-
-
 @pytest.mark.parametrize("origins", [None, [rational(-0.3), rational(0.49)]])
 @pytest.mark.parametrize("digits", [-30, 0, 10, 20, 21, 22, 23, 30, 49])
 def test_half_a_phase_is_rounded_once(digits: int, origins: list[Any] | None) -> None:

@@ -22,7 +22,7 @@ def sample() -> list[str]:
     return random.Random(1).sample(quick, COUNT)  # noqa: S311  a choice that is the same in every run
 
 
-@pytest.mark.parametrize("place", range(COUNT))
+@pytest.mark.parametrize("place", [pytest.param(k, marks=[pytest.mark.slow] * (k % 2)) for k in range(COUNT)])
 def test_a_changed_formula_is_refuted_or_unreadable(place: int) -> None:
     """The trial reads the TeX that is shown: none of its signs can be changed and the verdict stay."""
     name = sample()[place]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import lines
+import pytest
 from syrupy.assertion import SnapshotAssertion
 
 import atlas
@@ -71,6 +72,7 @@ def test_each_public_name_has_the_type_of_its_home() -> None:
     assert stub == atlas._HOMES
 
 
+@pytest.mark.slow
 def test_a_type_checker_sees_classes_and_arrays(tmp_path: Path) -> None:
     """A motion is one of its class, and its matrices are arrays of floats."""
     said = checked(tmp_path / "mine.py", RIGHT)
@@ -79,6 +81,7 @@ def test_a_type_checker_sees_classes_and_arrays(tmp_path: Path) -> None:
     assert "Any" not in said.splitlines()[0]
 
 
+@pytest.mark.slow
 def test_a_type_checker_refuses_what_is_not_there(tmp_path: Path) -> None:
     """A misspelt class and a misspelt argument are errors."""
     said = checked(tmp_path / "mine.py", WRONG)

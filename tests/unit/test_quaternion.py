@@ -34,7 +34,13 @@ MOTIONS: dict[str, Callable[[], Any]] = {
     "Euler's top": lambda: atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.0, 0.0, 0.0), (0.3, 0.7, 0.2)),
     "without a closed form": lambda: atlas.AsymmetricMotion((0.8, 1.0, 1.0), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)),
 }
-EVERY = pytest.mark.parametrize("name", MOTIONS)
+SLOW = {
+    "general, two real roots", "as far from it as a double can be", "charged top", "slow nutation",
+    "elliptic, other oval", "without a closed form",
+}  # fmt: skip
+EVERY = pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in MOTIONS]
+)
 
 
 def of(q: Any) -> Any:

@@ -75,15 +75,6 @@ def test_no_inputs_cost_a_digit(I: float, B2: float, B3: float, x: float, s: flo
     assert max(entry, orthogonality) <= 4 * ULP1
 
 
-@pytest.mark.parametrize("word", [0, 1])
-def test_dropping_a_word_of_the_frequencies_spoils_the_matrix(word: int) -> None:
-    """With one word of the frequencies set to zero the matrix at phase 2^49 is wrong in its leading digits."""
-    motion = ElementaryMotion(*MOTION)
-    motion._single().phases.words[word] = 0.0
-    t = 2.0**49 / motion.k
-    assert errors(motion.rotation([t]), *(1.5, 1.0, 2.0, 0.7), [t])[0] > 1e-8
-
-
 @pytest.mark.parametrize("t", [0.0, -0.0, 0])
 def test_rotation_is_the_identity_at_zero(t: float) -> None:
     """R(0) = 1 exactly, in (20) and (12), whatever the axis, and -0.0 is 0."""

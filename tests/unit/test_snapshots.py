@@ -6,16 +6,16 @@ compared stands in `lines`.
 
 import math
 from pathlib import Path
+from typing import Any
 
 import lines
 import numpy as np
 import pytest
 from benchmarks.results import write
-from drawing import made
 from syrupy.assertion import SnapshotAssertion
 
 from atlas import places
-from atlas.scene import Curve, Plane, recipes
+from atlas.scene import Curve, Plane, Scene, recipes
 from atlas.study import benchmark as results
 
 NOISE = {"error_maps": range(2), "motion_map": range(4)}
@@ -25,11 +25,32 @@ MEASURED = ("cost", "horizon", "work_precision")
 """Figures of times on record, which a new record changes: drawn here from one that is made up, and stays."""
 
 
+def drawn(name: str) -> Scene:
+    """Return the scene of a recipe, which opens of reports/data what its RECORDS say: its key depends on them."""
+    data, opened, recipe = places.folder("reports") / "data", set[str](), recipes.load(name)
+
+    def noting(method: Any) -> Any:
+        def call(path: Path, *arguments: Any, **more: Any) -> Any:
+            if path.parent == data:
+                opened.add(path.name)
+            return method(path, *arguments, **more)
+
+        return call
+
+    with pytest.MonkeyPatch.context() as patch:
+        for method in ("open", "read_text", "read_bytes"):
+            patch.setattr(Path, method, noting(getattr(Path, method)))
+        scene = recipe.scene()
+    assert opened == set(recipe.records)
+    assert all((data / record).is_file() for record in recipe.records)
+    return scene
+
+
 @pytest.mark.parametrize("name", [name for name in recipes.names() if name not in MEASURED])
 def test_a_scene_is_what_it_was(snapshot: SnapshotAssertion, name: str) -> None:
     """The axes, and the layers with their roles, names, ends, extent and course."""
     noisy, recipe = tuple(NOISE.get(name, ())), recipes.load(name)
-    found = lines.scene(made(name), noisy, words=not recipe.records and not noisy)
+    found = lines.scene(drawn(name), noisy, words=not recipe.records and not noisy)
     assert list(found) == snapshot.use_extension(lines.Lines)
 
 
@@ -79,7 +100,7 @@ def test_a_figure_of_measurements_is_what_it_was(
     real = places.folder
     for module in (places, results):
         monkeypatch.setattr(module, "folder", lambda kind: tmp_path if kind == "reports" else real(kind))
-    assert list(lines.scene(recipes.load(name).scene())) == snapshot.use_extension(lines.Lines)
+    assert list(lines.scene(drawn(name))) == snapshot.use_extension(lines.Lines)
 
 
 def test_a_moved_line_is_noticed() -> None:

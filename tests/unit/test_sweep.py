@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from tests_support import names
+from tests_support import dask_client, names
 
 import atlas
 from atlas.cli.app import atlas as program
@@ -53,13 +53,7 @@ def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: st
 
 def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:
     """A local cluster of two workers writes the bytes of the single process."""
-    distributed = pytest.importorskip("distributed")
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
+    with dask_client(2) as client:
         assert sweep(tmp_path / "d.csv", executor=client) == sweep(tmp_path / "a.csv", jobs=1)
 
 
@@ -263,42 +257,6 @@ def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> 
         assert [float(text) for text in texts[name]] == floats[name].tolist()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ("foo --set a=1 --quantity k --out x.csv", "no family 'foo'"),
-        ("ball --set a=1 --quantity gamma --out x.csv", "no parameter 'a'"),
-        ("ball --set inertia=1 --quantity gamma --out x.csv", "larmor is missing"),
-        ("ball --set inertia=1 --quantity k --out x.csv", "no quantity 'k'"),
-        ("ball --set inertia=1 --quantity gamma --out x.txt", "missing"),
-        ("ball --set inertia --quantity gamma --out x.csv", "NAME=VALUES"),
-        ("ball --set inertia=1:2 --quantity gamma --out x.csv", "START:STOP:COUNT"),
-        ("ball --set inertia=-1:2:5:log --quantity gamma --out x.csv", "one sign"),
-        ("general --set omega3=1kg:2kg:3 --quantity k --out x.csv", "--omega is in rad/s"),
-        ("ball --set inertia=a --quantity gamma --out x.csv", "not a finite number"),
-        ("ball --list nowhere.csv --quantity gamma --out x.csv", "cannot be read"),
-        ("ball --set inertia=1:2:² --quantity gamma --out x.csv", "START:STOP:COUNT"),
-        ("ball --set inertia=1:2:٣ --quantity gamma --out x.csv", "START:STOP:COUNT"),
-        ("ball --set inertia=1:2:10000000000000 --quantity gamma --out x.csv", "at most 10000000 values"),
-        ("ball --set inertia=1:2:100000000000000000000 --quantity gamma --out x.csv", "at most 10000000 values"),
-        ("ball --set inertia=0.1:1:5 --set inertia=1 --quantity gamma --out x.csv", "inertia is given 2 times"),
-        ("ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out x.csv/", "of Parquet"),
-        (
-            "ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out no://x/",
-            "cannot be reached",
-        ),
-        ("--out x.csv", "name the family"),
-        ("elementary --set ratio=1 --set B2=1 --set B3=1 --set omega2=1 --quantity k", "--out is missing"),
-        ("ball --file a.toml", "with --file"),
-    ],
-)
-def test_a_wrong_sweep_is_one_sentence(arguments: str, says: str) -> None:
-    """What is unknown, missing or no number is said in one line."""
-    result = CliRunner().invoke(program, ["sweep", *arguments.split()])
-    assert result.exit_code
-    assert says in result.output + str(result.exception)
-
-
 def test_a_toml_file_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same rows from flags, from a CSV list and from a TOML file give the same table; a wrong key is an error."""
     monkeypatch.chdir(tmp_path)
@@ -314,48 +272,6 @@ def test_a_toml_file_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: 
     assert Path("flags.csv").read_bytes() == Path("list.csv").read_bytes() == Path("toml.csv").read_bytes()
     (tmp_path / "s.toml").write_text('family = "ball"\nquantities = ["gamma"]\nfoo = 1\n')
     assert CliRunner().invoke(program, ["sweep", "--file", "s.toml"]).exit_code == 2
-
-
-@pytest.mark.parametrize(
-    ("content", "says"),
-    [
-        (b"inertia,larmor,m2,m3\n1,2,\xff,3\n", "not UTF-8"),
-        (b"inertia,larmor,m2,m3\n1,2," + b"1" * 131_073 + b",3\n", "cannot be read as CSV"),
-        (b"inertia,larmor,m2\n1,2,3\n", "m3 is given 2 times"),
-    ],
-)
-def test_a_list_that_is_none_is_one_sentence(
-    tmp_path: Path, content: bytes, says: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Bytes that are no text, a cell that is too long, a parameter that is set elsewhere, too."""
-    monkeypatch.chdir(tmp_path)
-    Path("rows.csv").write_bytes(content if b"m3" in content else content.replace(b"m2", b"m3"))
-    words = "sweep ball --list rows.csv --set m3=1 --quantity gamma --out x.csv".split()
-    result = CliRunner().invoke(program, words if "2 times" in says else [*words[:4], *words[6:]])
-    assert result.exit_code == 2
-    assert says in result.output
-
-
-@pytest.mark.parametrize(
-    ("lines", "says"),
-    [
-        ("digits = 99999", "<= 1000"),
-        ("rows = 0", ">= 1"),
-        ('out = "a\\u0000b.csv"', "no name of a file"),
-        ('list = "a\\u0000b.csv"', "no name of a file"),
-        ("[parameters]\ninertia = " + "[" * 3000 + "]" * 3000, "nested too deeply"),
-    ],
-)
-def test_a_file_that_says_what_cannot_be_is_one_sentence(
-    tmp_path: Path, lines: str, says: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Numbers out of range, names that no system has, values nobody can read."""
-    monkeypatch.chdir(tmp_path)
-    Path("s.toml").write_text(f'family = "ball"\nquantities = ["gamma"]\n{lines}\n')
-    result = CliRunner().invoke(program, ["sweep", "--file", "s.toml"])
-    assert result.exit_code == 2, result.exception
-    assert says in result.output
-    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
 def test_no_field_of_a_record_shadows_a_name_in_the_annotations_beside_it() -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests_support import dask_client
 
 import atlas
 from atlas.errors import AtlasError
@@ -75,7 +76,7 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
 @pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask reads so with pandas
 def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp_path: Path) -> None:
     """No part that is there is made again, and Dask reads the folder as one table."""
-    distributed, frames = pytest.importorskip("distributed"), pytest.importorskip("dask.dataframe")
+    frames = pytest.importorskip("dask.dataframe")
     out, kept = tmp_path / "t.parquet", dict[str, int]()
 
     def until_four(done: int, _: int) -> None:
@@ -84,12 +85,7 @@ def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp
             kept.update({path.name: path.stat().st_mtime_ns for path in sorted(folder.iterdir())[:4]})
             raise KeyboardInterrupt
 
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
+    with dask_client(2) as client:
         with pytest.raises(KeyboardInterrupt):
             atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client, progress=until_four)
         assert not out.exists()
@@ -102,12 +98,6 @@ def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp
 @pytest.mark.parametrize("out", ["t.npz", "t.parquet/"])
 def test_dask_keeps_no_parameters_of_parts_that_are_done(tmp_path: Path, out: str) -> None:
     """It keeps its last messages, which would be the whole last axis in each: 300 MB of a client at 1e8 rows."""
-    distributed = pytest.importorskip("distributed")
-    with (
-        distributed.LocalCluster(
-            n_workers=1, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
+    with dask_client(1) as client:
         atlas.sweep("elementary", GRID, NAMES, f"{tmp_path}/{out}", rows=8, executor=client)
         assert sum(type(x) is Plan for x in gc.get_objects()) < 5

@@ -330,28 +330,6 @@ def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float,
         assert len(rows) <= 1600
 
 
-def test_a_part_after_a_slow_one_has_fewer_rows() -> None:
-    """One part on a busy machine or of slow rows costs some small parts, not a table of small parts."""
-    plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": np.zeros(10**7)}, ["k"])
-    spans = run.Spans(plan, [], None, 2)
-    sizes = []
-    for seconds in (1e-6, 1e-6, 1.0, 1e-6, 1e-6):
-        start, stop = next(spans)
-        sizes.append(stop - start)
-        spans.learn((start, stop), seconds * (stop - start))
-    assert sizes == [4096, 2**18, 2**18, 4096, 2**18]
-
-
-def test_the_time_of_a_part_is_that_of_the_processor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Other processes that take most of the machine do not make a row dear."""
-    clock = iter(float(x) for x in range(0, 10**6, 1000))
-    monkeypatch.setattr(run, "perf_counter", lambda: next(clock))
-    plan = Plan.of("elementary", GRID, ["k"])
-    with Table(tmp_path / "t.csv", "0" * 16).held():
-        *_, seconds = run.make(plan, 0, 154, Table(tmp_path / "t.csv", "0" * 16))
-    assert 0 < seconds < 10
-
-
 def test_a_sweep_goes_on_in_other_steps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Another measure of the time of a row, on a busier machine, does not begin it anew: what is missing is made."""
     kept = set[str]()

@@ -232,21 +232,3 @@ def test_branches_reach_as_far_along_both_asymptotes(top: tuple) -> None:
         w, v = branch[0] - curve.pole, branch[1] - curve.quadric.centre[2]
         assert abs(w[-1]) == pytest.approx(5 * b, rel=1e-12)
         assert abs(v[0] - I2 * n3 * w[0] / (I3 * n2)) == pytest.approx(5 * b, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("make", "says"),
-    [
-        (lambda: atlas.Quadric.of_top((1.0, 2.5), (0, 0), (1.0, 1.0)), "at most 2 I2"),
-        (lambda: atlas.Quadric.of_top((1.0, 0.5), (0, 0), (0.0, 0.0)), "zero vector"),
-        (lambda: atlas.Quadric.of_top((1.0, 0.5), (0, float("nan")), (0.0, 1.0)), "finite"),
-        (lambda: atlas.Hyperbola.of_top((1.0, 0.5), (0, 0), (0.0, 1.0)), "n2 = 0"),
-        (lambda: atlas.Hyperbola.of_top((1.0, 0.5), (0, 0), (1.0, 1.0)).omega3(0.0), "pole"),
-        (lambda: atlas.Hyperbola.of_top((1.0, 0.5), (0, 0), (1.0, 1.0)).stability([1.0, 0.0]), "pole"),
-        (lambda: atlas.Hyperbola.of_top((1.0, 0.5), (0, 0), (1.0, 0.0)).branches(), "two lines"),
-    ],
-)
-def test_what_has_no_quadric_says_why(make: object, says: str) -> None:
-    """One line for each."""
-    with pytest.raises(atlas.AtlasError, match=says):
-        make()  # type: ignore[operator]

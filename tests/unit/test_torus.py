@@ -43,15 +43,6 @@ def radii(torus: Torus, bits: int) -> list[float]:
     ]
 
 
-def test_periods_are_known_to_some_twenty_bits_more_than_are_asked_for() -> None:
-    """They are proved with whole words of 32 bits, and kept."""
-    found = made()
-    periods = found.periods(100)
-    stated = [4.397e-6, 3.863e-6, 6.449e-5, 8.507e-6, 7.475e-6, 7.515e-5]
-    assert radii(found, 128) == pytest.approx(stated, rel=1e-3, abs=0.0)
-    assert found.periods(128) is periods
-
-
 def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> None:
     """Beyond GOOD bits a start is improved, each time to nearly twice the bits; a way without a proof costs less."""
     true, gone, real = kept().periods(128), list[tuple[int, bool]](), torus.Flow.go
@@ -82,28 +73,6 @@ def test_a_rough_start_is_refused_before_it_is_improved(monkeypatch: pytest.Monk
                 found.periods(128)
         else:
             assert all(x.H.overlaps(y.H) for x, y in zip(found.periods(128), kept().periods(128), strict=True))
-
-
-def test_more_bits_are_tried_where_few_are_too_few(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where no period is proved with 160 bits it is tried with 320, and with no more."""
-    tried, real = list[int](), Torus._enclosed
-
-    def enclosed(self: Any, start: Any, bits: int) -> Any:
-        tried.append(bits)
-        if bits < limit:
-            raise NotCertifiedError("not certified: it might grow.")
-        return real(self, start, 128)
-
-    monkeypatch.setattr(Torus, "_enclosed", enclosed)
-    limit = 320
-    found = made()
-    assert found.periods(160)[0] is found.periods(320)[0]
-    assert tried == [160, 320, 320]
-    limit = 1000
-    tried.clear()
-    with pytest.raises(NotCertifiedError):
-        made().periods(128)
-    assert tried == [128, 256]
 
 
 def test_components_that_do_not_tell_states_apart_prove_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -156,37 +156,10 @@ def test_special_cases_stand_side_by_side() -> None:
         assert abs(many.rotation(1.7)[i] - one.rotation(1.7)).max() <= 8 * ULP1
 
 
-@pytest.mark.parametrize(
-    ("field", "omega2", "omega3", "says"),
-    [
-        (([1.0, 1.0], 2.0), [0.5, -1.0], None, "pole"),
-        (([1.0, 0.0], 2.0), [0.5, 0.1], None, "B2 = 0"),
-        (([1.0, 0.0], 0.0), [0.5, 0.1], None, "give it"),
-        (([1.0, 2.0], 2.0), [0.5, 0.1], [1.0, 1.0], "leave it out"),
-    ],
-)
-def test_one_row_that_is_no_motion_is_refused_with_its_reason(field: Any, omega2: Any, omega3: Any, says: str) -> None:
-    """The first row of an array outside the domain raises what it raises alone."""
-    with pytest.raises(DomainError, match=says):
-        ElementaryMotion(1.5, field, omega2, omega3)
-
-
 def test_a_phase_too_long_in_one_row_is_an_error() -> None:
     """Beyond 2^50 one time of many is refused by name."""
     with pytest.raises(AtlasError, match="2\\^50"):
         ElementaryMotion([0.5, 1.5], (1.0, 2.0), 0.7).rotation([1.0, 1e17])
-
-
-def test_times_and_motions_broadcast() -> None:
-    """Motions (2, 1) at times (3,) give (2, 3, 3, 3), each that of its motion and time; so do motions at many times."""
-    many = ElementaryMotion([[0.5], [1.5]], (1.0, 2.0), 0.7)
-    t = np.array([0.1, 1.0, 10.0])
-    R = many.rotation(t)
-    assert R.shape == (2, 3, 3, 3)
-    for i, I in enumerate((0.5, 1.5)):
-        assert abs(R[i] - ElementaryMotion(I, (1.0, 2.0), 0.7).rotation(t)).max() <= 8 * ULP1
-    long = np.linspace(0, 9, 1500)
-    assert np.array_equal(many.rotation(long)[1], ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(long))
 
 
 @pytest.mark.parametrize("power", [-1015, -905, 905, 1015])
