@@ -47,7 +47,7 @@ def release(library: str) -> str | None:
 
 def versions() -> dict[str, str]:
     """Return the versions of those libraries that are installed."""
-    return {name: found for name in LIBRARIES if (found := release(name)) is not None}
+    return {name: version for name in LIBRARIES if (version := release(name)) is not None}
 
 
 def of_sweeps(module: str, what: str) -> ModuleType:

@@ -39,10 +39,10 @@ def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> su
                 **more,
             )
         )
-        found = call.result()
-    if -found.returncode in {signal.SIGXCPU, signal.SIGKILL} if os.name == "posix" else False:
+        answer = call.result()
+    if -answer.returncode in {signal.SIGXCPU, signal.SIGKILL} if os.name == "posix" else False:
         raise subprocess.TimeoutExpired(command, seconds)
-    return found
+    return answer
 
 
 def _bound(parent: int, seconds: int) -> None:

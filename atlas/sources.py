@@ -59,13 +59,13 @@ class Sources:
 
     def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
         """Return the files and every module of ours that they import, sorted."""
-        found, waiting = set[Path](), [path.resolve() for path in roots]
+        reached, waiting = set[Path](), [path.resolve() for path in roots]
         while waiting:
             path = waiting.pop()
-            if path not in found:
-                found.add(path)
+            if path not in reached:
+                reached.add(path)
                 waiting += [module for name in self._facts(path)["imports"] for module in self._modules(name)]
-        return tuple(sorted(found, key=str))
+        return tuple(sorted(reached, key=str))
 
     def closure(self, roots: Iterable[Path]) -> str:
         """Return one digest of the files and of every module of ours that they import.

@@ -76,13 +76,13 @@ def _findings() -> dict[str, Finding]:
 
 def _modules() -> dict[str, tuple[str, ...]]:
     """Return for each name the modules of the kernels and of the balls whose docstrings cite it."""
-    found: defaultdict[str, list[str]] = defaultdict(list)
+    modules: defaultdict[str, list[str]] = defaultdict(list)
     for floor in ("core", "exact"):
         for path in sorted((PACKAGE / floor).rglob("*.py")):
             text = " ".join(_DOCSTRING.findall(path.read_text("utf-8")))
             for name in cited(text):
-                found[name].append(path.relative_to(PACKAGE).as_posix())
-    return {name: tuple(paths) for name, paths in found.items()}
+                modules[name].append(path.relative_to(PACKAGE).as_posix())
+    return {name: tuple(paths) for name, paths in modules.items()}
 
 
 def _trial() -> dict[str, Data]:
@@ -131,7 +131,7 @@ def _bench() -> dict[str, Data]:
     rows: tuple[tuple[str | Number, ...], ...]
     rows = tuple((_words(x.says), _words(x.wanted), _three(x.found), x.verdict) for x in stored.limits)
     limits = Data(heads("What", "Wanted", "Found", "Verdict"), rows, "Limits of speed.", (line,))
-    found = {"Limits of speed": limits}
+    tables = {"Limits of speed": limits}
     for case in dict.fromkeys(run.case for run in stored.runs):
         best: defaultdict[str, dict[float, float]] = defaultdict(dict)
         for run in benchmark.runs_of(stored, case):
@@ -144,15 +144,15 @@ def _bench() -> dict[str, Data]:
         )
         title = f"Error against horizon: {case}"
         note = "Of an integrator the best tolerance that came through in time."
-        found[title] = Data(columns, rows, f"{title}.", (note, line))
-    return found
+        tables[title] = Data(columns, rows, f"{title}.", (note, line))
+    return tables
 
 
 def _stress() -> dict[str, Data]:
     """Return the worst error of each quantity on record, and the regime in which it was met."""
     from atlas.families import FAMILIES
 
-    limits = {name: ulps for one in FAMILIES.values() for name, ulps in one.promises.items()}
+    limits = {name: ulps for family in FAMILIES.values() for name, ulps in family.promises.items()}
     record = json.loads((folder("reports") / "data" / "worst_errors.json").read_text(encoding="utf-8"))
     worst = record["worst"]
     order = [*(name for name in limits if name in worst), *(name for name in worst if name not in limits)]
@@ -229,15 +229,15 @@ def described() -> dict[str, Described]:
 
 def _members(thing: Any) -> Mapping[str, Described]:
     """Return the members of a class that have a docstring of ours, its own first."""
-    found: dict[str, Described] = {}
+    members: dict[str, Described] = {}
     for cls in inspect.getmro(thing) if inspect.isclass(thing) else ():
         for name, member in vars(cls).items() if cls.__module__.startswith("atlas") else ():
             called = not hasattr(member, "fget") and not hasattr(member, "func")  # no property, no cached property
-            inner = (getattr(member, part, None) for part in ("fget", "func", "__func__"))
+            inner = (getattr(member, attribute, None) for attribute in ("fget", "func", "__func__"))
             code = next(filter(None, inner), member)
-            if not name.startswith("_") and inspect.isfunction(code) and name not in found:
-                found[name] = _described(code, {}, called=called)
-    return found
+            if not name.startswith("_") and inspect.isfunction(code) and name not in members:
+                members[name] = _described(code, {}, called=called)
+    return members
 
 
 def _described(thing: Any, members: Mapping[str, Described], *, called: bool = True) -> Described:

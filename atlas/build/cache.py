@@ -51,8 +51,8 @@ class Cache:
 
     def recall(self, key: str, make: Callable[[], bytes]) -> bytes:
         """Return the entry of a key, made now if there is none."""
-        found = self.get(key)
-        return self.put(key, make()) if found is None else found
+        entry = self.get(key)
+        return self.put(key, make()) if entry is None else entry
 
     def load(self, name: str) -> Any:
         """Return the value that was saved under a name, an empty dictionary if there is none."""

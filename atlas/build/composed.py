@@ -39,11 +39,8 @@ def composed(
 
     Raises AtlasError for a mistake in the report and for a figure that fails.
     """
-    from atlas.build.appendices import gather
-    from atlas.build.report import describe, outlines
+    from atlas.build.report import document_of
     from atlas.draw import gl
-    from atlas.report import bibliography
-    from atlas.report.compose import compose
     from atlas.report.load import load
     from atlas.report.pictures import pictures
 
@@ -51,18 +48,18 @@ def composed(
     report = load(file)
     cache, wanted = Cache(cache_folder(out)), pictures(report)
     builds = {
-        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(one), style or report.style or None, targets): one
-        for one in wanted.values()
-        if not one.failure
+        FigureBuild(
+            drawing.recipe, drawing.parameters, drawing.renderer, kinds(drawing), style or report.style or None, targets
+        ): drawing
+        for drawing in wanted.values()
+        if not drawing.failure
     }
     figures.find(list(builds), cache, Sources(cache), gl.library())
     figures.draw(list(builds), cache, jobs or figures.cores(), progress)
-    for build, picture in builds.items():
+    for build in builds:
         if build.failure:
             raise AtlasError(f"the figure {build.name} failed: {build.failure}")
-        describe(build, picture)
-    works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
-    document = compose(report, wanted, gather(report), works, outlines(report))
+    document = document_of(report, file, wanted, builds)
     return document, {picture.stem: build for build, picture in builds.items()}
 
 

@@ -82,9 +82,9 @@ class FigureBuild:
 
     def take(self, cache: Cache) -> None:
         """Take the files from the cache if it has all of them."""
-        found = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
-        if found.keys() == self.keys.keys():
-            for kind, entry in found.items():
+        entries = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
+        if entries.keys() == self.keys.keys():
+            for kind, entry in entries.items():
                 self.facts, self.contents[kind] = worker.read(entry)
 
 
@@ -117,7 +117,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
         figure.take(cache)
         if figure.missing():
             before = cache.load(figure.name)
-            changed = [part for part, value in figure.parts.items() if before.get(part) != value]
+            changed = [name for name, value in figure.parts.items() if before.get(name) != value]
             figure.why = f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
             figure.why = figure.why if before else "it was never drawn here"
         cache.save(figure.name, figure.parts)
@@ -224,7 +224,7 @@ def build_figures(
     the data of the figure, see `atlas.scene.data`. A figure that fails does not stop the others. Raises AtlasError for
     a shaded figure that is neither PNG nor CSV.
     """
-    other = [one for one in formats if one not in {"png", "csv"}]
+    other = [kind for kind in formats if kind not in {"png", "csv"}]
     if renderer == "shaded" and other:
         raise AtlasError(f"a shaded figure is a PNG; {other[0]!r} is drawn by the vector renderer")
     from atlas.draw import gl

@@ -40,7 +40,7 @@ def set_texts(document: "Document", formats: Sequence[str], cache: Cache, source
     which = "a page" if len(document.pages) == 1 else document.report.name
     name = f"texts of {which} by {sources.closure([PACKAGE / 'report' / 'texts.py'])}"
     document.texts.memory = texts = _Texts(cache.load(name))
-    document.set(*dict.fromkeys(LANGUAGES[one] for one in formats))
+    document.set(*dict.fromkeys(LANGUAGES[form] for form in formats))
     cache.save(name, texts.used)
 
 
@@ -49,8 +49,8 @@ def manifest_of(document: "Document") -> bytes:
     from atlas.report.versions import versions
 
     report = document.report
-    found = {"report": report.name, "title": report.title, "versions": versions()}
-    return msgspec.json.format(msgspec.json.encode(found), indent=1) + b"\n"
+    manifest = {"report": report.name, "title": report.title, "versions": versions()}
+    return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
 
 
 def _pages(

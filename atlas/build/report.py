@@ -77,13 +77,13 @@ def build_report(
     `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something
     can't be written; then the last report stays.
     """
-    file, formats = find(str(name)), [one for one in LANGUAGES if one in formats]
+    file, formats = find(str(name)), [form for form in LANGUAGES if form in formats]
     cache = Cache(cache_folder(out))
     sources = Sources(cache)
     try:
         key = key_of(file, sources, style) if cache.load(_noted(file.stem, out)) else None
-        found = None if key is None else _unchanged(file.stem, out, formats, cache, key)
-        return found or _build(file, out, formats, style, jobs, cache, sources, key, progress)
+        unchanged = None if key is None else _unchanged(file.stem, out, formats, cache, key)
+        return unchanged or _build(file, out, formats, style, jobs, cache, sources, key, progress)
     except OSError as error:
         where = f": {error.filename}" if error.filename else ""
         raise OSError(f"the build in {out} stopped: {error.strerror or error}{where}.") from error
@@ -100,17 +100,17 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
     related = [find(name) for name in related_to(file)]
-    found = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
+    parts = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
     sources.save()
-    return digest(found, sources.named(style), sys.version_info[:2], versions(), gl.library())
+    return digest(parts, sources.named(style), sys.version_info[:2], versions(), gl.library())
 
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
     """Return the report that is there, if it was made from the same and its files are as they were written."""
     last = cache.load(_noted(name, out))
-    for one in formats:
-        made = last.get(one, {"key": None})
-        if made["key"] != key or any(_hash(out / file) != there for file, there in made["files"].items()):
+    for form in formats:
+        record = last.get(form, {"key": None})
+        if record["key"] != key or any(_hash(out / file) != there for file, there in record["files"].items()):
             return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
     return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
@@ -137,10 +137,7 @@ def _build(
     The key of one that was never built is found out while its figures are drawn.
     """
     from atlas.build import figures
-    from atlas.build.appendices import gather
     from atlas.draw import gl
-    from atlas.report import bibliography
-    from atlas.report.compose import compose
     from atlas.report.load import load
     from atlas.report.pictures import on_cards, pictures
 
@@ -149,9 +146,9 @@ def _build(
     report = load(file)
     _check(report.name, file)
     cache.prune()
-    found = pictures(report)
+    drawings = pictures(report)
     cards = on_cards(report) if "html" in formats and len(report.pages) > 1 else ()
-    wanted = _figures(found, formats, style or report.style or None, gl.library(), cards)
+    wanted = _figures(drawings, formats, style or report.style or None, gl.library(), cards)
     figures.find(list(wanted), cache, sources, gl.library())
     times["look"] = time.perf_counter()
     steps, jobs = len(wanted) + 2, jobs or figures.cores()
@@ -162,25 +159,22 @@ def _build(
         figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
     key = found_out.result()
     times["figures"] = time.perf_counter()
-    for figure, picture in wanted.items():
-        describe(figure, picture)
     progress(steps - 2, steps, "texts")
-    works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
-    document = compose(report, found, gather(report), works, outlines(report))
+    document = document_of(report, file, drawings, wanted)
     times["tables"] = time.perf_counter()
     set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
-    made = {one: MAKERS[one](document, wanted, cache, sources) for one in formats}
+    contents = {form: MAKERS[form](document, wanted, cache, sources) for form in formats}
     last: dict[str, Any] = cache.load(_noted(report.name, out))
-    noted = [item for one in LANGUAGES for item in last.get(one, {"files": {}})["files"].items()]
-    publish(made, out, report.name, [f"{there}  {path}" for path, there in noted])
+    noted = [item for form in LANGUAGES for item in last.get(form, {"files": {}})["files"].items()]
+    publish(contents, out, report.name, [f"{there}  {path}" for path, there in noted])
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
     failures = [figure for figure in wanted if figure.failure]
-    for one, files in made.items():
+    for form, files in contents.items():
         digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
-        last[one] = {"key": None if failures else key, "files": digests}
+        last[form] = {"key": None if failures else key, "files": digests}
     cache.save(_noted(report.name, out), last | {"pages": len(document.pages), "figures": len(wanted) - len(failures)})
     return Built(
         report.name,
@@ -194,6 +188,20 @@ def _build(
     )
 
 
+def document_of(
+    report: "Report", file: Path, drawings: "Mapping[str, Picture]", drawn: "Mapping[FigureBuild, Picture]"
+) -> "Document":
+    """Return a report with its tables computed and what its figures say, some of them drawn."""
+    from atlas.build.appendices import gather
+    from atlas.report import bibliography
+    from atlas.report.compose import compose
+
+    for figure, picture in drawn.items():
+        describe(figure, picture)
+    works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
+    return compose(report, drawings, gather(report), works, outlines(report))
+
+
 def outlines(report: "Report") -> "dict[str, Document]":
     """Return the reports beside this one in outline: the numbers and places of what they have."""
     from atlas.report.compose import compose
@@ -201,7 +209,7 @@ def outlines(report: "Report") -> "dict[str, Document]":
     from atlas.report.pictures import pictures
 
     beside = (load(find(name)) for name in report.related)
-    return {one.name: compose(one, pictures(one), outline=True) for one in beside}
+    return {other.name: compose(other, pictures(other), outline=True) for other in beside}
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:
@@ -218,7 +226,7 @@ def _check(name: str, file: Path) -> None:
 
 
 def _figures(
-    found: "Mapping[str, Picture]",
+    pictures: "Mapping[str, Picture]",
     formats: Sequence[str],
     style: str | None,
     library: str | None,
@@ -239,9 +247,9 @@ def _figures(
         return *(("svg",) if shown else ()), "pdf", *(("png",) if key in cards else ()), *shown
 
     return {
-        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(key, one.renderer), style): one
-        for key, one in found.items()
-        if not one.failure
+        FigureBuild(picture.recipe, picture.parameters, picture.renderer, kinds(key, picture.renderer), style): picture
+        for key, picture in pictures.items()
+        if not picture.failure
     }
 
 

@@ -91,7 +91,7 @@ def through(text: str) -> tuple[str, list[Any]]:
         raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
     if len(parts[2]) > len(str(MOST)) or int(parts[2]) > MOST:  # before there is a list of them
         raise click.UsageError(f"an animation has from 2 to {MOST} frames, not {parts[2]:.30}.")
-    (_, start), (_, stop) = (setting(f"{key}={part}") for part in parts[:2])
+    (_, start), (_, stop) = (setting(f"{key}={bound}") for bound in parts[:2])
     try:
         steps = np.linspace(start, stop, int(parts[2])) if np.shape(start) == np.shape(stop) else None
     except (TypeError, ValueError):

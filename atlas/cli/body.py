@@ -130,9 +130,9 @@ spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
     names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
-    given: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
-    given |= {"points": str(options["points"])} if "points" in given else {}
-    return given | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
+    parameters: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
+    parameters |= {"points": str(options["points"])} if "points" in parameters else {}
+    return parameters | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
 
 
 def shapes() -> dict[str, list[str]]:
@@ -174,8 +174,8 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any
         meant = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, known)
         raise click.UsageError(f"there is no shape {shape!r}{meant}; the shapes are {', '.join(known)}.")
     if set(sizes) != set(known[shape]):
-        wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
-        raise click.UsageError(f"the shape {shape} takes {wanted}; found {found}.")
+        wanted, typed = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
+        raise click.UsageError(f"the shape {shape} takes {wanted}; found {typed}.")
     for name, size in sizes.items():
         if size and not 1e-150 < abs(size) < 1e150:
             raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
@@ -187,13 +187,13 @@ def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
 
     Raises click.UsageError unless one of them is given, and for points whose axes x, y, z are not principal.
     """
-    given = one_of(options, "body", (*BODY, "tensor"))
-    if given == "inertia":
+    option = one_of(options, "body", (*BODY, "tensor"))
+    if option == "inertia":
         return tuple(options["inertia"])
-    if given == "points":
+    if option == "points":
         return principal_moments(options["points"])
     body = chosen_body(options)
-    return (1.0, 1.0, body) if given == "ratio" else body.inertia
+    return (1.0, 1.0, body) if option == "ratio" else body.inertia
 
 
 def given_tensor(options: Mapping[str, Any]) -> Any:
@@ -216,12 +216,12 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
 
 def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
     """Return which of some options says what it is. Raises click.UsageError unless it is one."""
-    given = [name for name in names if options.get(name) is not None]
-    if len(given) != 1:
+    options_typed = [name for name in names if options.get(name) is not None]
+    if len(options_typed) != 1:
         known = [f"--{name}" for name in names if name in options]
-        found = " and ".join(f"--{name}" for name in given) or "none"
+        found = " and ".join(f"--{name}" for name in options_typed) or "none"
         raise click.UsageError(f"the {what} is one of {', '.join(known)}; found {found}.")
-    return given[0]
+    return options_typed[0]
 
 
 def exact_moments(options: dict[str, Any]) -> Any:

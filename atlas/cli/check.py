@@ -49,9 +49,9 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
     field = any(options[name] is not None for name in ("field", "magnetic"))
     J = body.given_tensor(options)
     inertia = body.chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
-    given = {"inertia": inertia, "omega": body.start_of(options, needed=False)}
-    given["attitude"] = options["attitude"]
-    return _graded(files, options, given | ({"field": body.chosen_field(options)} if field else {}))
+    parameters = {"inertia": inertia, "omega": body.start_of(options, needed=False)}
+    parameters["attitude"] = options["attitude"]
+    return _graded(files, options, parameters | ({"field": body.chosen_field(options)} if field else {}))
 
 
 @click.command(
@@ -100,29 +100,29 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     option is wrong.
     """
     field = any(options[name] is not None for name in ("field", "magnetic"))
-    given = {name: options[name] for name in ("inertia", "omega2", "omega3", *OF_TOPS)}
-    given["omega"] = body.start_of(options, needed=False)
+    parameters = {name: options[name] for name in ("inertia", "omega2", "omega3", *OF_TOPS)}
+    parameters["omega"] = body.start_of(options, needed=False)
     if options["inertia"] is None and any(options[name] is not None for name in body.BODY):
-        given["ratio"] = body.chosen_body(options)
+        parameters["ratio"] = body.chosen_body(options)
     if field:
-        given["field"] = body.chosen_field(options)
-    return _graded(files, options, given)
+        parameters["field"] = body.chosen_field(options)
+    return _graded(files, options, parameters)
 
 
-def _graded(files: tuple[Path, ...], options: dict[str, Any], given: dict[str, Any]) -> int:
+def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
     """Grade trajectories, show the grades, and return the status."""
     from atlas.study.check import check_file
     from atlas.study.order import convergence
 
     if len(files) > 1 and not options["order"]:
         raise click.UsageError("several files are graded with --order; without it give one.")
-    checks = [check_file(file, threshold=options["threshold"], **given) for file in files]
-    found = convergence(checks) if options["order"] else checks[0]
+    checks = [check_file(file, threshold=options["threshold"], **parameters) for file in files]
+    grades = convergence(checks) if options["order"] else checks[0]
     if options["as_json"]:
-        dump(found.record())
+        dump(grades.record())
     else:
-        click.echo(str(found))
-    picture(found, options["figure"], silent=options["as_json"])
+        click.echo(str(grades))
+    picture(grades, options["figure"], silent=options["as_json"])
     if options["order"]:
         return 0
     failed = [

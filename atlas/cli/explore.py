@@ -66,9 +66,9 @@ def started(args: list[str]) -> tuple[str, str]:
     with made("motion").make_context("explore", args) as context:
         options = context.params
     if family.name == "asymmetric" and (motion := motion_in_given_axes(options)):
-        found = in_principal_axes(motion)
-        click.echo(f"The axes are principal ones: {found.axes} in those of the body that were given.", err=True)
-        family, values = found.family, found.values
+        principal = in_principal_axes(motion)
+        click.echo(f"The axes are principal ones: {principal.axes} in those of the body that were given.", err=True)
+        family, values = principal.family, principal.values
     else:
         parts = zip(family.parameters, values_of(family, options, exact=False), strict=True)
         values = {p.name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for p, x in parts if x is not None}

@@ -111,13 +111,13 @@ def _loaded(name: str, broken: list[str]) -> "Recipe | None":
 
 def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str], list[str]]:
     """Return the titles by name, and in a sentence each why the others have none."""
-    found, broken = {}, []
+    titles, broken = {}, []
     for name in names:
         try:
-            found[name] = title(name)
+            titles[name] = title(name)
         except AtlasError as error:
             broken.append(str(error))
-    return found, broken
+    return titles, broken
 
 
 def report_title(name: str) -> str:

@@ -37,8 +37,8 @@ NUMBER = re.compile(
 
 def split(text: str) -> tuple[str, str] | None:
     """Return the number and the unit that were typed as one word, None where there is no unit, as in 1e-3 and 0x1p0."""
-    found = NUMBER.fullmatch(text)
-    return (found[1], found[2]) if found else None
+    match = NUMBER.fullmatch(text)
+    return (match[1], match[2]) if match else None
 
 
 def in_si(number: Fraction, unit: str, option: str) -> tuple[float, Fraction | None]:

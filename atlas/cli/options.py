@@ -217,11 +217,11 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
     def __new__(cls, parts: Sequence[Typed]) -> Self:
         """Take the components across and along the axis."""
         strength, angle = parts
-        found = super().__new__(
+        number = super().__new__(
             cls, (strength.moved(strength * x, sigma=0.0) for x in (math.sin(angle), math.cos(angle)))
         )
-        found.parts = tuple(parts)
-        return found
+        number.parts = tuple(parts)
+        return number
 
 
 def _inclined(args: list[str], ctx: click.Context) -> tuple[list[str], str, Inclined]:
@@ -306,12 +306,12 @@ def _listed(word: str) -> list[str]:
     A range is START:STOP:COUNT, or with :log at the end for even steps of the logarithm.
     """
     if "," in word:
-        return [one for part in word.split(",") for one in _listed(part)]
+        return [number for item in word.split(",") for number in _listed(item)]
     parts = word.split(":")
     log = parts[3:] == ["log"]
     if len(parts) != 3 + log:
         return [word]
-    start, stop, count = (REAL.convert(part, None, None) for part in parts[:3])
+    start, stop, count = (REAL.convert(item, None, None) for item in parts[:3])
     if not count.is_integer() or not 2 <= count <= MOST:
         raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
     if log and start * stop <= 0:

@@ -46,13 +46,13 @@ def explained(reasons: Sequence[Sequence[str]]) -> Printout:
     return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
 
 
-def picture(found: Any, file: Path | None, *, silent: bool) -> None:
+def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
     """Draw what was found into the file that was asked for, if one was, and say where it is."""
     if file is None:
         return
     from atlas.draw.files import save
 
-    save(found.scene(), {file: file.suffix.lstrip(".")}, kept=True)
+    save(graded.scene(), {file: file.suffix.lstrip(".")}, kept=True)
     if not silent:
         click.echo(file)
 

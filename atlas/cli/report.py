@@ -54,8 +54,8 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
 
     with bar(Path(name).stem, every=10) as tell:
         built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
-    for one, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
-        if one in (formats or FORMATS):
+    for form, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
+        if form in (formats or FORMATS):
             click.echo(file)
     if explain:
         _explain(built)

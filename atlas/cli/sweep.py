@@ -97,11 +97,11 @@ def swept(
     if toml is None:
         if family is None:
             raise click.UsageError(f"name the family to sweep: {NAMES}.")
-        given, pairs = _body(options), [_setting(text) for text in settings]
-        _once([*given, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(given))
-        family = _meant(family, {*given, *(name for name, _ in pairs)})
+        fixed, pairs = _body(options), [_setting(text) for text in settings]
+        _once([*fixed, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(fixed))
+        family = _meant(family, {*fixed, *(name for name, _ in pairs)})
         known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
-        if "I1" in given and "I1" not in known:
+        if "I1" in fixed and "I1" not in known:
             components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
             narrow = next((name for name in components if options[name] is not None), "")
             raise click.UsageError(
@@ -109,7 +109,7 @@ def swept(
                 + f"in the family {family}; a body with three moments of inertia is the family asymmetric, with "
                 "--set I1=0.8 and so on, or motion, which finds it."
             )
-        wanted = Wanted(family, quantities, given | dict(pairs), listing, out, digits, rows)
+        wanted = Wanted(family, quantities, fixed | dict(pairs), listing, out, digits, rows)
     elif family or settings or listing or quantities or digits or rows or body.body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")
     else:
@@ -216,10 +216,14 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
 def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
     """Return moments, field and start of a body with three moments; of a tensor along its principal axes."""
     if body.given_tensor(options) is not None:
-        found = in_principal_axes(motion_in_given_axes(options))
-        click.echo(f"The axes are principal ones: {found.axes} in those of the body that were given.", err=True)
-        names = {p.name: p.names for p in found.family.parameters}
-        return {one: x for name, values in found.values.items() for one, x in zip(names[name], values, strict=True)}
+        principal = in_principal_axes(motion_in_given_axes(options))
+        click.echo(f"The axes are principal ones: {principal.axes} in those of the body that were given.", err=True)
+        names = {p.name: p.names for p in principal.family.parameters}
+        return {
+            name_of: x
+            for name, values in principal.values.items()
+            for name_of, x in zip(names[name], values, strict=True)
+        }
     given: dict[str, float] = {}
     if any(options[name] is not None for name in body.BODY):
         given |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
@@ -247,7 +251,7 @@ def read(path: Path) -> Wanted:
         rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
 
     try:
-        found = msgspec.toml.decode(path.read_bytes(), type=Recipe)
+        recipe = msgspec.toml.decode(path.read_bytes(), type=Recipe)
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
@@ -261,13 +265,13 @@ def read(path: Path) -> Wanted:
         return name if "://" in name else str(path.parent / name) + "/" * name.endswith("/")
 
     return Wanted(
-        found.family,
-        found.quantities,
-        {name: _values(name, value) for name, value in found.parameters.items()},
-        None if found.listing is None else Path(beside(found.listing)),
-        None if found.out is None else OUT.convert(beside(found.out), None, None),
-        found.digits,
-        found.rows,
+        recipe.family,
+        recipe.quantities,
+        {name: _values(name, value) for name, value in recipe.parameters.items()},
+        None if recipe.listing is None else Path(beside(recipe.listing)),
+        None if recipe.out is None else OUT.convert(beside(recipe.out), None, None),
+        recipe.digits,
+        recipe.rows,
     )
 
 
@@ -284,21 +288,21 @@ def _setting(text: str) -> tuple[str, Any]:
     return name.strip(), _values(name, values)
 
 
-def _values(name: str, given: Any) -> Any:
+def _values(name: str, value: Any) -> Any:
     """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
     from atlas.study.sweep.plan import Range
 
-    if not isinstance(given, str):
-        return given
+    if not isinstance(value, str):
+        return value
     option = click.Option([f"--{OPTIONS.get(name.strip().rstrip('123'), name.strip())}"])  # which says the unit
-    if ":" not in given:
-        return [float(REAL.convert(x.strip(), option, None)) for x in given.split(",")]
-    start, stop, *rest = given.split(":")
+    if ":" not in value:
+        return [float(REAL.convert(x.strip(), option, None)) for x in value.split(",")]
+    start, stop, *rest = value.split(":")
     if not rest or rest[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", rest[0], re.ASCII):
-        raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {given!r}.")
+        raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {value!r}.")
     first, last = (float(REAL.convert(x.strip(), option, None)) for x in (start, stop))
     if len(rest) == 2 and first * last <= 0:
-        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {given!r}.")
+        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {value!r}.")
     # no more digits are read than a count can have
     count = int(rest[0]) if len(rest[0].strip().lstrip("0")) < 9 else MOST + 1
     if count > MOST:

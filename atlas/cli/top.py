@@ -70,10 +70,10 @@ def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
 
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
     """Return what was given, and what the top has from it."""
-    made = chosen_top(options)
-    given = top_parameters(options) | {"omega": options["omega"]}
-    given |= {} if options["direction"] is None else {"direction": options["direction"]}
-    return given | {"top": {name: getattr(made, name) for name in names}}
+    top = chosen_top(options)
+    typed = top_parameters(options) | {"omega": options["omega"]}
+    typed |= {} if options["direction"] is None else {"direction": options["direction"]}
+    return typed | {"top": {name: getattr(top, name) for name in names}}
 
 
 def chosen_top(options: Mapping[str, Any]) -> Any:

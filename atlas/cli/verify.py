@@ -60,87 +60,99 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
 
     options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else Path(CACHE)}
     with bar("trials") as tell:
-        found = proof.verify(names or None, lambda name, done, total: tell(done, total, name), **options)
+        verdicts = proof.verify(names or None, lambda name, done, total: tell(done, total, name), **options)
     if script:
-        return _script(found[0])
-    status = _verdicts(found, as_json, record, named=bool(names))
+        return _script(verdicts[0])
+    status = _verdicts(verdicts, as_json, record, named=bool(names))
     if record:
-        proof.recorded.save(found)
-        proof.recorded.save_scripts({one.name: proof.script_of(one) for one in found})
+        proof.recorded.save(verdicts)
+        proof.recorded.save_scripts({verdict.name: proof.script_of(verdict) for verdict in verdicts})
     return status
 
 
-def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
+def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int:
     """Show verdicts, more of those asked for by name, and what differs from the record; return the exit status."""
     from atlas.proof.recorded import differs
 
-    different = differs(found)
+    different = differs(verdicts)
     if as_json:
-        equations = [{name: one.as_dict()[name] for name in COLUMNS} | {"example": one.example} for one in found]
+        equations = [
+            {name: verdict.as_dict()[name] for name in COLUMNS} | {"example": verdict.example} for verdict in verdicts
+        ]
         dump({"equations": equations, "different": [list(row) for row in different]})
     else:
-        _table(found)
-        for one in found:
-            if one.grade or named:
-                click.echo(_details(one, named=named))
-        _totals(found)
+        _table(verdicts)
+        for verdict in verdicts:
+            if verdict.grade or named:
+                click.echo(_details(verdict, named=named))
+        _totals(verdicts)
     for name, was, now in different:
         click.echo(f"atlas: {name} was recorded as {was} and is found {now}", err=True)
     return int(bool(different) and not record)
 
 
-def _script(one: Any) -> int:
+def _script(verdict: Any) -> int:
     """Print the script of one entry, with the exit status 1 if its verdict differs from the recorded one."""
     from atlas import proof
     from atlas.errors import AtlasError
 
-    text = proof.script_of(one)
+    text = proof.script_of(verdict)
     if not text.startswith("#"):
-        raise AtlasError(f"{one.name}: {text}")
+        raise AtlasError(f"{verdict.name}: {text}")
     click.echo(text, nl=False)
-    return int(bool(proof.recorded.differs([one])))
+    return int(bool(proof.recorded.differs([verdict])))
 
 
-def _table(found: Any) -> None:
+def _table(verdicts: Any) -> None:
     """Show the verdicts, a line each."""
     heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
     rows = [
-        [one.name, one.verdict, one.grade, one.corrected_verdict, plain(one.method), f"{one.seconds:.1f}"]
-        for one in found
+        [
+            verdict.name,
+            verdict.verdict,
+            verdict.grade,
+            verdict.corrected_verdict,
+            plain(verdict.method),
+            f"{verdict.seconds:.1f}",
+        ]
+        for verdict in verdicts
     ]
     show(Printout("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
 
 
-def _details(one: Any, *, named: bool) -> str:
+def _details(verdict: Any, *, named: bool) -> str:
     """Return what one verdict says, a line for each part; more if it was asked for by name."""
     from atlas.paper import EQUATIONS
 
-    says = {"says": EQUATIONS[one.name].says, "tried from": one.follows} if named else {}
+    says = {"says": EQUATIONS[verdict.name].says, "tried from": verdict.follows} if named else {}
     words = {name: plain(text) for name, text in says.items()}
-    said = one.said if named else {}
+    said = verdict.said if named else {}
     words |= {f"not read: {phrase}": line or "supposed, or tried in a further line" for phrase, line in said.items()}
-    words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
-    words |= {"note": plain(one.note)} if named else {}
+    words |= {"as printed": verdict.printed, "counterexample": verdict.example, "corrected": verdict.corrected}
+    words |= {"note": plain(verdict.note)} if named else {}
     lines = [f"  {name + ':':16}{text}" for name, text in words.items() if text]
-    return "\n".join([one.name, *lines, *(_proof(one) if named else ())])
+    return "\n".join([verdict.name, *lines, *(_proof(verdict) if named else ())])
 
 
-def _proof(one: Any) -> list[str]:
+def _proof(verdict: Any) -> list[str]:
     """Return what the sides of a proved form are, each on a line, and how its script is had."""
     from atlas import proof
 
-    lines = [f"    {line}" for line in proof.sides_of(one.name)]
-    return [*(["  proof:", *lines] if lines else []), f"  {'script:':16}atlas verify {one.number or one.name} --script"]
+    lines = [f"    {line}" for line in proof.sides_of(verdict.name)]
+    return [
+        *(["  proof:", *lines] if lines else []),
+        f"  {'script:':16}atlas verify {verdict.number or verdict.name} --script",
+    ]
 
 
-def _totals(found: Any) -> None:
+def _totals(verdicts: Any) -> None:
     """Show how many verdicts and slips of each kind there are."""
     from atlas.proof.verdict import slips
 
-    totals = Counter(one.verdict for one in found)
-    seconds = sum(one.seconds for one in found)
+    totals = Counter(verdict.verdict for verdict in verdicts)
+    seconds = sum(verdict.seconds for verdict in verdicts)
     click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
-    graded = {grade: len(names) for grade, names in slips(found).items() if names}
+    graded = {grade: len(names) for grade, names in slips(verdicts).items() if names}
     if graded:
         each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
         count = sum(graded.values())

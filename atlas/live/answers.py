@@ -27,20 +27,20 @@ DRAWING = Lock()
 FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
 
 
-def values_of(subject: Subject, given: Mapping[str, str]) -> dict[str, float]:
+def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
     """Return the values of the sliders, their starts for those not given. Raises AtlasError for what is no number."""
-    known = {one.name: one for one in subject.sliders}
-    found = {name: one.start for name, one in known.items()}
-    for name, text in given.items():
+    known = {slider.name: slider for slider in subject.sliders}
+    values = {name: slider.start for name, slider in known.items()}
+    for name, text in typed.items():
         if name not in known:
             raise AtlasError(f"{subject.name} has no parameter {name!r}; it has {', '.join(known)}.")
         try:
-            found[name] = float(text)
+            values[name] = float(text)
         except ValueError:
-            found[name] = math.nan
-        if not math.isfinite(found[name]):
+            values[name] = math.nan
+        if not math.isfinite(values[name]):
             raise AtlasError(f"{name} must be a finite number, not {text!r}.")
-    return found
+    return values
 
 
 def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dict[str, Any]:
@@ -50,9 +50,9 @@ def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dic
 
         scene = subject.scene(values)
         turns = turning(scene) if viewer.deep(scene) else None
-        found = {"scene": turns and viewer.data(turns), "size": (turns or scene).size}
+        answer = {"scene": turns and viewer.data(turns), "size": (turns or scene).size}
     numbers = list(_numbers(subject, values, proven=proven)) if isinstance(subject, OfFamily) else []
-    return found | {"alt": scene.alt, "numbers": numbers, "command": subject.command(values)}
+    return answer | {"alt": scene.alt, "numbers": numbers, "command": subject.command(values)}
 
 
 def turning(scene: Scene) -> Scene:
@@ -96,27 +96,27 @@ def _has(balls: Any, q: Quantity) -> bool:
     return bool(q.certified or q.printed or q.checked) and bool(q.exact or q.get or hasattr(balls, q.name))
 
 
-def _certified(q: Quantity, made: Any) -> tuple[str, str]:
+def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
     """Return a quantity in proven digits, and how many there are."""
-    text = _joined(q, certified(lambda: q.value(made, exact=True), DIGITS, spare=SPARE))
+    text = _joined(q, certified(lambda: q.value(motion, exact=True), DIGITS, spare=SPARE))
     if NOT_CERTIFIED in text or MARK in text:
         return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"
     return text, f"{DIGITS} digits proven" if re.search(r"\d", text) else EXACT
 
 
-def _double(q: Quantity, made: Any, ulps: float) -> tuple[str, str]:
+def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
     """Return a quantity as doubles give it, and what is promised of it."""
-    text = _joined(q, _written(q.value(made)))
+    text = _joined(q, _written(q.value(motion)))
     if not re.search(r"\d", text):
         return text, EXACT
     return text, f"double, within {ulps:g} ulp" if ulps else "double, no promise"
 
 
-def _joined(q: Quantity, found: Any) -> str:
+def _joined(q: Quantity, value: Any) -> str:
     """Return the texts of a quantity as one."""
-    if found is None:
+    if value is None:
         return "none"
-    return "; ".join(map(str, map(q.text, found))) if q.lines else str(q.text(found))
+    return "; ".join(map(str, map(q.text, value))) if q.lines else str(q.text(value))
 
 
 def _written(value: Any) -> Any:

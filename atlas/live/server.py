@@ -148,17 +148,17 @@ def _sliders(_server: Explorer, query: dict[str, str]) -> Content:
 
 def _state(_server: Explorer, query: dict[str, str]) -> Content:
     proven = query.pop("proven", "") == "1"
-    one = subject(query.pop("subject", ""))
-    found = answers.state(one, answers.values_of(one, query), proven=proven)
-    return json.dumps(found, separators=(",", ":")).encode(), JSON
+    topic = subject(query.pop("subject", ""))
+    answer = answers.state(topic, answers.values_of(topic, query), proven=proven)
+    return json.dumps(answer, separators=(",", ":")).encode(), JSON
 
 
 def _figure(_server: Explorer, query: dict[str, str]) -> Content:
     kind = query.pop("format", "svg")
     if kind not in answers.FILES:
         raise AtlasError(f"no figure can be saved as {kind!r}; known: {', '.join(answers.FILES)}")
-    one = subject(query.pop("subject", ""))
-    return answers.picture(one, answers.values_of(one, query), kind), answers.FILES[kind]
+    topic = subject(query.pop("subject", ""))
+    return answers.picture(topic, answers.values_of(topic, query), kind), answers.FILES[kind]
 
 
 ANSWERS: dict[str, Callable[[Explorer, dict[str, str]], Content]] = {

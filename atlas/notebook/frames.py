@@ -21,9 +21,9 @@ def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
         raise AtlasError(f"The register has no table of a {type(shown).__name__}.")
     quantities = [quantities] if isinstance(quantities, str) else quantities
     columns = dict(_quantities(shown, swept, quantities) if times is None else _times(shown, swept, times, quantities))
-    found = of_sweeps("pandas", "A data frame").DataFrame(columns)
-    found.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
-    return found
+    data_frame = of_sweeps("pandas", "A data frame").DataFrame(columns)
+    data_frame.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
+    return data_frame
 
 
 def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:

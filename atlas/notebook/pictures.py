@@ -87,11 +87,11 @@ def alone(scene: Scene, panel: int) -> Scene:
 def _own(shown: Shown, family: Family) -> dict[str, Any]:
     """Return the parameters of an object by the names of its family: as it was given them, or as it has them."""
     if not shown.made_by and len(shown.arguments) == len(family.parameters):
-        given = dict(zip((p.name for p in family.parameters), shown.arguments.values(), strict=True))
+        arguments = dict(zip((p.name for p in family.parameters), shown.arguments.values(), strict=True))
     else:
-        given = {p.name: getattr(shown, p.name) for p in family.parameters if p.needed}
+        arguments = {p.name: getattr(shown, p.name) for p in family.parameters if p.needed}
     return {
         name: tuple(value.tolist()) if isinstance(value, np.ndarray) else value
-        for name, value in given.items()
+        for name, value in arguments.items()
         if value is not None
     }

@@ -52,11 +52,11 @@ def latex(shown: Shown) -> str | None:
 def rows(shown: Shown) -> Sequence[Row]:
     """Return the rows of the table of one object that the register knows."""
     family = FAMILIES.get(shown.family)
-    given = tuple(shown.arguments.values())
+    values = tuple(shown.arguments.values())
     several = bool(getattr(shown, "shape", ()))
-    if family is None or several or shown.made_by or len(given) != len(family.parameters):
+    if family is None or several or shown.made_by or len(values) != len(family.parameters):
         return ()
-    thing = Thing(family, {}, given, given, "time", described=False)
+    thing = Thing(family, {}, values, values, "time", described=False)
     return [row for q in family.quantities for row in rows_of(thing, q, DIGITS) if row[2] != NONE]
 
 

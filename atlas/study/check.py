@@ -169,7 +169,7 @@ def _arguments(motion: Any) -> dict[str, Any]:
 
     known = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
     if not isinstance(motion, known) and getattr(motion, "made_by", "") != "motion":
-        names = ", ".join(one.__name__ for one in known)
+        names = ", ".join(kind.__name__ for kind in known)
         raise AtlasError(f"A trajectory is graded against one of {names}, not {type(motion).__name__}.")
     if motion.shape:
         raise AtlasError(f"A trajectory is graded against one motion, not against {motion.shape} of them.")
@@ -185,7 +185,7 @@ def _arguments(motion: Any) -> dict[str, Any]:
     return dict[str, Any](motion.arguments, **({"field": (0.0, 0.0)} if isinstance(motion, FreeMotion) else {}))
 
 
-def check_file(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
+def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Check:
     """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; `given` parameters override its # lines.
 
     Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
@@ -202,14 +202,14 @@ def check_file(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
     The file is gone through once, in blocks. Raises AtlasError for what is no such file, or no such motion.
     """
     with opened(path) as trajectory:
-        return _graded(trajectory, threshold, given)
+        return _graded(trajectory, threshold, parameters)
 
 
-def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) -> Check:
+def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, Any]) -> Check:
     """Grade a trajectory in one go."""
     if not 0 <= threshold <= MOST:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
-    known = reference(trajectory.parameters, given, trajectory.file)
+    known = reference(trajectory.parameters, parameters, trajectory.file)
     errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
     graded = [name for name in trajectory.names if name != "t"] if errors else []
     if errors:
@@ -219,12 +219,12 @@ def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) 
     first = last = 0.0
     for block in trajectory.blocks:
         if errors:
-            found = errors.of_block(block)
+            differences = errors.of_block(block)
             _within(threshold, errors.floor)
             for grade in grades:
-                grade.add(block, found[grade.name])
-            envelope.add(block["t"], found)
-            inverse |= not rows and inverse_fits(errors, block, found, 10.0**-threshold)
+                grade.add(block, differences[grade.name])
+            envelope.add(block["t"], differences)
+            inverse |= not rows and inverse_fits(errors, block, differences, 10.0**-threshold)
         drifts.add(block)
         first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
         rows += len(block["t"])

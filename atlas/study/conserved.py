@@ -150,9 +150,9 @@ def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
         yield "R^T R", "orthogonality of R", "(12)", defect
 
 
-def _against(found: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
+def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
     """Yield how far what is conserved is from its values at the start."""
-    for (name, says, label, value, _), (_, _, _, true, size) in zip(found, start, strict=True):
+    for (name, says, label, value, _), (_, _, _, true, size) in zip(values, start, strict=True):
         yield name, says, label, (value - true) / (size or 1)
 
 

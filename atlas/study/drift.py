@@ -124,13 +124,13 @@ def drift(
 
     start = np.array([*state, 0.0, 0.0, 0.0])
     if times[-1] > 0:
-        found = solve_ivp(
+        solution = solve_ivp(
             slopes, (0.0, times[-1]), start, "DOP853", dense_output=True, rtol=TOLERANCE,
             atol=np.array([*(TOLERANCE * np.abs(state) + 1e-300), *[TOLERANCE] * 3]),
         )  # fmt: skip
-        if not found.success:
-            raise DomainError(f"The averaged motion can't be followed further than t = {found.t[-1]:.6g}.")
-        rows = found.sol(times).T
+        if not solution.success:
+            raise DomainError(f"The averaged motion can't be followed further than t = {solution.t[-1]:.6g}.")
+        rows = solution.sol(times).T
     else:
         rows = np.tile(start, (times.size, 1))
     nu, each, bodies = nu if times[-1] == 0 else _start(motion)[2], [], tuple(map(body_at, times.tolist()))
@@ -196,10 +196,10 @@ class Averages:
             sine2 = 1 - self.nu * self.nu
             self.action = float(I2 * np.mean((half * np.sin(s)) ** 2 * root / sine2))
             turning = (p - M3 * self.nu) / (I2 * sine2) - k2 / I2
-            found = np.array([self.period, self.mean(turning), self.action])
-            if np.all(abs(found - before) <= SETTLED * (abs(found) + more)):
+            means = np.array([self.period, self.mean(turning), self.action])
+            if np.all(abs(means - before) <= SETTLED * (abs(means) + more)):
                 break
-            count, before = 2 * count, found
+            count, before = 2 * count, means
             if count > MOST or not np.isfinite(self.period):
                 raise DomainError(
                     "The motion comes to a separatrix or a pole, where averaging over its nutation fails."
@@ -208,7 +208,7 @@ class Averages:
         self.along = (p - M3 * self.nu - k2 * sine2) / I2
         potential = a * self.nu + A * self.nu**2 / 2
         self.square = 2 / I2 * (h - potential - I3 * self.Omega3**2 / 2)
-        self.rates = 2 * np.pi / self.period, float(found[1]), self.mean(self.Omega3 - self.nu * turning)
+        self.rates = 2 * np.pi / self.period, float(means[1]), self.mean(self.Omega3 - self.nu * turning)
 
     def mean(self, values: FloatArray) -> float:
         """Return the mean over time of values at the nodes."""

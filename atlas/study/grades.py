@@ -70,20 +70,22 @@ class Errors:
         true: dict[str, Long] = {}
         for names, values in zip(GROUPS.values(), (R, Omega, q), strict=True):
             true |= dict(zip(names, values.T, strict=True))
-        found = {name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"}
+        differences = {
+            name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"
+        }
         floor = self._truth.floor + self._truth.growth * np.abs(t)
         if self._truth.growth:
             self.floor = self.uncertainty = max(self.floor, float(floor.max()))
-        found = {name: np.maximum(errors, floor) for name, errors in found.items()}
-        least = np.min(list(found.values()), axis=0)
+        differences = {name: np.maximum(errors, floor) for name, errors in differences.items()}
+        least = np.min(list(differences.values()), axis=0)
         for i in np.flatnonzero(~near | (least < self._truth.near)):
             for name, error in self.certified(block, int(i)).items():
-                found[name][i] = error
-        return found
+                differences[name][i] = error
+        return differences
 
-    def _difference(self, name: str, found: FloatArray, true: Long) -> FloatArray:
+    def _difference(self, name: str, values: FloatArray, true: Long) -> FloatArray:
         unit = self._length if name in OMEGA else np.longdouble(1)
-        return np.asarray(np.minimum(np.abs(found - true) / unit, LARGEST), dtype=np.float64)
+        return np.asarray(np.minimum(np.abs(values - true) / unit, LARGEST), dtype=np.float64)
 
     def certified(self, block: Block, i: int) -> dict[str, float]:
         """Return proven upper bounds, 2^-80 above, on the errors of all columns in a row of a block.
@@ -147,11 +149,11 @@ class Grade:
         return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), at, self._fails_at)
 
 
-def inverse_fits(errors: Errors, block: Block, found: Block, limit: float) -> bool:
+def inverse_fits(errors: Errors, block: Block, values: Block, limit: float) -> bool:
     """Return whether most rotations of a block have errors beyond a limit, and their inverses have not."""
     names = [name for name in block if name in (*MATRIX, *QUATERNION)]
     taken = {name: f"R{name[2]}{name[1]}" if name in MATRIX else name for name in names}
-    if not names or not {*taken.values()} <= {*names} or _most(found, names) <= limit:
+    if not names or not {*taken.values()} <= {*names} or _most(values, names) <= limit:
         return False
     turned = {name: -block[other] if name in QUATERNION[1:] else block[other] for name, other in taken.items()}
     return _most(errors.of_block({"t": block["t"]} | turned), names) <= limit
@@ -201,8 +203,8 @@ class Envelope:
 def _quaternion(motion: Any, t: float) -> list[Real]:
     """Return a unit quaternion of R(t), scalar first; where a motion has only the matrix, from that."""
     if hasattr(motion, "quaternion"):
-        found: list[Real] = motion.quaternion(t)
-        return found
+        numbers: list[Real] = motion.quaternion(t)
+        return numbers
     R = motion.rotation(t)
     x, y, z, w = quaternion(R, of_matrix([[float(arb(x)) for x in row] for row in R]).tolist())
     return [w, x, y, z]
@@ -214,9 +216,9 @@ def _precise(function: Callable[[], Any]) -> Any:
     while True:
         with workprec(precision):
             value = function()
-        found = [arb(x) for x in numbers(value)]
-        size = max((float(abs(x).mid()) for x in found if x.is_finite()), default=0.0)
-        if all(x.is_finite() and float(x.rad()) <= size * 2.0**-BITS for x in found):
+        balls = [arb(x) for x in numbers(value)]
+        size = max((float(abs(x).mid()) for x in balls if x.is_finite()), default=0.0)
+        if all(x.is_finite() and float(x.rad()) <= size * 2.0**-BITS for x in balls):
             return value
         precision *= 2
 

@@ -52,5 +52,5 @@ def _mapped(x: FloatArray, ratio: float | Range, field: Field, omega2: float | R
     t = np.geomspace(*CLOCK, rows + 1)
     settings = {"ratio": ratio, "B2": field[0], "B3": field[1], "omega2": omega2, "t": Range.middles(t / b, log=True)}
     table = Tabulation("elementary", settings, QUANTITIES)
-    found = table.columns()
-    return ErrorMap(x, t, found["plain_error"].T, found["error"].T, table)
+    columns = table.columns()
+    return ErrorMap(x, t, columns["plain_error"].T, columns["error"].T, table)

@@ -45,8 +45,8 @@ class Reference:
         """Return omega3, k and phi of an elementary motion; of others nothing, for their angles belong to a period."""
         if not isinstance(motion := self.motion, ElementaryMotion):
             return {}
-        found: dict[str, str] = certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15)
-        return found
+        digits: dict[str, str] = certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15)
+        return digits
 
 
 def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str) -> Reference:
@@ -73,22 +73,22 @@ def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str)
     start = _start(written, file, given)
     if "omega" not in start:
         start = {"omega2": _needed(start, "omega2", file)} | start
-    made = (GeneralMotion if "omega" in start else ElementaryMotion)(*parameters.values(), **start)
+    motion = (GeneralMotion if "omega" in start else ElementaryMotion)(*parameters.values(), **start)
     with workprec():
-        unit = arb(sum(w * w for w in made.omega)).sqrt() if any(made.omega) else 1
-    case = made.case if isinstance(made, ElementaryMotion) else made.kind
-    return Reference(case, _shown(parameters | start), partial(of_motion, made), made, unit)
+        unit = arb(sum(w * w for w in motion.omega)).sqrt() if any(motion.omega) else 1
+    case = motion.case if isinstance(motion, ElementaryMotion) else motion.kind
+    return Reference(case, _shown(parameters | start), partial(of_motion, motion), motion, unit)
 
 
-def _in_given_axes(made: Turned) -> Reference:
+def _in_given_axes(motion: Turned) -> Reference:
     """Return a motion of `atlas.motion`: with what it was given, and its integrals in these axes."""
-    tensor, field, R, omega = made.given
+    tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)
     parts = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
     shown = {name: x.tolist() for name, x in parts.items()}
     unit = float(np.abs([*K, *omega]).max()) or 1.0
-    case = made.kind if hasattr(made, "kind") else made.family
-    return Reference(case, shown, AnyBody(tensor, field, (omega, K)), made, unit)
+    case = motion.kind if hasattr(motion, "kind") else motion.family
+    return Reference(case, shown, AnyBody(tensor, field, (omega, K)), motion, unit)
 
 
 def _any_body(known: Given, start: Given, file: str) -> Reference:
@@ -108,9 +108,11 @@ def _any_body(known: Given, start: Given, file: str) -> Reference:
     if not start:
         return Reference("any inertia tensor", shown, AnyBody(tensor, field))
     omega = np.array(start["omega"], dtype=float)
-    made = AsymmetricMotion(given, field.tolist(), omega.tolist())
+    asymmetric = AsymmetricMotion(given, field.tolist(), omega.tolist())
     unit = float(np.abs([*field, *omega]).max()) or 1.0
-    return Reference(made.kind, shown | {"omega": omega.tolist()}, AnyBody(tensor, field, (omega, field)), made, unit)
+    return Reference(
+        asymmetric.kind, shown | {"omega": omega.tolist()}, AnyBody(tensor, field, (omega, field)), asymmetric, unit
+    )
 
 
 def _moments(known: Given, file: str) -> tuple[float, ...]:
@@ -131,13 +133,13 @@ def _top(known: Given, file: str) -> Reference:
         )
     omega, direction = _needed(known, "omega", file), _needed(known, "direction", file)
     coupling, linear, quadratic = known.get("coupling", (0.0, 0.0)), *(_number(known.get(x, 0.0)) for x in OF_TOPS[2:])
-    made = TopMotion(known["inertia"], coupling, direction, omega, linear, quadratic)
+    motion = TopMotion(known["inertia"], coupling, direction, omega, linear, quadratic)
     I2 = float(known["inertia"][0])
     rates = np.abs([*omega, *(k / I2 for k in coupling), *(np.sqrt(abs(a) / I2) for a in (linear, quadratic))])
     parts = {"inertia": known["inertia"], "coupling": coupling, "direction": direction, "omega": omega}
     potential = {"linear": float(linear), "quadratic": float(quadratic)}
     shown = {name: [*map(float, value)] for name, value in parts.items()} | potential
-    return Reference(f"top, {made.kind}", shown, partial(of_top, made), made, float(rates.max()) or 1.0)
+    return Reference(f"top, {motion.kind}", shown, partial(of_top, motion), motion, float(rates.max()) or 1.0)
 
 
 def _beside(names: Iterable[str]) -> str:
@@ -146,17 +148,17 @@ def _beside(names: Iterable[str]) -> str:
 
 def _start(written: Mapping[str, tuple[float, ...]], file: str, given: Given) -> dict[str, Any]:
     """Return the initial angular velocity: omega, or omega2 and omega3, or nothing; what is given comes first."""
-    one = given.keys() & {"omega2", "omega3"}
-    if "omega" in given and one:
+    components = given.keys() & {"omega2", "omega3"}
+    if "omega" in given and components:
         raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
     if "omega" in given:
         return {"omega": given["omega"]}
-    if not one and "omega" in written and "omega2" in written:
+    if not components and "omega" in written and "omega2" in written:
         raise AtlasError(f"{file} gives the start twice, by omega and by omega2: leave one of them out.")
-    if not one and "omega" in written:
+    if not components and "omega" in written:
         return {"omega": written["omega"]}
-    found = {name: written[name][0] for name in ("omega2", "omega3") if name in written}
-    return found | {name: given[name] for name in sorted(one)}
+    start = {name: written[name][0] for name in ("omega2", "omega3") if name in written}
+    return start | {name: given[name] for name in sorted(components)}
 
 
 def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:

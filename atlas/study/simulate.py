@@ -87,8 +87,8 @@ def simulate(
     """
     from scipy.integrate import solve_ivp
 
-    given, B, start, t = body_tensor(inertia), _field(field), vector(omega, "omega", RATE), _times(times)
-    tensor = given / np.abs(given).max()
+    moments, B, start, t = body_tensor(inertia), _field(field), vector(omega, "omega", RATE), _times(times)
+    tensor = moments / np.abs(moments).max()
     if method not in METHODS:
         raise AtlasError(f"The method must be one of {', '.join(METHODS)}, not {method!r}.")
     rtol, atol = positive(rtol, "rtol"), positive(atol, "atol")
@@ -121,7 +121,7 @@ def simulate(
             raise AtlasError(f"{method} did not reach t = {t[-1]:g}: {words}")
         states, evaluations = solution.y.T, int(solution.nfev)
     R, Omega = states[place, :9].reshape(-1, 3, 3), states[place, 9:] * unit
-    return Simulation(t, R, Omega, method, rtol, atol, evaluations, perf_counter() - began, given, B, start)
+    return Simulation(t, R, Omega, method, rtol, atol, evaluations, perf_counter() - began, moments, B, start)
 
 
 def _field(field: Any) -> FloatArray:
@@ -170,7 +170,7 @@ def flow(
             k1 * v2 - k2 * v1,
         )
 
-    found = solve_ivp(
+    solution = solve_ivp(
         rates, (0.0, float(times[-1])), np.concatenate([W, K]), "DOP853", times, rtol=TOLERANCE, atol=TOLERANCE
     )
-    return found.y[:3].T, found.y[3:].T
+    return solution.y[:3].T, solution.y[3:].T

@@ -90,7 +90,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
 
 
-def of_arrays(t: Any, given: Mapping[str, Any], *, scalar_first: bool) -> Trajectory:
+def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> Trajectory:
     """Return the trajectory of times (N,) and arrays, None where one is left out.
 
     They are rotations (N, 3, 3), quaternions (N, 4) and angular_velocities (N, 3). Raises AtlasError for another shape,
@@ -103,9 +103,9 @@ def of_arrays(t: Any, given: Mapping[str, Any], *, scalar_first: bool) -> Trajec
     order = QUATERNION if scalar_first else (*QUATERNION[1:], QUATERNION[0])
     columns = {"t": times}
     for (what, shape), names in zip(shapes.items(), (MATRIX, order, OMEGA), strict=True):
-        if given[what] is None:
+        if quantities[what] is None:
             continue
-        values, wanted = real(given[what], what), (*times.shape, *shape)
+        values, wanted = real(quantities[what], what), (*times.shape, *shape)
         if values.shape != wanted:
             raise AtlasError(f"The {what} of {times.size} times are an array {wanted}, not {values.shape}.")
         columns |= dict(zip(names, values.reshape(times.size, -1).T, strict=True))
@@ -168,20 +168,20 @@ def _cells(line: str, names: Sequence[str], separator: str | None, where: str) -
 
 def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
     """Return the parameters of a # line, none where it is a comment."""
-    found: dict[str, tuple[float, ...]] = {}
-    for part in line.split(";"):
-        key = re.match(r"\s*(\w+)\s*([=:])\s*", part)
+    parameters: dict[str, tuple[float, ...]] = {}
+    for item in line.split(";"):
+        key = re.match(r"\s*(\w+)\s*([=:])\s*", item)
         if key is None or (name := key[1].lower()) not in PARAMETERS:
             continue
-        words = re.split(r"[,\s]+", part[key.end() :].strip(" ()[]"))
+        words = re.split(r"[,\s]+", item[key.end() :].strip(" ()[]"))
         if key[2] == ":" and not re.match(r"[+-]?\.?\d", words[0]):
             continue  # "# field: along e3" is a comment
         values = tuple(_number(word, f"{where}, parameter {name}") for word in words)
         if len(values) not in PARAMETERS[name]:
             counts = " or ".join(map(str, PARAMETERS[name]))
             raise AtlasError(f"{where}: {name} takes {counts} numbers, not {len(values)}.")
-        found[name] = values
-    return found
+        parameters[name] = values
+    return parameters
 
 
 def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:

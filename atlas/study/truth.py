@@ -121,20 +121,20 @@ def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
 
 def _in_given_axes(motion: Turned, unit: float) -> KernelTruth:
     """Return a motion in given axes, in doubles: the components along the axes of its class are rounded."""
-    found = KernelTruth(motion, np.inf)
-    found.uncertainty = found.floor = 4 * KernelTruth.uncertainty
-    found.near, found.growth = 0.0, 4 * unit * float(np.finfo(float).eps)
-    return found
+    truth = KernelTruth(motion, np.inf)
+    truth.uncertainty = truth.floor = 4 * KernelTruth.uncertainty
+    truth.near, truth.growth = 0.0, 4 * unit * float(np.finfo(float).eps)
+    return truth
 
 
 def _of_three_moments(single: SingleAsymmetric, unit: float) -> KernelTruth:
     """Return the theta functions of a motion; where there are none balls decide each row."""
     if not isinstance(single.closed, ThetaKernel):
         return KernelTruth(single, -1.0)
-    found = KernelTruth(single, PHASE * REACH / unit)
-    found.uncertainty = found.floor = single.closed.accuracy + (single.closed.proved or 0.0)
-    found.near = 0.0
-    return found
+    truth = KernelTruth(single, PHASE * REACH / unit)
+    truth.uncertainty = truth.floor = single.closed.accuracy + (single.closed.proved or 0.0)
+    truth.near = 0.0
+    return truth
 
 
 def long(value: Real) -> np.longdouble:

@@ -101,8 +101,8 @@ def check_rows(seed: int, index: int) -> WorstErrors:
     def describe(i: int) -> dict[str, str]:
         return {name: x.hex() for name, x in zip(INPUTS, rows[i], strict=True)}
 
-    found = zip(rows, motion.omega3.tolist(), motion.k.tolist(), motion.phi.tolist(), strict=True)
-    scalars = list(zip(*(_scalars(*row) for row in found), strict=True))
+    computed = zip(rows, motion.omega3.tolist(), motion.k.tolist(), motion.phi.tolist(), strict=True)
+    scalars = list(zip(*(_scalars(*row) for row in computed), strict=True))
     for name, values in zip(("omega3", "k", "phi"), scalars, strict=True):
         worst.add(name, REGIME, values, describe)
     for name, errors in zip(("R orthogonality", "R determinant"), rigidity(R), strict=True):
@@ -126,11 +126,11 @@ def _scalars(row: list[float], omega3: float, k: float, phi: float) -> tuple[flo
     )
 
 
-def _error(found: float, true: fmpq) -> float:
+def _error(value: float, true: fmpq) -> float:
     """Return |found - true| in ulps of what was found; what over- or underflows is left to `check_motion`."""
-    if not 1e-290 < abs(found) < 1e300:
+    if not 1e-290 < abs(value) < 1e300:
         return 0.0
-    difference = (fmpq(*found.as_integer_ratio()) - true) / fmpq(*float(np.spacing(abs(found))).as_integer_ratio())
+    difference = (fmpq(*value.as_integer_ratio()) - true) / fmpq(*float(np.spacing(abs(value))).as_integer_ratio())
     return abs(int(difference.p) / int(difference.q))
 
 
@@ -199,8 +199,8 @@ def check_general_rows(seed: int, index: int) -> WorstErrors:
     # on a separatrix there are no angles to check
     chosen = [i for i in range(len(GENERAL) + CHECKED) if kinds[i].startswith("nutation")]
     some = GeneralMotion(I[chosen], tuple(B[:, chosen]), tuple(omega[:, chosen]))
-    found = np.stack([getattr(some, name) for name in SCALARS], -1)
-    for i, values in zip(chosen, found.tolist(), strict=True):
+    scalars = np.stack([getattr(some, name) for name in SCALARS], -1)
+    for i, values in zip(chosen, scalars.tolist(), strict=True):
         true = enclosed(partial(_angles, Balls(*(x[i] for x in rows[:3]))), BITS)
         with workprec(BITS + 16):
             worst.add("general scalars", GENERAL_REGIME, own(values, true), with_more(describe(i)))
@@ -221,8 +221,8 @@ def _drift(I: FloatArray, B: FloatArray, omega: FloatArray, Omega: FloatArray, K
     size = np.maximum(abs(B).max(axis=0), abs(omega).max(axis=0))
     unit = np.where(size == 0, 1.0, size)
     start = _integrals(I, (omega / unit).T, np.vstack([0 * B[:1], B / unit]).T)
-    found = _integrals(I, Omega / unit[:, None], K / unit[:, None])
-    return np.asarray(abs(found - start).max(axis=0) / ONE)
+    integrals = _integrals(I, Omega / unit[:, None], K / unit[:, None])
+    return np.asarray(abs(integrals - start).max(axis=0) / ONE)
 
 
 def _integrals(I: FloatArray, Omega: FloatArray, K: FloatArray) -> FloatArray:

@@ -59,15 +59,15 @@ def check(
     """
     family = FAMILIES[name]
     with worst.checking(name, regime, inputs):
-        exact, found = family.balls()(*(exactly or values)), family.kernels()(*values)
+        exact, kernel = family.balls()(*(exactly or values)), family.kernels()(*values)
         for q in family.quantities:
             if q.checked:
                 true = enclosed(lambda q=q: list(_flat(q.value(exact, exact=True))), BITS)  # type: ignore[misc]
-                worst.add(q.checked, regime, own(np.ravel(q.value(found)), true), with_more(inputs))
+                worst.add(q.checked, regime, own(np.ravel(q.value(kernel)), true), with_more(inputs))
         place = where(exact) if where else lambda _: regime
         for s in family.sampled:
             for t, value in zip(
-                times, s.method_of(found)(np.array(times)) if s.checked else (), strict=bool(s.checked)
+                times, s.method_of(kernel)(np.array(times)) if s.checked else (), strict=bool(s.checked)
             ):
                 true = truth(partial(s.method_of(exact), t))
                 if s.matrix:
@@ -78,7 +78,7 @@ def check(
                     errors = [of_length(value, true)]
                 worst.add(s.checked, place(t), errors, with_more(inputs, t=t.hex()))
         if more:
-            more(found, exact, place)
+            more(kernel, exact, place)
 
 
 def by_clock(regime: str, *rates: str | float) -> Callable[[Any], Where]:
@@ -97,9 +97,9 @@ def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> Non
     inputs, times = described(motion), motion.times
     rest = (motion.B2, motion.B3), motion.omega2, motion.omega3
 
-    def more(found: Any, exact: Any, where: Where) -> None:
+    def more(kernel: Any, exact: Any, where: Where) -> None:
         at = np.array(times)
-        R, axis, columns = found.rotation(at), found.third_axis(at), [found.column(j, at) for j in (1, 2)]
+        R, axis, columns = kernel.rotation(at), kernel.third_axis(at), [kernel.column(j, at) for j in (1, 2)]
         slow = abs(approximate(enclosed(lambda: exact.k, BITS)))
         for i, t in enumerate(times):
             true = enclosed(partial(exact.rotation, t), BITS)
@@ -109,28 +109,28 @@ def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> Non
                 "third axis": absolute(axis[i], third),
             }
             if i % 6 == 5:
-                errors["R at one time"] = absolute(found.rotation(t).flat, chain(*true))
+                errors["R at one time"] = absolute(kernel.rotation(t).flat, chain(*true))
             if abs(slow * t) < 1:
                 errors["R13, R23 for |kt| < 1"] = own([*R[i, :2, 2], *axis[i, :2]], third[:2] * 2)
             for name, values in errors.items():
                 worst.add(name, where(t), values, with_more(inputs, t=t.hex()))
-        start = np.abs(found.rotation(np.array([0.0, -0.0])) - np.eye(3)).max() / ONE
+        start = np.abs(kernel.rotation(np.array([0.0, -0.0])) - np.eye(3)).max() / ONE
         worst.add("R(0) = 1", regime, [float(start)], with_more(inputs))
-        _scaling(motion, found, regime, worst, inputs)
+        _scaling(motion, kernel, regime, worst, inputs)
         for name, defects in zip(("R orthogonality", "R determinant"), rigidity(R), strict=True):
             worst.add(name, regime, defects, lambda i: inputs | {"t": times[i].hex()})
         for count in GRIDS:
             step = (times[5] - times[4]) / count
             if step and times[4] + count * step != times[4]:
                 places = (0, 1, 63, 64, count // 3, count - 33, count - 32, count - 1)
-                on_grid("R grid", found, exact, (times[4], step, count), places, regime, worst, inputs)
+                on_grid("R grid", kernel, exact, (times[4], step, count), places, regime, worst, inputs)
 
     clock = by_clock(regime, "k", "phi")
     values, exactly = (motion.ratio, *rest), (motion.exact_ratio, *rest)
     check("elementary", regime, values, worst, inputs, exactly=exactly, times=times, where=clock, more=more)
 
 
-def _scaling(motion: extreme.Motion, found: Any, regime: str, worst: WorstErrors, inputs: Inputs) -> None:
+def _scaling(motion: extreme.Motion, kernel: Any, regime: str, worst: WorstErrors, inputs: Inputs) -> None:
     """Check that R does not change when all frequencies are scaled by a power of two."""
     times, make = np.array(motion.times), FAMILIES["elementary"].kernels()
     parts = (motion.B2, motion.B3, motion.omega2, motion.omega3 or 0.0)
@@ -142,19 +142,19 @@ def _scaling(motion: extreme.Motion, found: Any, regime: str, worst: WorstErrors
         exactly = np.ldexp(slow, shift) == times
         other = make(motion.ratio, (B2, B3), omega2, None if motion.omega3 is None else omega3)
         # the same number of times in both: a matrix product may round its last rows in another way
-        before, after = found.rotation(times[exactly]), other.rotation(slow[exactly])
+        before, after = kernel.rotation(times[exactly]), other.rotation(slow[exactly])
         normal = np.abs(before) >= np.finfo(float).tiny  # smaller entries have lost bits to underflow
         changed = np.abs(after - before).max(initial=0.0, where=normal) / ONE
         worst.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
 
 
 def on_grid(
-    name: str, found: Any, exact: Any, grid: tuple[float, float, int], places: Iterable[int], regime: str,
+    name: str, kernel: Any, exact: Any, grid: tuple[float, float, int], places: Iterable[int], regime: str,
     worst: WorstErrors, inputs: Inputs, truth: Truth = close,
 ) -> None:  # fmt: skip
     """Check a uniform grid (start, step, count) at a few of its exact times start + i step."""
     start, step, count = grid
-    R = found.rotation_grid(start, step, count)
+    R = kernel.rotation_grid(start, step, count)
     for i in places:
         true = truth(partial(exact.rotation, Fraction(start) + i * Fraction(step)))
         at = ({"start": start.hex()} if start else {}) | {"step": step.hex(), "count": count, "index": i}
@@ -167,19 +167,19 @@ def check_hyperbola(motion: extreme.Motion, regime: str, worst: WorstErrors) -> 
     if w2 == -motion.B2 or motion.B2 == 0:
         return
 
-    def more(found: Any, exact: Any, _: Where) -> None:
-        k, phi = found.frequencies(w2)
+    def more(kernel: Any, exact: Any, _: Where) -> None:
+        k, phi = kernel.frequencies(w2)
         true_k, true_phi = enclosed(lambda: exact.frequencies(w2), BITS)
         pairs = (
-            ("omega3 of the hyperbola", found.omega3(w2), exact.omega3(w2)),
+            ("omega3 of the hyperbola", kernel.omega3(w2), exact.omega3(w2)),
             ("k of the hyperbola", k, true_k),
             ("phi of the hyperbola", phi, true_phi),
-            ("stability", found.stability(w2), exact.stability(w2)),
+            ("stability", kernel.stability(w2), exact.stability(w2)),
         )
         for name, value, true in pairs:
             worst.add(name, regime, own([value], [true]), with_more(inputs))
         if motion.B3:
-            points = [(x, y) for x, y in zip(*found.sample(POINTS), strict=True) if np.isfinite(y)]
+            points = [(x, y) for x, y in zip(*kernel.sample(POINTS), strict=True) if np.isfinite(y)]
             errors = own((y for _, y in points), (exact.omega3(x) for x, _ in points))
             worst.add("points of the hyperbola", regime, errors, lambda i: inputs | {"at": float(points[i][0]).hex()})
 

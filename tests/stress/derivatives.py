@@ -173,7 +173,7 @@ def _rotation(random: Random) -> np.ndarray:
     return Q * np.sign(np.linalg.det(Q))
 
 
-def _in_laboratory(regime: str, J: np.ndarray, given: Any, third: np.ndarray, random: Random) -> Case:
+def _in_laboratory(regime: str, J: np.ndarray, start: Any, third: np.ndarray, random: Random) -> Case:
     """Draw a field, a start and an attitude, some of them along each other, of a body with a tensor."""
     R, size = _rotation(random), random.choice((0.1, 1.0, 10.0))
     B, w = (np.array([random.gauss(0, 1) for _ in range(3)]) * x for x in (size, 1.0))
@@ -184,7 +184,7 @@ def _in_laboratory(regime: str, J: np.ndarray, given: Any, third: np.ndarray, ra
         w = third * w[0]
     if special.endswith("about the field"):
         w = B @ R * 1.1
-    motion = atlas.motion(given, B, w, R)
+    motion = atlas.motion(start, B, w, R)
     ways, rate = _vectors("B", "omega", "a"), max(abs(B).max(), abs(w).max())
     axes = np.asarray(motion.axes)
     if motion.family == "asymmetric":
@@ -208,8 +208,8 @@ def turned(random: Random) -> Case:
         ("by moments", np.diag(moments), tuple(moments), np.roll(E[2], order)),
         ("by a tensor", tensor, tensor, C[:, (order + 2) % 3]),
     )
-    name, J, given, third = random.choice(forms)
-    return _in_laboratory(f"in the laboratory {name}", J, given, third, random)
+    name, J, start, third = random.choice(forms)
+    return _in_laboratory(f"in the laboratory {name}", J, start, third, random)
 
 
 def asymmetric(random: Random) -> Case:
@@ -232,19 +232,19 @@ def errors(case: Case, random: Random) -> Iterator[tuple[str, float]]:
     for name, share in zip(names, shares, strict=True):
         for key, change in case.ways[name].items():
             way[key] = way.get(key, 0.0) + share * np.asarray(change, float)
-    true, found = followed(case, way), [case.motion.sensitivity(t, names)[0]]
-    size = abs(shares) @ (1 + abs(found[0]).max(1))
+    true, vectors = followed(case, way), [case.motion.sensitivity(t, names)[0]]
+    size = abs(shares) @ (1 + abs(vectors[0]).max(1))
     rate = 1 + max(np.abs(case.state["w"]).max(), np.abs(case.state["B"]).max())
-    yield "R", np.abs(shares @ found[0] - true[0]).max() / size
+    yield "R", np.abs(shares @ vectors[0] - true[0]).max() / size
     for i, of in enumerate(("angular_velocity", "field"), 1):
         change = case.motion.sensitivity(t, names, of)[0]
         yield of, np.abs(shares @ change - true[i]).max() / (size * rate + abs(shares) @ abs(change).max(1))
-    one = next(iter(vars(case.motion).get("_differentiated", {}).values()))
-    varied = next((x for x in one._varied.values() if hasattr(x, "differences")), None)
+    derivatives = next(iter(vars(case.motion).get("_differentiated", {}).values()))
+    varied = next((x for x in derivatives._varied.values() if hasattr(x, "differences")), None)
     if varied and not hasattr(case.motion, "own"):
         t = FAR * case.t
-        moved = [x for x in one.inputs.names if x in case.ways]
-        apart = one.inputs.varied(moved)
+        moved = [x for x in derivatives.inputs.names if x in case.ways]
+        apart = derivatives.inputs.varied(moved)
         far, true_far = case.motion.sensitivity(t, moved), apart.differences.at(t)[0]
         yield "R, far", (np.abs(far - true_far).max(1) / (1 + abs(true_far).max(1))).max()
 

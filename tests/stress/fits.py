@@ -135,22 +135,20 @@ def main() -> None:
             one = make(np.random.default_rng([asked.seed, i]))
             began = time.process_time()
             try:
-                found = atlas.fit(one.t, **one.given)
+                fit = atlas.fit(one.t, **one.given)
             except atlas.AtlasError as error:
                 lost.append(f"{i}: {error}")
                 continue
             finally:
                 seconds.append(time.process_time() - began)
-            own = {
-                n: (found.params[n].value - x, found.params[n].stderr) for n, x in one.truth.items() if n in found.names
-            }
+            own = {n: (fit.params[n].value - x, fit.params[n].stderr) for n, x in one.truth.items() if n in fit.names}
             told = [(off, error) for off, error in own.values() if error is not None]  # of the others it says so
             # in the false minimum next to the true one, a parameter is off by far more than its error
-            if told and found.redchi < 1.5 and all(abs(off) < 8 * error + 1e-9 for off, error in told):
+            if told and fit.redchi < 1.5 and all(abs(off) < 8 * error + 1e-9 for off, error in told):
                 good += 1
                 pulls += [abs(off / error) < 1 for off, error in told]
             else:
-                lost.append(f"{i}: chi square {found.redchi:.3g}")
+                lost.append(f"{i}: chi square {fit.redchi:.3g}")
         share = 100 * np.mean(pulls) if pulls else float("nan")
         click.echo(
             f"{kind:26} {asked.samples:7} {good:9} {share:13.0f} % {np.median(seconds):12.2f} {max(seconds):9.1f}"

@@ -79,8 +79,8 @@ def errors(top: Top, solver: Any) -> Errors:
     t = float(TIME / unit)
     rate = Long(rate_of(top)) / unit
     turned = np.abs(motion.angular_velocity(t).astype(Long) / unit - Omega).max() / rate
-    found = np.abs(motion.rotation(t) - R).max(), turned, back
-    return Errors(*(float(x) / EPS for x in found))
+    distance = np.abs(motion.rotation(t) - R).max(), turned, back
+    return Errors(*(float(x) / EPS for x in distance))
 
 
 def main() -> int:

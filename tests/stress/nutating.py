@@ -74,11 +74,11 @@ def _structure(
 ) -> Callable[[Any, Any, Where], None]:
     """Return what checks that R is orthogonal, and 1 at t = 0."""
 
-    def more(found: Any, *_: Any) -> None:
-        R = found.rotation(np.array(times))
+    def more(kernel: Any, *_: Any) -> None:
+        R = kernel.rotation(np.array(times))
         defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
         worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
-        start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
+        start = np.abs(kernel.rotation(0.0) - np.eye(3)).max() / ONE
         worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
 
     return more
@@ -97,12 +97,12 @@ def _nutation(
     """Check a motion whose axis nutates, vectors in ulps of their `lengths`, or of a rate."""
     truth = partial(narrow, size=size)
 
-    def more(found: Any, exact: Any, where: Where) -> None:
-        _structure(name, regime, inputs, times, worst)(found, exact, where)
+    def more(kernel: Any, exact: Any, where: Where) -> None:
+        _structure(name, regime, inputs, times, worst)(kernel, exact, where)
         # long enough for polynomials; at ends of their windows too
         places = (0, 255, 511, 4099, GRID - 1)[: 2 if regime in ALONE else None]
         grid = (0.0, times[-1] / GRID, places[-1] + 1)
-        on_grid(f"{name} R grid", found, exact, grid, places, regime, worst, inputs, truth)
+        on_grid(f"{name} R grid", kernel, exact, grid, places, regime, worst, inputs, truth)
 
     def unit(vector: str, _: float) -> float:
         return lengths.get(vector, size) * ONE

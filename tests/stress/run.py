@@ -60,12 +60,12 @@ class Result:
 
     def by_quantity(self) -> list[Worst]:
         """Return for each quantity its worst regime, with the samples of all regimes."""
-        found = []
+        listed = []
         for quantity in dict.fromkeys(w.quantity for w in self.worst):
             rows = [w for w in self.worst if w.quantity == quantity]
             worst = max(rows, key=lambda w: w.ulps)
-            found.append(Worst(quantity, worst.regime, worst.ulps, worst.input, sum(w.samples for w in rows)))
-        return found
+            listed.append(Worst(quantity, worst.regime, worst.ulps, worst.input, sum(w.samples for w in rows)))
+        return listed
 
     def broken(self) -> list[Worst]:
         """Return what exceeds the promise of its quantity."""
@@ -89,38 +89,38 @@ def stress(samples: int, seed: int = 0, jobs: int = 1, progress: Progress | None
 
 def finished(seed: int, parts: Iterable[WorstErrors], samples: int, progress: Progress | None) -> Result:
     """Return the result of rounds, as many as are needed for so many values."""
-    found, count = WorstErrors(), 0
-    for part in parts:
-        found.merge(part)
-        count += sum(w.samples for w in part.worst.values())
+    worst, count = WorstErrors(), 0
+    for rounds in parts:
+        worst.merge(rounds)
+        count += sum(w.samples for w in rounds.worst.values())
         if progress is not None:
             progress(count, samples)
         if count >= samples:
             break
-    return Result(seed, count, tuple(found.worst[key] for key in sorted(found.worst)), tuple(found.refusals))
+    return Result(seed, count, tuple(worst.worst[key] for key in sorted(worst.worst)), tuple(worst.refusals))
 
 
 def one_round(seed: int, index: int) -> WorstErrors:
     """Check one motion of every regime with its quadric and hyperbola, special ones, and general ones."""
-    found = WorstErrors()
+    worst = WorstErrors()
     random = Random(f"{seed} {index}")  # noqa: S311  reproducible, not secret
     for regime in REGIMES:
         motion = extreme.motion(regime, random)
         for check in (check_motion, check_hyperbola, check_quadric):
-            check(motion, regime, found)
-    check_motion(extreme.special_motion(random), "B2 = 0", found)
-    check_free(extreme.free_motion(random), found)
-    check_ball(extreme.ball_motion(random), found)
-    check_particle(extreme.particle_motion(random), found)
+            check(motion, regime, worst)
+    check_motion(extreme.special_motion(random), "B2 = 0", worst)
+    check_free(extreme.free_motion(random), worst)
+    check_ball(extreme.ball_motion(random), worst)
+    check_particle(extreme.particle_motion(random), worst)
     for name, (regimes, check_one) in NUTATING.items():
         other = Random(f"{name} {seed} {index}")  # noqa: S311  the same
         for regime, draw in regimes.items():
-            check_one(draw(other), regime, other, found)
+            check_one(draw(other), regime, other, worst)
     if index % SELDOM == 0:
         other = Random(f"asymmetric {seed} {index}")  # noqa: S311  the same
         regime = list(ASYMMETRIC)[index // SELDOM % len(ASYMMETRIC)]
-        check_asymmetric(ASYMMETRIC[regime](other), regime, other, found)
-    return found
+        check_asymmetric(ASYMMETRIC[regime](other), regime, other, worst)
+    return worst
 
 
 def _rounds(seed: int, jobs: int, first: int) -> Iterator[WorstErrors]:

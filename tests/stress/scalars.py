@@ -38,11 +38,11 @@ def of_motion(random: Random, regime: str) -> Pairs:
     """Elementary motions, their hyperbola and quadric: (53), (54), (67), (71), (72), (79), theorem-stability."""
     m = extreme.motion(regime, random)
     I, B2, B3, w2 = mpf(m.I3) / mpf(m.I2), mpf(m.B2), mpf(m.B3), mpf(m.omega2)
-    made, field = atlas.ElementaryMotion(m.ratio, (m.B2, m.B3), m.omega2, m.omega3), (m.B2, m.B3)
+    motion, field = atlas.ElementaryMotion(m.ratio, (m.B2, m.B3), m.omega2, m.omega3), (m.B2, m.B3)
     true = closed_form.elementary(m.I2, m.I3, m.B2, m.B3, m.omega2, m.omega3)
-    yield from (("omega3", made.omega3, true.omega3), ("k", made.k, true.k), ("phi", made.phi, true.phi))
+    yield from (("omega3", motion.omega3, true.omega3), ("k", motion.k, true.k), ("phi", motion.phi, true.phi))
     if true.k:
-        yield "period", made.period, 2 * mp.pi / abs(true.k)
+        yield "period", motion.period, 2 * mp.pi / abs(true.k)
     quadric = atlas.Quadric(m.ratio, field)
     shape = closed_form.quadric(m.I2, m.I3, m.B2, m.B3)
     yield from (("beta", quadric.beta, shape.beta), ("a2", quadric.a2, shape.a2), ("a3", quadric.a3, shape.a3))
@@ -62,9 +62,9 @@ def of_closed(random: Random, regime: str) -> Pairs:
     """Motions that close: by (72) and (79), phi/k = L (x + 2)/(I b (x + 1)) with L = (1 - I) B3 and x = omega2/B2."""
     m = extreme.motion(regime, random)
     p, q = random.choice((-7, -2, -1, 1, 2, 3, 355)), random.choice((1, 2, 3, 5, 113))
-    made, I, B2, B3 = atlas.Hyperbola(m.ratio, (m.B2, m.B3)), mpf(m.I3) / mpf(m.I2), mpf(m.B2), mpf(m.B3)
+    curve, I, B2, B3 = atlas.Hyperbola(m.ratio, (m.B2, m.B3)), mpf(m.I3) / mpf(m.I2), mpf(m.B2), mpf(m.B3)
     L, turns, b = (1 - I) * B3, I * p * mp.sqrt(B2**2 + B3**2) / q, mp.sqrt(B2**2 + B3**2)
-    closed, x = made.closed(p, q), (turns - 2 * L) / (L - turns)
+    closed, x = curve.closed(p, q), (turns - 2 * L) / (L - turns)
     k = x * b
     third = B3 * x * (x + 2 - I) / (I * (x + 1))
     yield from (("closed omega2", closed.omega2, x * B2), ("closed omega3", closed.omega3, third))
@@ -81,7 +81,7 @@ def of_flight(random: Random, _: str) -> Pairs:
     B = [0.0, 2 * m.B2 / mu, 2 * m.B3 / mu]
     start, launch, point = ([random.uniform(-1, 1) for _ in range(3)] for _ in range(3))
     body = atlas.ElementaryMotion(m.ratio, (m.B2, m.B3), m.omega2, m.omega3)
-    made, t = atlas.Flight(atlas.ParticleMotion(mu, E, B, start, launch), body, point), random.uniform(-20, 20)
+    flight, t = atlas.Flight(atlas.ParticleMotion(mu, E, B, start, launch), body, point), random.uniform(-20, 20)
     R = closed_form.elementary_rotation(m.I2, m.I3, m.B2, m.B3, m.omega2, t, m.omega3)
     true = closed_form.particle(mu, E, B, start, launch, t).y
     true = [y + mp.fdot(R[i, :], point) for i, y in enumerate(true)]
@@ -89,7 +89,7 @@ def of_flight(random: Random, _: str) -> Pairs:
     yield (
         "flight position",
         [reach] * 3,
-        [reach + x - mpf(float(y)) for x, y in zip(true, made.position(t), strict=True)],
+        [reach + x - mpf(float(y)) for x, y in zip(true, flight.position(t), strict=True)],
     )
 
 
@@ -97,84 +97,84 @@ def of_free(random: Random, _: str) -> Pairs:
     """Free bodies, (87)."""
     m = extreme.free_motion(random)
     I, (w1, w2, w3) = mpf(m.I), map(mpf, m.omega)
-    made, k = atlas.FreeMotion(m.I, m.omega), mp.sqrt(w1**2 + w2**2 + (I * w3) ** 2)
-    yield from (("free k", made.k, k), ("free phi", made.phi, (1 - I) * w3))
+    motion, k = atlas.FreeMotion(m.I, m.omega), mp.sqrt(w1**2 + w2**2 + (I * w3) ** 2)
+    yield from (("free k", motion.k, k), ("free phi", motion.phi, (1 - I) * w3))
     if k:
-        yield "free period", made.period, 2 * mp.pi / k
+        yield "free period", motion.period, 2 * mp.pi / k
 
 
 def of_ball(random: Random, _: str) -> Pairs:
     """Charged balls, (29)."""
     m = extreme.ball_motion(random)
-    made = atlas.BallMotion(m.inertia, m.larmor, (m.m2, m.m3))
+    motion = atlas.BallMotion(m.inertia, m.larmor, (m.m2, m.m3))
     true = closed_form.ball(m.inertia, m.larmor, m.m2, m.m3)
-    yield from (("ball gamma", made.gamma, true.gamma), ("ball k_hat", made.k_hat, (true.k2, true.k3)))
+    yield from (("ball gamma", motion.gamma, true.gamma), ("ball k_hat", motion.k_hat, (true.k2, true.k3)))
 
 
 def of_particle(random: Random, _: str) -> Pairs:
     """Point charges, (94), (97): the radius is that of what remains of the velocity without the drift."""
     m = extreme.particle_motion(random)
-    made = atlas.ParticleMotion(m.mu, m.E, m.B, m.position, m.velocity, m.c)
+    motion = atlas.ParticleMotion(m.mu, m.E, m.B, m.position, m.velocity, m.c)
     E, B, v = ([mpf(x) for x in vector] for vector in (m.E, m.B, m.velocity))
     b, c = mp.sqrt(mp.fdot(B, B)), mpf(m.c)
-    yield "cyclotron frequency", made.cyclotron_frequency, mpf(m.mu) * b / c
+    yield "cyclotron frequency", motion.cyclotron_frequency, mpf(m.mu) * b / c
     if b:
         drift = [c * x / b**2 for x in _cross(E, B)]
         rest = _cross([x - y for x, y in zip(v, drift, strict=True)], B)
-        yield "drift", made.drift, drift
-        yield "radius", made.radius, mp.sqrt(mp.fdot(rest, rest)) * c / (abs(mpf(m.mu)) * b**2)
-        yield "particle period", made.period, 2 * mp.pi * c / (abs(mpf(m.mu)) * b)
+        yield "drift", motion.drift, drift
+        yield "radius", motion.radius, mp.sqrt(mp.fdot(rest, rest)) * c / (abs(mpf(m.mu)) * b**2)
+        yield "particle period", motion.period, 2 * mp.pi * c / (abs(mpf(m.mu)) * b)
 
 
 def of_elliptic(random: Random, regime: str) -> Pairs:
     """Elliptic motions, theorem-elliptic and theorem-splitting; K turns by Euler's equations with v/(z I_i + D)."""
     m = ELLIPTIC[regime](random)
-    made = atlas.EllipticMotion(*m)
+    motion = atlas.EllipticMotion(*m)
     I, K, z = [mpf(x) for x in m.inertia], [mpf(x) for x in m.field], mpf(m.z)
     D = I[0] * I[1] * I[2]
-    x = [z + D / one for one in I]
+    x = [z + D / moment for moment in I]
     v = m.branch * mp.sqrt(x[0] * x[1] * x[2])
-    yield from (("elliptic v", made.v, v),)
-    yield "elliptic omega", made.omega, [-(1 + v / (z * one + D)) * k for one, k in zip(I, K, strict=True)]
+    yield from (("elliptic v", motion.v, v),)
+    yield "elliptic omega", motion.omega, [-(1 + v / (z * moment + D)) * k for moment, k in zip(I, K, strict=True)]
     pairs = ((i, x[i - 2], x[i - 1]) for i in range(3))
     C = sum(K[i] ** 2 / x[i] * (x[i] * (y + w) - y * w) ** 2 for i, y, w in pairs)
-    yield "elliptic splitting", made.splitting, C / D**2
-    e = sorted((v / (z * one + D), k) for one, k in zip(I, K, strict=True))
+    yield "elliptic splitting", motion.splitting, C / D**2
+    e = sorted((v / (z * moment + D), k) for moment, k in zip(I, K, strict=True))
     (last, _), (middle, _), (first, _) = e
-    low = sum((one - last) * k**2 for one, k in e) * (first - middle)
-    high = sum((first - one) * k**2 for one, k in e) * (middle - last)
-    if low != high and low and high and made.period < mp.inf:
+    low = sum((moment - last) * k**2 for moment, k in e) * (first - middle)
+    high = sum((first - moment) * k**2 for moment, k in e) * (middle - last)
+    if low != high and low and high and motion.period < mp.inf:
         modulus = min(low, high) / max(low, high)
-        yield "elliptic period", made.period, 4 * mp.ellipk(modulus) / mp.sqrt(max(low, high))
+        yield "elliptic period", motion.period, 4 * mp.ellipk(modulus) / mp.sqrt(max(low, high))
 
 
 def of_top(random: Random, regime: str) -> Pairs:
     """Tops, by the integrals of the energy, of M3 and of (M, n) over a nutation."""
     m = TOPS[regime](random)
-    made, true = atlas.TopMotion(*m), nutation(*m)
+    motion, true = atlas.TopMotion(*m), nutation(*m)
     if true is not None:
-        yield "top turning points", made.turning_points, true.turning_points
-        yield from _turns("top", made, true)
+        yield "top turning points", motion.turning_points, true.turning_points
+        yield from _turns("top", motion, true)
 
 
 def of_general(random: Random, regime: str) -> Pairs:
     """General motions: a top whose M is II (Omega + K), without a potential."""
     I, field, omega = GENERAL[regime](random)
     b = mp.sqrt(mp.fdot(map(mpf, field), map(mpf, field)))
-    made, true = atlas.GeneralMotion(I, field, omega), nutation((1, I), (b, b * I), field, omega, 0, 0) if b else None
+    motion, true = atlas.GeneralMotion(I, field, omega), nutation((1, I), (b, b * I), field, omega, 0, 0) if b else None
     if true is not None:
         third = mpf(omega[2]) + mpf(field[1])
-        yield "general turning points", made.turning_points, [third - b * nu for nu in true.turning_points[::-1]]
-        yield from _turns("general", made, true)
+        yield "general turning points", motion.turning_points, [third - b * nu for nu in true.turning_points[::-1]]
+        yield from _turns("general", motion, true)
 
 
-def _turns(name: str, made: Any, true: Nutation) -> Pairs:
-    yield f"{name} period", made.period, true.period
+def _turns(name: str, motion: Any, true: Nutation) -> Pairs:
+    yield f"{name} period", motion.period, true.period
     if true.precession is not None and true.spin is not None:
-        yield f"{name} precession per period", made.precession_per_period, true.precession
-        yield f"{name} precession rate", made.precession_rate, true.precession / true.period
-        yield f"{name} spin per period", made.spin_per_period, true.spin
-        yield f"{name} spin rate", made.spin_rate, true.spin / true.period
+        yield f"{name} precession per period", motion.precession_per_period, true.precession
+        yield f"{name} precession rate", motion.precession_rate, true.precession / true.period
+        yield f"{name} spin per period", motion.spin_per_period, true.spin
+        yield f"{name} spin rate", motion.spin_rate, true.spin / true.period
 
 
 def _cross(x: Sequence[Any], y: Sequence[Any]) -> list[Any]:
@@ -224,16 +224,16 @@ def main() -> int:
             seed = f"scalars {kind.__name__} {options.seed} {number}"
             with mp.workdps(digits):
                 try:
-                    for name, found, true in kind(Random(seed), regime):  # noqa: S311  reproducible, not secret
-                        worst.add(name, regime, compare(found, true), lambda _, seed=seed: {"seed": seed})
+                    for name, value, true in kind(Random(seed), regime):  # noqa: S311  reproducible, not secret
+                        worst.add(name, regime, compare(value, true), lambda _, seed=seed: {"seed": seed})
                 except AtlasError as reason:
                     refused[str(reason)[:60]] = refused.get(str(reason)[:60], 0) + 1
     broken = False
     for name in dict.fromkeys(name for name, _ in worst.worst):
-        rows = [one for one in worst.worst.values() if one.quantity == name]
-        one, count = max(rows, key=lambda row: row.ulps), sum(row.samples for row in rows)
-        broken |= not one.ulps <= PROMISED
-        click.echo(f"{name:28} {count:7} {one.ulps:9.3g} ulp  {one.regime}: {one.input['seed']}")
+        rows = [largest for largest in worst.worst.values() if largest.quantity == name]
+        largest, count = max(rows, key=lambda row: row.ulps), sum(row.samples for row in rows)
+        broken |= not largest.ulps <= PROMISED
+        click.echo(f"{name:28} {count:7} {largest.ulps:9.3g} ulp  {largest.regime}: {largest.input['seed']}")
     for reason, count in refused.items():
         click.echo(f"refused {count} times: {reason}")
     return int(broken)

@@ -45,17 +45,19 @@ class Found(NamedTuple):
 def compared(draw: Asymmetric, random: Random, count: int) -> Found | str:
     """Return how a motion's closed form compares at so many times, or why it has none."""
     started = time.process_time()
-    one = SingleAsymmetric(AsymmetricMotion(*draw))
-    if one.closed is None:
-        return one.agreement
+    motion = SingleAsymmetric(AsymmetricMotion(*draw))
+    if motion.closed is None:
+        return motion.agreement
     seconds = time.process_time() - started
-    times = np.array([random.choice((1, -1)) * 10 ** random.uniform(-1, 12) for _ in range(count)]) / one.size
+    times = np.array([random.choice((1, -1)) * 10 ** random.uniform(-1, 12) for _ in range(count)]) / motion.size
     worst = 0.0
-    for name, size in (("rotation", 1.0), ("field_in_body", one.size), ("angular_velocity", one.size)):
-        apart = np.abs(getattr(one.closed, name)(times) - getattr(one.certified, name)(times)).max(initial=0.0) / size
+    for name, size in (("rotation", 1.0), ("field_in_body", motion.size), ("angular_velocity", motion.size)):
+        apart = (
+            np.abs(getattr(motion.closed, name)(times) - getattr(motion.certified, name)(times)).max(initial=0.0) / size
+        )
         worst = max(worst, float(apart))
     # the twin is rounded once
-    accuracy, proved = one.closed.accuracy, one.closed.proved is not None
+    accuracy, proved = motion.closed.accuracy, motion.closed.proved is not None
     return Found(worst / EPS, worst / (accuracy + EPS), proved, accuracy < SMALL, seconds)
 
 
@@ -86,8 +88,8 @@ def main() -> int:
         f"{'set-up':>6} {'worst':>6}   seed {options.seed}"
     )
     for name, results in found.items():
-        ulps, beside = (max(getattr(x, part) for x in results) for part in ("ulps", "beside"))
-        proved, small = (sum(getattr(x, part) for x in results) for part in ("proved", "small"))
+        ulps, beside = (max(getattr(x, field) for x in results) for field in ("ulps", "beside"))
+        proved, small = (sum(getattr(x, field) for x in results) for field in ("proved", "small"))
         seconds = [x.seconds for x in results]
         click.echo(
             f"{name:35} {tried[name]:6} {len(results):6} {proved:6} {small:6} {ulps:7.2f} {beside:12.2f} "

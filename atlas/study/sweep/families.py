@@ -50,23 +50,23 @@ class Swept:
     @cached_property
     def optional(self) -> Mapping[str, float | None]:
         """Parameters that may be left out, with the value that they have then (None: left out)."""
-        found = {name: p.omitted for p in self.family.parameters if not p.needed for name in p.names}
-        return found | ({"t": 0.0} if self.family.sampled else {})
+        defaults = {name: p.omitted for p in self.family.parameters if not p.needed for name in p.names}
+        return defaults | ({"t": 0.0} if self.family.sampled else {})
 
     @cached_property
     def units(self) -> Mapping[str, str]:
         """Units of all columns, parameters and quantities, by name."""
-        given = {name: p.unit for p in self.family.parameters for name in p.names} | {"t": TIME}
-        return given | {name: column.unit for name, column in self.quantities.items()}
+        units = {name: p.unit for p in self.family.parameters for name in p.names} | {"t": TIME}
+        return units | {name: column.unit for name, column in self.quantities.items()}
 
     @cached_property
     def quantities(self) -> Mapping[str, Column]:
         """Columns of the quantities by name."""
-        found = {name: column for q in self.family.quantities for name, column in _columns(q)}
-        found |= self.beside
+        columns = {name: column for q in self.family.quantities for name, column in _columns(q)}
+        columns |= self.beside
         for s in self.family.sampled:
-            found |= {name: Column(partial(_at_time, get), s.unit) for name, get in s.columns.items()}
-        return found
+            columns |= {name: Column(partial(_at_time, get), s.unit) for name, get in s.columns.items()}
+        return columns
 
     def make(self, row: Row, *, exact: bool = False) -> Any:
         """Return the objects of parameters, arrays or numbers."""
@@ -79,14 +79,14 @@ class Swept:
     def columns(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str]) -> dict[str, NDArray[Any]]:
         """Return the quantities of rows of parameters, arrays of floats or of text."""
         size, at_once = next(iter(parameters.values())).size, self.family.at_once
-        found: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
+        pieces: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
         for start in range(0, size, at_once):
             rows = {name: x[start : start + at_once] for name, x in parameters.items()}
-            made, count = self.make(rows), min(at_once, size - start)
-            for name, column in found.items():
-                values = np.broadcast_to(self.quantities[name].of(made, rows), count)
+            motions, count = self.make(rows), min(at_once, size - start)
+            for name, column in pieces.items():
+                values = np.broadcast_to(self.quantities[name].of(motions, rows), count)
                 column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
-        return self._explained({name: np.concatenate(column) for name, column in found.items()})
+        return self._explained({name: np.concatenate(column) for name, column in pieces.items()})
 
     def digits(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int) -> dict[str, Any]:
         """Return the quantities as text with certified digits, row by row."""
@@ -100,41 +100,41 @@ class Swept:
         return self._explained({name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()})
 
     def _balls(self, row: Row, names: Sequence[str]) -> dict[str, Any]:
-        made = self.make(row, exact=True)
-        return {name: self._ball(self.quantities[name], made, row) for name in names}
+        motion = self.make(row, exact=True)
+        return {name: self._ball(self.quantities[name], motion, row) for name in names}
 
     @staticmethod
-    def _ball(column: Column, made: Any, row: Row) -> Any:
+    def _ball(column: Column, motion: Any, row: Row) -> Any:
         """Return a quantity as a ball, or as text where it is infinite or has no value."""
         from flint import arb
 
         try:
-            value = (column.exact or column.of)(made, row)
+            value = (column.exact or column.of)(motion, row)
         except DomainError:
             if not column.missing:
                 raise
             return ""
         return "inf" if isinstance(value, arb) and value == arb("inf") else value
 
-    def _explained(self, found: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    def _explained(self, columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
         """Return the quantities, and beside those that may have no value a column that says why they have none."""
-        lacking = {name: self.quantities[name].missing for name in found if self.quantities[name].missing}
+        lacking = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
         if lacking:
-            reasons = np.zeros(next(iter(found.values())).shape, dtype=NAME)
+            reasons = np.zeros(next(iter(columns.values())).shape, dtype=NAME)
             for reason in dict.fromkeys(column.missing for column in self.quantities.values() if column.missing):
                 gone = np.zeros(reasons.shape, dtype=bool)
                 for name, why in lacking.items():
-                    gone |= (why == reason) & empty(found[name])
+                    gone |= (why == reason) & empty(columns[name])
                 reasons[gone] = [f"{text}, {reason}" if text else reason for text in reasons[gone].tolist()]
-            found[MISSING] = reasons
-        return found
+            columns[MISSING] = reasons
+        return columns
 
-    def check(self, given: Sequence[str], names: Sequence[str], digits: int | None) -> None:
+    def check(self, parameters: Sequence[str], names: Sequence[str], digits: int | None) -> None:
         """Raise AtlasError for parameters or quantities that the family does not have, or that are missing."""
         known = (*self.needed, *self.optional)
         certified = [name for name, column in self.quantities.items() if column.certified]
         lists = (
-            ("parameter", [x for x in given if x not in known], known),
+            ("parameter", [x for x in parameters if x not in known], known),
             ("quantity", [x for x in names if x not in self.quantities], self.quantities),
             (
                 "quantity with certified digits",
@@ -145,7 +145,7 @@ class Swept:
         for what, wrong, there in lists:
             if wrong:
                 raise AtlasError(f"There is no {what} {wrong[0]!r} here; there is {', '.join(there) or 'none'}.")
-        missing = [name for name in self.needed if name not in given]
+        missing = [name for name in self.needed if name not in parameters]
         if missing:
             raise AtlasError(f"The parameter {missing[0]} is missing; needed are {', '.join(self.needed)}.")
         if not names:
@@ -165,21 +165,21 @@ def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
         yield name, Column(partial(_value, q, place, exact=False), *more, partial(_value, q, place, exact=True))
 
 
-def _value(q: Quantity, place: int | None, made: Any, _: Row, *, exact: bool) -> Any:
-    value = q.value(made, exact=exact)
+def _value(q: Quantity, place: int | None, motion: Any, _: Row, *, exact: bool) -> Any:
+    value = q.value(motion, exact=exact)
     if place is None:
         return value
     return value[place] if isinstance(value, tuple | list) else value[..., place]
 
 
-def _at_time(get: Callable[[Any, Any], Any], made: Any, row: Row) -> Any:
-    return get(made, row["t"])
+def _at_time(get: Callable[[Any, Any], Any], motion: Any, row: Row) -> Any:
+    return get(motion, row["t"])
 
 
-def _error(name: str, made: Any, row: Row) -> Any:
+def _error(name: str, motion: Any, row: Row) -> Any:
     from atlas.study.sweep import rotation_errors
 
-    return getattr(rotation_errors, name)(made, row)
+    return getattr(rotation_errors, name)(motion, row)
 
 
 FAR = "phase beyond 2^50"

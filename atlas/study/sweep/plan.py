@@ -90,8 +90,10 @@ class Plan:
 
     def list_of(self, start: int, stop: int) -> "Plan":
         """Return some rows of the table as a list, to be sent."""
-        given = self._parameters(np.arange(start, stop))
-        arrays = {name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in given.items()}
+        parameters = self._parameters(np.arange(start, stop))
+        arrays = {
+            name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
+        }
         return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
@@ -101,9 +103,9 @@ class Plan:
             return self._columns(start, stop)
         except AtlasError as error:
             row = self._failing(start, stop)
-            given = ", ".join(f"{name} = {value.item()}" for name, value in self._parameters(np.array([row])).items())
+            values = ", ".join(f"{name} = {value.item()}" for name, value in self._parameters(np.array([row])).items())
             reason = self._refusal(row, row + 1) or error
-            raise type(error)(f"In row {self.first + row + 1} of the table, {given}: {reason}") from error
+            raise type(error)(f"In row {self.first + row + 1} of the table, {values}: {reason}") from error
 
     def _failing(self, low: int, high: int) -> int:
         """Return the first of some rows for which there is no answer, as there is none for all of them together."""
@@ -122,15 +124,15 @@ class Plan:
 
     def _columns(self, start: int, stop: int) -> Columns:
         """Return some rows of the table."""
-        given, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
+        parameters, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
-        full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | given
-        found = (
+        full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | parameters
+        quantities = (
             family.columns(full, self.quantities)
             if self.digits is None
             else family.digits(full, self.quantities, self.digits)
         )
-        return {name: found[name] if name in found else given[name] for name in self.names}
+        return {name: quantities[name] if name in quantities else parameters[name] for name in self.names}
 
     def _parameters(self, rows: NDArray[np.int64]) -> Columns:
         """Return the parameters of some rows."""
@@ -178,8 +180,8 @@ class Tabulation:
 
     def columns(self) -> Columns:
         """Return the columns of the table, each with an axis for every setting that has several values."""
-        given = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
-        plan = Plan.of(self.family, given, self.quantities)
+        parameters = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
+        plan = Plan.of(self.family, parameters, self.quantities)
         sizes = [x.size for x in plan.parameters.values() if x.size > 1]
         return {name: column.reshape(sizes) for name, column in plan.rows().items()}
 

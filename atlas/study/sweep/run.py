@@ -104,20 +104,20 @@ def _compute(
     plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
 ) -> list[str]:
     """Compute the parts that are not there yet, and keep each as soon as it is done; return all names in order."""
-    found = table.whole_parts()
-    spans = Spans(plan, found, rows, workers)
+    names = table.whole_parts()
+    spans = Spans(plan, names, rows, workers)
     done = plan.count - spans.left
-    with closing(_parts(plan, spans, table, executor, workers)) as made:
-        for name, data, seconds in made:
+    with closing(_parts(plan, spans, table, executor, workers)) as computed:
+        for name, data, seconds in computed:
             if data is not None:
                 table.parts.write(name, data)
             span = span_of(name)
-            found[span] = name
+            names[span] = name
             spans.learn(span, seconds)
             done += span[1] - span[0]
             if progress is not None:
                 progress(done, plan.count)
-    return [found[span] for span in sorted(found)]
+    return [names[span] for span in sorted(names)]
 
 
 class Spans(Iterator[Span]):
@@ -208,8 +208,8 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
     with own or nullcontext():
         try:
             for start, stop in spans:
-                part = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
-                waiting.append(engine.submit(make, *part, table))
+                rows = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
+                waiting.append(engine.submit(make, *rows, table))
                 if len(waiting) > AHEAD * workers:
                     yield waiting.popleft().result()
             while waiting:
@@ -220,19 +220,17 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
 
 def key(plan: Plan, rows: int | None) -> str:
     """Return the digest of everything that the rows of a plan depend on, and of how many a part has."""
-    found = hashlib.sha256(
-        json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode()
-    )
+    sha = hashlib.sha256(json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode())
     for array in plan.parameters.values():
-        found.update(np.ascontiguousarray(array).tobytes() + b"|")
-    return found.hexdigest()[:16]
+        sha.update(np.ascontiguousarray(array).tobytes() + b"|")
+    return sha.hexdigest()[:16]
 
 
 @cache
 def code() -> str:
     """Return the digest of the code that computes rows and of its libraries."""
     package = Path(__file__).parents[2]
-    found = hashlib.sha256(json.dumps([release(name) for name in ("numpy", "scipy", "python-flint")]).encode())
+    sha = hashlib.sha256(json.dumps([release(name) for name in ("numpy", "scipy", "python-flint")]).encode())
     for file in sorted(file for folder in CODE for file in (package / folder).rglob("*.py")):
-        found.update(f"{file.relative_to(package)}\n".encode() + file.read_bytes())
-    return found.hexdigest()
+        sha.update(f"{file.relative_to(package)}\n".encode() + file.read_bytes())
+    return sha.hexdigest()

@@ -169,15 +169,15 @@ class Table:
 
         Those of a data set may be in its place already, if a sweep was stopped in its last steps.
         """
-        found: dict[Span, str] = {}
+        whole: dict[Span, str] = {}
         end = 0
         places = {name: folder for folder in (self.whole, self.parts) if folder for name in folder.names()}
         for name in sorted(places):
             span = span_of(name)
             if f"-{self.key}-" in name and name.endswith(self.ending) and span[0] >= end and places[name].holds(name):
-                found[span], end = name, span[1]
-        self.parts.clear(self.parts.names() - {*found.values()})
-        return found
+                whole[span], end = name, span[1]
+        self.parts.clear(self.parts.names() - {*whole.values()})
+        return whole
 
     def move(self, names: list[str]) -> None:
         """Put all parts of a data set into its place, after those of the old one went."""
