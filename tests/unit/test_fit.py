@@ -302,3 +302,16 @@ def test_a_rotation_vector_follows_a_small_turn() -> None:
         D = Rotation.from_rotvec(one)
         ends = [[(D * Rotation.from_rotvec(-s * h * e)).as_rotvec() for e in np.eye(3)] for s in (1, -1)]
         assert np.abs((np.subtract(*ends) / (2 * h)).T + J).max() <= 1e-8
+
+
+def test_a_top_from_rest_is_determined() -> None:
+    """What the data do not see is measured by how fast they change, not by the rate at the start, which is none."""
+    tilted = [0.0, float(np.sin(0.3)), float(np.cos(0.3))]
+    t = np.linspace(0.0, 20.0, 200)
+    made = atlas.TopMotion((1.0, 1.0), (0.0, 0.0), tilted[1:], (0.0, 0.0, 0.0), linear=-900.0)
+    seen = made.column(3, t) + np.random.default_rng(1).normal(0.0, 0.01, (200, 3))
+    known = dict.fromkeys(["k2", "k3", "quadratic", "a1", "a2"], 0.0) | {"I3": 1.0, "n2": tilted[1], "n3": tilted[2]}
+    params = {name: {"value": value, "vary": False} for name, value in known.items()}
+    start = {"linear": {"value": -900.0}, **{f"omega{i}": {"value": 0.0} for i in "123"}}
+    found = atlas.fit(t, "top", axis=seen, sigma=0.01, params=params | start)
+    assert abs(found.params["linear"].value + 900) < 5 * found.params["linear"].stderr < 1

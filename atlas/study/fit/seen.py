@@ -29,8 +29,9 @@ class Seen:
         scale: float,
     ) -> None:
         self.problem, self.x = problem, x
-        field, rates = np.linalg.norm(motion.field_in_body(0.0)), np.linalg.norm(motion.angular_velocity(0.0))
-        units = units_of(problem.model, float(rates if problem.model.name == "top" else field + rates) or 1.0)
+        field = np.linalg.norm(motion.field_in_body(0.0)) * (problem.model.name != "top")
+        rates = max(problem.rate, np.linalg.norm(motion.angular_velocity(0.0)))  # what starts from rest has others
+        units = units_of(problem.model, float(field + rates))
         self.units = np.array([units[name] for name in problem.names])
         scaled = bent * self.units
         _, size, turn = np.linalg.svd(scaled, full_matrices=False)
