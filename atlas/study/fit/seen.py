@@ -29,9 +29,9 @@ class Seen:
         scale: float,
     ) -> None:
         self.problem, self.x = problem, x
-        field = np.linalg.norm(motion.field_in_body(0.0)) * (problem.model.name != "top")
-        rates = max(problem.rate, np.linalg.norm(motion.angular_velocity(0.0)))  # what starts from rest has others
-        units = units_of(problem.model, float(field + rates))
+        field = float(np.linalg.norm(motion.field_in_body(0.0))) * (problem.model.name != "top")
+        rate = max(problem.rate, float(np.linalg.norm(motion.angular_velocity(0.0))))  # it may start from rest
+        units = units_of(problem.model, field + rate)
         self.units = np.array([units[name] for name in problem.names])
         scaled = bent * self.units
         _, size, turn = np.linalg.svd(scaled, full_matrices=False)
