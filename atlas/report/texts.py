@@ -28,6 +28,7 @@ _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 _COUNTED = {"Section", "Sections", "Part", "Volume", "Figure", "Table"}
 _COUNT = re.compile(r"\d|[IVX]+\b")
 """Words, and the beginnings of what they count."""
+_UNIT = re.compile(r"(?:s|m|T|V|J|C|K|W|kg|mm|rad|[kM]?Hz|degrees|V/m|C/kg)\b[.,;:)]*")
 _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 """Where in a node of a tree its attributes are."""
 
@@ -176,7 +177,8 @@ class _Checked:
             if self.target != "typst":
                 return [formula]
             mark = {"t": "RawInline", "c": [self.target, _mark(self.text)]}
-            return [mark, formula, mark]
+            joiner = [{"t": "Str", "c": "\u2060"}] if content[1].lstrip().startswith("^") else []  # s$^{-1}$
+            return [*joiner, mark, formula, mark]
         if kind == "Link":
             return [_link(self.tree(content[1]), self.address(content[2][0]))]
         if kind in _ATTRIBUTES:
@@ -241,13 +243,31 @@ class _Checked:
 
 
 def _tied(nodes: Tree) -> Tree:
-    """Return inlines with a tie between a word such as Section and its number, by which no line is broken."""
-    return [
-        {"t": "Str", "c": "\u00a0"}
-        if node == {"t": "Space"} and str(before.get("c")) in _COUNTED and _COUNT.match(str(after.get("c")))
-        else node
-        for before, node, after in zip([{}, *nodes], nodes, [*nodes[1:], {}], strict=False)
-    ]
+    """Return inlines with ties between a number and its unit, and between a word such as Section and its number.
+
+    A tie is a space at which a line is not broken.
+    """
+    before, tied = "", list[Any]()
+    for node, after in zip(nodes, [*nodes[1:], {}], strict=False):
+        counted = before in _COUNTED and _COUNT.match(_said(after))
+        measured = before[-1:].isdigit() and _UNIT.fullmatch(_said(after))
+        ties = node == {"t": "Space"} and (counted or measured)
+        tied.append({"t": "Str", "c": "\u00a0"} if ties else node)
+        before = before if node.get("t") == "RawInline" else _said(node)
+    return tied
+
+
+def _said(node: Any) -> str:
+    """Return the text of a word, the TeX of a formula, or the last word of a link."""
+    content = node.get("c")
+    match node.get("t"):
+        case "Str":
+            return str(content)
+        case "Math":
+            return str(content[1])
+        case "Link":
+            return _said(content[1][-1]) if content[1] else ""
+    return ""
 
 
 def _words(text: str) -> Tree:

@@ -127,8 +127,8 @@ def test_a_comma_stays_on_the_line_of_its_formula() -> None:
 
 
 def test_what_touches_a_formula_stands_on_its_line() -> None:
-    """A unit keeps its exponent, a bracket its formula, and both what ends the clause; a word before a space not."""
-    assert re.fullmatch('30 <span class="together">s<math.*</math>,</span> and', one("30 s$^{-1}$, and"), re.DOTALL)
+    """A unit keeps number and exponent, a bracket its formula, both what ends the clause; a word and a space don't."""
+    assert re.fullmatch('30\xa0<span class="together">s<math.*</math>,</span> and', one("30 s$^{-1}$, and"), re.DOTALL)
     assert one("($x$)").startswith('<span class="together">(<math')
     assert one("a $x$").startswith("a <math")
 
