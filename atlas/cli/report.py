@@ -24,10 +24,11 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml
         "atlas report short_solenoid --explain",
         "atlas report --format html",
         "atlas report my_paper.toml --out paper",
+        "atlas report atlas trial guide",
         "atlas report my_page.toml --format single pdf",
     ),
 )
-@name_argument
+@click.argument("names", nargs=-1, metavar="[NAME|FILE.toml]...")
 @out_option("build/report")
 @click.option(
     "--format",
@@ -40,8 +41,10 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml
 @style_option
 @jobs_option
 @click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
-def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool) -> int:
-    """Build a report: HTML pages that open from disk, and a PDF with the same content.
+def command(
+    names: tuple[str, ...], out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool
+) -> int:
+    """Build reports: of each HTML pages that open from disk, and a PDF with the same content.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
     something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status
@@ -52,14 +55,17 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
     """
     from atlas.build.report import FORMATS, build_report
 
-    with bar(Path(name).stem, every=10) as tell:
-        built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
-    for form, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
-        if form in (formats or FORMATS):
-            click.echo(file)
-    if explain:
-        _explain(built)
-    return status_of(built)
+    status = 0
+    for name in names or ("atlas",):
+        with bar(Path(name).stem, every=10) as tell:
+            built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
+        for form, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
+            if form in (formats or FORMATS):
+                click.echo(file)
+        if explain:
+            _explain(built)
+        status = max(status, status_of(built))
+    return status
 
 
 def status_of(built: "Built") -> int:

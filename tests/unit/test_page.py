@@ -199,6 +199,25 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
     assert b"my ball" in made.read_bytes()
 
 
+def test_several_reports_are_built_at_once(tmp_path: Path) -> None:
+    """Each is told by its place, in their order."""
+    for name in ("one", "two"):
+        (tmp_path / f"{name}.toml").write_text(
+            f"name = '{name}'\ntitle = 'T'\n[[pages]]\nslug = 'index'\ntitle = 'P'\nblocks = []\n"
+        )
+    words = [
+        "report",
+        *(str(tmp_path / f"{name}.toml") for name in ("two", "one")),
+        "--out",
+        str(tmp_path),
+        "--format",
+        "html",
+    ]
+    found = CliRunner().invoke(command, words, catch_exceptions=False)
+    assert found.exit_code == 0
+    assert found.stdout.split() == [str(tmp_path / name / "index.html") for name in ("two", "one")]
+
+
 @pytest.mark.parametrize(
     ("words", "name"),
     [

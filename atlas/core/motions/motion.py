@@ -252,7 +252,7 @@ class Motion(Shown, Generic[Single]):
         self, function: Callable[..., Any], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
     ) -> FloatArray:
         """Return a function of motions and times, function(motion, t, out), for each motion at the times it meets."""
-        t = bare(t, "The time", TIME)
+        t = t if type(t) is np.ndarray else bare(t, "The time", TIME)
         if not self.shape:
             return np.asarray(function(self._single(), t, out))
         times = real(t, "The time")
