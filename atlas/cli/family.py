@@ -13,7 +13,7 @@ from atlas.cli import body
 from atlas.cli.options import (
     REAL,
     Command,
-    are_three,
+    are_of_any_body,
     chosen_times,
     exactly,
     examples,
@@ -138,8 +138,7 @@ def family_of(args: Sequence[str]) -> str:
         if "--omega2" not in given:
             raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
         return "elementary"
-    oblique = any(are_three(args, option) for option in ("--inertia", "--field", "--magnetic"))
-    return "asymmetric" if oblique or given & {"--tensor", "--attitude"} else "general"
+    return "asymmetric" if are_of_any_body(args) else "general"
 
 
 def _command_of(family: Family, described: Described) -> click.Command:

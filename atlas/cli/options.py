@@ -274,10 +274,7 @@ def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
 
 
 class WithThreeMoments(Command):
-    """A command of symmetric bodies with another one, `wider`, for any body.
-
-    That is meant by three numbers after --inertia, a tensor, an attitude, or a field of three components.
-    """
+    """A command of symmetric bodies with another one, `wider`, for any body, see `are_of_any_body`."""
 
     def __init__(self, *args: Any, wider: Callable[[], click.Command], **more: Any) -> None:
         super().__init__(*args, **more)
@@ -287,10 +284,15 @@ class WithThreeMoments(Command):
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
         """Let the command that the options are of read its arguments."""
-        oblique = are_three(args, "--field") or are_three(args, "--magnetic")
-        if oblique or {"--tensor", "--attitude"} & set(args) or are_three(args, "--inertia"):
+        if are_of_any_body(args):
             return self._wider().make_context(info_name, args, parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
+
+
+def are_of_any_body(args: Sequence[str]) -> bool:
+    """Return whether there are a tensor, an attitude, or three numbers after --inertia or for the field."""
+    three = any(are_three(args, option) for option in ("--inertia", "--field", "--magnetic"))
+    return three or not {word.partition("=")[0] for word in args}.isdisjoint({"--tensor", "--attitude"})
 
 
 def are_three(args: Sequence[str], option: str) -> bool:

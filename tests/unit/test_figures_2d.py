@@ -97,8 +97,14 @@ def test_every_recipe_draws_with_its_defaults(name: str) -> None:
     assert dict(scene.parameters) == dict(recipe.parameters)
 
 
-@pytest.mark.parametrize("field", FIELDS)
-@pytest.mark.parametrize("name", OF_A_BODY)
+@pytest.mark.parametrize(
+    ("name", "field"),
+    [
+        pytest.param(name, field, marks=[pytest.mark.slow] * ((i + j) % 2))
+        for i, name in enumerate(OF_A_BODY)
+        for j, field in enumerate(FIELDS)
+    ],
+)
 def test_extreme_parameters_give_a_picture_or_one_sentence(name: str, field: tuple[float, float]) -> None:
     """For bodies in every field there is a whole scene, or a DomainError that says why not in one sentence."""
     drawn, refused = 0, []

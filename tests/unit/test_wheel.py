@@ -82,6 +82,7 @@ def test_the_guides_own_recipe_works_anywhere(run: Run, tmp_path: Path) -> None:
     assert run("figure", "ball", "./ball.py").returncode == 2
 
 
+@pytest.mark.slow
 def test_a_report_names_a_recipe_beside_its_file(run: Run, tmp_path: Path) -> None:
     """From another folder, too; the page tells the command, and a changed recipe is drawn again."""
     assert RECIPE
@@ -100,7 +101,14 @@ def test_a_report_names_a_recipe_beside_its_file(run: Run, tmp_path: Path) -> No
     assert sorted(path.name for path in folder.iterdir()) == ["mine.toml", "my_precession.py"]
 
 
-@pytest.mark.parametrize("recipe", ["none.py", "../paper/my_precession.py", "/my_precession.py"])
+@pytest.mark.parametrize(
+    "recipe",
+    [
+        "../paper/my_precession.py",
+        pytest.param("none.py", marks=pytest.mark.slow),
+        pytest.param("/my_precession.py", marks=pytest.mark.slow),
+    ],
+)
 def test_a_recipe_that_is_not_beside_the_report_is_refused(run: Run, tmp_path: Path, recipe: str) -> None:
     """One line says where it would have to be."""
     (tmp_path / "my_precession.py").write_text('"""Mine."""\n', encoding="utf-8")

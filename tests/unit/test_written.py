@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,6 +40,14 @@ WRITERS = {
 }
 """Commands, each with the first thing that it puts into its folder."""
 
+LONG = ("page", "tex")
+"""Those that take seconds."""
+
+
+def marked(words: str, *more: str) -> Any:
+    """Return a command as a case, slow where it takes long."""
+    return pytest.param(words, *more, id=words.split(maxsplit=1)[0], marks=[pytest.mark.slow] * words.startswith(LONG))
+
 
 def run(folder: Path, words: str, program: str = "", **more: str) -> subprocess.CompletedProcess[str]:
     """Run a command in a folder that has the report, in a process of its own."""
@@ -58,7 +67,7 @@ def one_line(done: subprocess.CompletedProcess[str], status: int, *words: str) -
     assert all(word in done.stderr for word in words), done.stderr
 
 
-@pytest.mark.parametrize(("words", "name"), WRITERS.items(), ids=[words.split()[0] for words in WRITERS])
+@pytest.mark.parametrize(("words", "name"), [marked(*case) for case in WRITERS.items()])
 def test_what_is_in_the_way_stays(tmp_path: Path, words: str, name: str) -> None:
     """A link to nothing, a folder in the place of a file, a disk without room: one line that names the place."""
     (tmp_path / "out").symlink_to("nowhere")
@@ -124,7 +133,7 @@ def test_a_file_that_was_edited_or_is_foreign_stays(
     assert new.read_bytes() == first
 
 
-@pytest.mark.parametrize("words", [words for words in WRITERS if not words.startswith("figure")])
+@pytest.mark.parametrize("words", [marked(words) for words in WRITERS if not words.startswith("figure")])
 def test_a_disk_without_room_leaves_what_was_there(tmp_path: Path, words: str) -> None:
     """One line names the file or the folder; a figure is in the cache by then, and the system copies it from there."""
     assert run(tmp_path, words).returncode == 0
