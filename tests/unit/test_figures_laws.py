@@ -105,7 +105,11 @@ def coordinates(panel: Panel) -> list[list[FloatArray]]:
     return columns
 
 
-@pytest.mark.parametrize(("name", "given", "unit"), UNITS, ids=str)
+@pytest.mark.parametrize(
+    ("name", "given", "unit"),
+    [pytest.param(*case, marks=[pytest.mark.slow] * (k % 2)) for k, case in enumerate(UNITS)],
+    ids=str,
+)
 def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, given: dict[str, Any], unit: str) -> None:
     """In a unit four times as small every coordinate of an axis is multiplied by one power of two, within 1e-9 of it.
 

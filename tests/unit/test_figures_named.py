@@ -48,7 +48,11 @@ def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str
     assert "`" not in caption
 
 
-@pytest.mark.parametrize(("name", "parameters"), CASES, ids=lambda value: str(value)[:40])
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [pytest.param(*case, marks=[pytest.mark.slow] * (k % 2)) for k, case in enumerate(CASES)],
+    ids=lambda value: str(value)[:40],
+)
 def test_what_a_caption_names_can_be_seen(name: str, parameters: dict[str, Any]) -> None:
     """Each named look stands in the caption, has layers, and its picture changes where they are taken away."""
     scene = made(name, **parameters)

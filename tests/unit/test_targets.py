@@ -26,8 +26,9 @@ MILLIMETRE = 72.0 / 25.4
 
 @pytest.mark.parametrize(
     ("name", "target"),
-    [("flight", target) for target in ("aps", "aps-double", "elsevier", "iop", "beamer", "poster")]
-    + [(name, NARROWEST) for name in ("hyperbolas", "kinds_of_quadric", "separatrix", "two_turns")],
+    [("flight", target) for target in ("aps-double", "beamer", "poster")]
+    + [(name, NARROWEST) for name in ("hyperbolas", "kinds_of_quadric", "two_turns")]
+    + [pytest.param("flight", target, marks=pytest.mark.slow) for target in ("aps", "elsevier", "iop")],
 )
 def test_a_figure_keeps_the_law_of_its_target(name: str, target: str) -> None:
     """It has the width, the type and the lines that are asked; no name leaves the page or covers another.
