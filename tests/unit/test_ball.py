@@ -95,17 +95,6 @@ def test_the_small_third_column_keeps_its_digits() -> None:
             assert abs(mpf(float(R[i, 2])) - true[i, 2]) <= 8 * float(np.spacing(abs(float(true[i, 2]))))
 
 
-def test_columns_and_arrays_of_balls() -> None:
-    """Columns agree with the matrix, arrays with single balls, each being rounded in its own way; all broadcast."""
-    ball, t = BallMotion(2.0, 0.5, (0.3, -0.4)), np.linspace(0, 9, 10)
-    for j in (1, 2, 3):
-        assert np.abs(ball.column(j, t) - ball.rotation(t)[:, :, j - 1]).max() <= 4 * ULP1
-    balls = BallMotion([1.0, 2.0], 0.5, (0.3, -0.4))
-    assert balls.rotation(t[:, None]).shape == (10, 2, 3, 3)
-    assert np.abs(balls.rotation(t[:, None])[:, 1] - ball.rotation(t)).max() <= 4 * ULP1
-    assert balls.gamma[1] == ball.gamma
-
-
 def test_rates_and_momenta_know_no_unit() -> None:
     """In arrays too, gamma grows with their unit, a power of two, and the axis does not change, to the last bit."""
     unit = 2.0 ** np.array([-900.0, 0.0, 900.0])

@@ -3,15 +3,11 @@
 import subprocess
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 import pytest
-from benchmarks.results import write
 
-from atlas.errors import AtlasError
 from atlas.scene import recipes
 from atlas.scene.captions import tex
 from atlas.scene.layers import Curve, Plane, Points, Scene
@@ -99,27 +95,6 @@ def test_the_best_run_at_each_horizon_is_drawn() -> None:
         assert places(panel) == {(horizon, error) for (of, _, horizon), error in best.items() if of == case}
         worst = max(error for (of, method, _), error in best.items() if of == case and method in OURS)
         assert f"The largest of the atlas is ${tex(float(f'{worst:.1e}'))}$" in drawn.caption
-
-
-def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Another record gives another figure: one with a tenfold error moves a decade."""
-    record = results.read()
-    runs = [msgspec.structs.replace(run, error=run.error * 10.0) if run.error else run for run in record.runs]
-    path = tmp_path / "record.json"
-    write(msgspec.structs.replace(record, runs=runs), path)
-    before = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
-    monkeypatch.setattr(results, "stored", lambda: path)
-    after = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
-    np.testing.assert_allclose(after[:, 0], 10.0 * before[:, 0], rtol=4e-16)
-    np.testing.assert_array_equal(after[:, 1], before[:, 1])
-
-
-def test_unknown_case_or_horizon_is_an_error() -> None:
-    """The sentence says which there are."""
-    with pytest.raises(AtlasError, match="elementary, general, ball, particle"):
-        recipes.load("horizon").scene(cases=("balloon",))
-    with pytest.raises(AtlasError, match="100, 1000"):
-        recipes.load("work_precision").scene(horizon=3.0)
 
 
 def test_every_method_of_the_record_has_a_name_and_a_look() -> None:

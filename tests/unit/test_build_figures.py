@@ -442,16 +442,6 @@ def test_figures_keep_their_order_and_fail_alone(tmp_path: Path) -> None:
     assert "no parameter 'mu'" in found[1].failure
 
 
-def test_other_parameters_draw_anew_and_another_folder_does_not(tmp_path: Path) -> None:
-    """What is kept is kept for all folders; a file is that of its own parameters."""
-    (plain,) = build_figures(["trochoids"], ("svg",), tmp_path / "a")
-    (other,) = build_figures(["trochoids"], ("svg",), tmp_path / "a", parameters={"speeds": (0.5,)})
-    (elsewhere,) = build_figures(["trochoids"], ("svg",), tmp_path / "b")
-    assert "parameters" in other.reason or "never" in other.reason
-    assert (plain.reason[:5], elsewhere.reason[:5]) == ("drawn", "taken")
-    assert elsewhere.files[0].read_bytes() != other.files[0].read_bytes()
-
-
 def test_a_shaded_figure_is_a_png(tmp_path: Path) -> None:
     """Any other format of it is refused before anything is drawn."""
     with pytest.raises(AtlasError, match="a shaded figure is a PNG; 'svg'"):

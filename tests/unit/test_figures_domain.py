@@ -58,6 +58,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("geometric_phase", {"count": 1}, "2 to 1000"),
     ("geometric_phase", {"count": 1001}, "2 to 1000"),
     ("geometric_phase", {"z": (-0.3, 0.0), "count": 2}, "z = 0"),
+    ("horizon", {"cases": ("balloon",)}, "elementary, general, ball, particle"),
     ("hyp_a", {"ratio": 0.5}, "two sheets"),
     ("hyp_b", {"ratio": 1.5}, "one sheet"),
     ("hyperbolas", {"ratios": (0.5,) * (len(LINES) + 1)}, "one to"),

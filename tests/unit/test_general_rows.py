@@ -15,11 +15,9 @@ from stress.run import PROMISES
 from ulps import ONE, absolute, error
 
 import atlas
-from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.motions import general
 from atlas.core.motions.general import GeneralMotion
 from atlas.core.nutation import pair as nutation_pair
-from atlas.core.nutation import roots as nutation_roots
 from atlas.core.nutation.blocks import Blocks
 from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import Scalars
@@ -229,21 +227,6 @@ def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytes
     assert not broken()
     monkeypatch.setattr(nutation_pair, "NEGLIGIBLE", 1.0)
     assert {"general R", "general integrals"} <= broken()
-
-
-@pytest.mark.parametrize("power", [-40, 3, 40])
-def test_the_bound_on_a_root_does_not_depend_on_the_unit(power: int) -> None:
-    """With roots 2^n times as large the refined root has the same digits, and its bound is the same but for 16 eps."""
-    v = np.array([0.37, -1.4, 2.9])
-    q = [np.array([c, 0.7 * c, -c]) for c in (-0.25, 1.5, -0.75, 0.3, 1.1)]
-    q[0] -= (((q[4] * v + q[3]) * v + q[2]) * v + q[1]) * v + q[0]
-    plain = nutation_roots._refined(v, tuple(DoubleDouble(c) for c in q))
-    scaled = nutation_roots._refined(
-        np.ldexp(v, power), tuple(DoubleDouble(np.ldexp(c, -power * n)) for n, c in enumerate(q))
-    )
-    assert np.isfinite(plain.rel).all()
-    assert (np.ldexp(plain.hi, power) == scaled.hi).all()
-    assert (np.abs(plain.rel / scaled.rel - 1) <= 16 * np.finfo(float).eps).all()
 
 
 @pytest.mark.parametrize("power", [-90, 40, 90])

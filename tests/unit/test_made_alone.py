@@ -121,16 +121,6 @@ def test_a_line_is_known_to_two_words(slope: float, start: float) -> None:
             assert abs(arb(high) + arb(low) - a * (arb(time) + arb(less)) - b) <= size * 2.0**-100
 
 
-def test_times_beyond_which_nothing_changes_are_cut() -> None:
-    """At the longest time |x| is above 700, where exp(-x) is nothing beside one; without saturation there is none."""
-    for slope, start in ((0.7, 1.3), (-2.0, 300.0), (5.0, -40.0)):
-        line = Line(arb(slope), arb(start))
-        for side in (1.0, -1.0):
-            assert 700 < abs(line.at(np.array([side * line.longest]), 0.0)[0][0]) < 3000
-        assert np.isinf(Line(arb(slope), arb(start), saturates=False).longest)
-    assert np.isinf(Line(arb(0), arb(1)).longest)
-
-
 ZERO, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
 
 

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.arithmetic.machine import keep
 
 FAULTS = """
 import resource
@@ -66,16 +65,6 @@ def test_sweeps_keep_the_memory_of_long_arrays() -> None:
     settings = os.environ | {"MALLOC_TRIM_THRESHOLD_": "65536"}
     done = subprocess.run([sys.executable, "-c", ROWS], env=settings, capture_output=True, text=True, check=True)
     assert int(done.stdout) < 100_000 / 50
-
-
-def test_what_is_kept_is_kept_once() -> None:
-    """A process that keeps its memory asks for no more."""
-    keep()
-    tracemalloc.start()
-    keep()
-    taken, _ = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert taken < 1000
 
 
 @pytest.mark.parametrize(

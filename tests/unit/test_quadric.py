@@ -158,10 +158,3 @@ def test_arrays_of_parameters_broadcast() -> None:
     points = np.random.default_rng(0).normal(size=(4, 2, 3, 3))
     assert np.array_equal(quadric.canonical(points)[3, 1, 2], Quadric(1.5, (1.0, 2.0)).canonical(points[3, 1, 2]))
     assert np.array_equal(quadric.residual(points)[3, 1, 2], Quadric(1.5, (1.0, 2.0)).residual(points[3, 1, 2]))
-
-
-@pytest.mark.parametrize("bad", [(2.5, (1.0, 2.0)), (-1.0, (1.0, 2.0)), (1.0, (np.inf, 1.0)), (1.0, (1.0,))])
-def test_impossible_inputs_are_errors(bad: Any) -> None:
-    """No such body, no finite field, no two components: errors."""
-    with pytest.raises(AtlasError):
-        Quadric(*bad)

@@ -89,17 +89,8 @@ def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) 
     assert heading == f"ratio,{rates},case,period [time],stability [1/time^2],R11"
     (tmp_path / "list.csv").write_text(f"ratio,{rates}\n1.5,1,2,0.3\n1.5,1,2,0.7\n")
     wanted = [word for name in ("case", "period", "stability", "R11") for word in ("--quantity", name)]
-    words = [
-        "sweep",
-        "elementary",
-        "--list",
-        tmp_path / "list.csv",
-        *wanted,
-        "--out",
-        tmp_path / "u.csv",
-        "--jobs",
-        "1",
-    ]
+    places = "--list", tmp_path / "list.csv", "--out", tmp_path / "u.csv"
+    words = ["sweep", "elementary", *places, *wanted, "--jobs", "1"]
     with pytest.raises(SystemExit) as end:
         main([str(word) for word in words])
     assert end.value.code == 0
