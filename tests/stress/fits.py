@@ -1,14 +1,22 @@
 """Does a fit find the motion without a start, and are its errors right? Made-up measurements of 15 kinds.
 
-    python -m stress.fits [--samples 10] [--seed 0] [KIND...]
+    python -m stress.fits [--samples 100] [--seed 0] [--record] [KIND...]
 
 Each motion is integrated by SciPy (`atlas.simulate`), the axes' and rates' among them, and noise is added. Told are the
-share that converges, how often the truth is within one standard error, over all parameters, and processor time.
+share that converges, how often the truth is within one standard error, over all parameters, and processor time. The
+parameters of one motion are correlated: the error of that share is from its scatter between motions. With `--record`
+the shares go to reports/data/fits.json.
 """
 
 import argparse
+import json
+import os
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
@@ -16,6 +24,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import atlas
+from atlas import files
+from atlas.core.arithmetic.machine import processors
+
+RECORD = Path(__file__).parents[2] / "reports" / "data" / "fits.json"
 
 
 class Made(NamedTuple):
@@ -38,8 +50,10 @@ def made(
     truth = {"ratio": I3, "I1": I1, "I3": I3, "b": float(np.linalg.norm(B))}
     if family == "elementary":
         K = A.inv().apply(B)
-        across, w2 = float(np.hypot(K[0], K[1])), float(rng.normal() * spin)
-        w = np.array([*(w2 * K[:2] / across), atlas.ElementaryMotion(I3, (across, K[2]), w2).omega3])
+        hyperbola, w2 = atlas.Hyperbola(I3, (float(np.hypot(K[0], K[1])), K[2])), float(rng.normal() * spin)
+        while hyperbola.stability(w2) < 0:  # no integration stays there
+            w2 = float(rng.normal() * spin)
+        w = np.array([*(w2 * K[:2] / np.hypot(K[0], K[1])), hyperbola.omega3(w2)])
     if family == "top":
         B, pull = np.array([0.0, 0.0, 1.0]), float(rng.normal())
         truth |= {"linear": pull, "k2": 0.0, "k3": 0.0, "quadratic": 0.0}
@@ -50,7 +64,8 @@ def made(
     values = {"axis": R[:, :, 2], "angular_velocity": Omega, "field_in_body": np.vecmat(B, R)}.get(kind, R)
     if kind in ("rotation", "quaternion"):
         turns = rng.normal(0, noise, (count, 3))
-        turns[rng.random(count) < outliers] = rng.normal(size=3)
+        wrong = rng.random(count) < outliers
+        turns[wrong] = rng.normal(size=(wrong.sum(), 3))
         values = Rotation.from_rotvec(turns).as_matrix() @ R
         values = Rotation.from_matrix(values).as_quat() if kind == "quaternion" else values
     else:
@@ -119,41 +134,70 @@ KINDS: dict[str, Callable[[np.random.Generator], Made]] = {
 """Kinds of measurements."""
 
 
+class Outcome(NamedTuple):
+    """What a fit came to: parameters that are told and those within one standard error, seconds, why it is lost."""
+
+    told: int
+    within: int
+    seconds: float
+    lost: str
+
+
+def outcome(kind: str, seed: int, i: int) -> Outcome:
+    """Fit one measurement."""
+    made = KINDS[kind](np.random.default_rng([seed, i]))
+    began = time.process_time()
+    try:
+        fit = atlas.fit(made.t, **made.given)
+    except atlas.AtlasError as error:
+        return Outcome(0, 0, time.process_time() - began, f"{i}: {error}")
+    seconds = time.process_time() - began
+    own = [(fit.params[n].value - x, fit.params[n].stderr) for n, x in made.truth.items() if n in fit.names]
+    told = [(abs(off), error) for off, error in own if error is not None]  # of the others it says so
+    # in the false minimum next to the true one, a parameter is off by far more than its error
+    if not told or fit.redchi > 1.5 or any(off > 8 * error + 1e-9 for off, error in told):
+        return Outcome(0, 0, seconds, f"{i}: chi square {fit.redchi:.3g}{', doubted' if fit.doubts else ''}")
+    return Outcome(len(told), sum(off < error for off, error in told), seconds, "")
+
+
+def measured(outcomes: list[Outcome]) -> dict[str, float]:
+    """Return the shares in percent, the standard error of the second, and the median of seconds."""
+    told, within = np.array([(one.told, one.within) for one in outcomes if not one.lost], float).reshape(-1, 2).T
+    share = within.sum() / max(told.sum(), 1.0)
+    return {
+        "samples": len(outcomes),
+        "found": round(100 * told.size / len(outcomes), 1),
+        "within": round(100 * share, 1),
+        "error": round(100 * float(np.linalg.norm(within - share * told)) / max(told.sum(), 1.0), 1),
+        "seconds": round(float(np.median([one.seconds for one in outcomes])), 2),
+    }
+
+
 def main() -> None:
     """Fit them, and print a line a kind."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--samples", type=int, default=10)
+    parser = argparse.ArgumentParser(prog="stress.fits", description=__doc__.partition("\n")[0])
+    parser.add_argument("--samples", type=int, default=100)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=processors())
+    parser.add_argument("--record", action="store_true")
     parser.add_argument("kinds", nargs="*", metavar="KIND")
     asked = parser.parse_args()
-    click.echo(f"{'kind':26} samples  converge  within 1 sigma  CPU median, s   worst")
-    for kind, make in KINDS.items():
-        if asked.kinds and kind not in asked.kinds:
-            continue
-        good, pulls, seconds, lost = 0, [], [], []
-        for i in range(asked.samples):
-            one = make(np.random.default_rng([asked.seed, i]))
-            began = time.process_time()
-            try:
-                fit = atlas.fit(one.t, **one.given)
-            except atlas.AtlasError as error:
-                lost.append(f"{i}: {error}")
-                continue
-            finally:
-                seconds.append(time.process_time() - began)
-            own = {n: (fit.params[n].value - x, fit.params[n].stderr) for n, x in one.truth.items() if n in fit.names}
-            told = [(off, error) for off, error in own.values() if error is not None]  # of the others it says so
-            # in the false minimum next to the true one, a parameter is off by far more than its error
-            if told and fit.redchi < 1.5 and all(abs(off) < 8 * error + 1e-9 for off, error in told):
-                good += 1
-                pulls += [abs(off / error) < 1 for off, error in told]
-            else:
-                lost.append(f"{i}: chi square {fit.redchi:.3g}")
-        share = 100 * np.mean(pulls) if pulls else float("nan")
-        click.echo(
-            f"{kind:26} {asked.samples:7} {good:9} {share:13.0f} % {np.median(seconds):12.2f} {max(seconds):9.1f}"
-            f"   {'; '.join(lost)}"
-        )
+    record = json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else {}
+    click.echo(f"{'kind':26} samples   found  within 1 sigma  CPU median, s   lost")
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of the processes: a second thread would count twice
+    with ProcessPoolExecutor(asked.jobs, get_context("spawn")) as pool:
+        for kind in asked.kinds or KINDS:
+            outcomes = list(pool.map(partial(outcome, kind, asked.seed), range(asked.samples)))
+            m = measured(outcomes)
+            within = f"{m['within']:.1f} +- {m['error']:.1f} %"
+            lost = "; ".join(one.lost for one in outcomes if one.lost)
+            click.echo(f"{kind:26} {m['samples']:7} {m['found']:5.0f} % {within:>15} {m['seconds']:14.2f}   {lost}")
+            record[kind] = m
+            if asked.record:
+                rows = ",\n".join(
+                    f"  {json.dumps(name)}: {json.dumps(record[name])}" for name in KINDS if name in record
+                )
+                files.write(RECORD, f"{{\n{rows}\n}}\n")
 
 
 if __name__ == "__main__":

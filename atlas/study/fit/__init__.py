@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.study.fit.data import Data, of_arrays, of_file
-from atlas.study.fit.models import OMEGA, B, Model, attitude, carried, in_plane, model_of, unseen, vector
-from atlas.study.fit.problem import Problem, lag
+from atlas.study.fit.data import of_arrays, of_file
+from atlas.study.fit.models import carried, model_of
+from atlas.study.fit.nutation import settled
+from atlas.study.fit.problem import Problem, lag, parameters
 from atlas.study.fit.result import FOLLOWED, Fit
 from atlas.study.fit.search import grown, rate_of, tries
 
@@ -29,11 +30,6 @@ ROBUST = 1.5
 
 GUESS = 0.02
 """Noise of which a robust loss takes the start, in parts of the spread of the data."""
-
-HEIGHT, BEYOND = 12.0, 14.0
-"""Standard errors below which a nutation may be noise, and by how much chi square tells that it is not."""
-
-LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, np.inf), "I3": (0.0, np.inf)}
 
 
 def fit(
@@ -94,7 +90,7 @@ def fit(
         raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
     if loss != "linear" and not data.known:
         data = replace(data, sigma=data.sigma * GUESS * data.spread)
-    named, given_values = _parameters(model, data, params)
+    named, given_values = parameters(model, data, params)
     problem = Problem(model, data, named, loss, rate_of(data), given_values)
     numbers = data.t.size * problem.width
     if numbers <= len(problem.names):
@@ -104,43 +100,16 @@ def fit(
         found = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
         problem = Problem(model, replace(data, sigma=data.sigma * found), named, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
-    steady = _steady(problem, tried[0]) if model.name == "general" else None
-    best = [steady[0]] if steady else []
-    return Fit.of(problem, [*best, *tried[bool(best) :]], float(epoch), steady=steady[1] if steady else "")
+    steady = doubt = ""
+    if model.name == "general":
+        tried, steady, doubt = settled(problem, tried, good=_good(problem, tried[0][1]))
+    return Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
 
 
 def fit_file(file: Path, family: str = "general", *, kind: str | None = None, sigma: Any = None, **options: Any) -> Fit:
     """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
     t, data, known = of_file(file, kind)
     return fit(t, family, sigma=known if sigma is None else sigma, **data, **options)
-
-
-def _parameters(model: Model, data: Data, given: Any) -> tuple[Any, dict[str, float]]:
-    """Return lmfit's parameters, and the values to start from. Raises AtlasError for what is none of the family's."""
-    import lmfit
-
-    try:
-        ready = given and all(isinstance(p, lmfit.Parameter) for p in given.values())
-        own = given if ready else lmfit.create_params(**(given or {}))
-    except (AttributeError, TypeError, ValueError) as error:
-        raise AtlasError(f"The parameters of a fit are as lmfit.create_params takes them: {error}.") from error
-    hidden, found = unseen(model, data.kind), lmfit.Parameters()
-    for name in model.names:
-        low, high = LIMITS.get(name, (-np.inf, np.inf))
-        value = model.fixed.get(name, hidden.get(name, 1.0 if name in LIMITS else 0.0))
-        found.add(name, value, min=low, max=high, vary=name not in model.fixed and name not in hidden)
-    for name, p in own.items():
-        if name not in found and p.expr is None:
-            raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
-    for name, p in own.items():
-        low, high = LIMITS.get(name, (-np.inf, np.inf))
-        found.add(
-            name, value=None if p.expr else p.value, vary=p.vary, min=max(p.min, low), max=min(p.max, high), expr=p.expr
-        )
-    if all(name in model.names for name in B) and "b" not in found:
-        found.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
-    start = {name: float(p.value) for name, p in own.items() if p.vary and not p.expr and np.isfinite(p.value)}
-    return found, start
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
@@ -170,38 +139,3 @@ def _good(problem: Problem, x: Any) -> bool:
         return problem.reduced(r) < (1 + sure * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST)
     small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
     return bool(small and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))
-
-
-def _steady(problem: Problem, best: tuple[float, Any]) -> tuple[tuple[float, Any], str] | None:
-    """Return the elementary motion where the nutation that was found is no more than noise, and what is said of it.
-
-    A line that is sought among N frequencies lowers chi square by some 2 log N, whether or not it is there.
-    """
-    chi, x = best
-    motion, values = problem.motion(x)
-    t, size = problem.data.t, problem.residuals(x).size - len(x)
-    scale = 1.0 if problem.data.known and problem.loss == "linear" else chi / size
-    nutation = float((np.asarray(motion.column(3, t)) @ vector(values, B)).std())
-    noise = float(np.median(problem.data.sigma)) * np.sqrt(scale / t.size)
-    if not values["b"] or nutation > HEIGHT * noise * values["b"]:
-        return None
-    R = attitude(values)
-    start = values | {"omega2": float((in_plane(R.T @ vector(values, B))[1] @ vector(values, OMEGA))[1])}
-    model = model_of("elementary")
-    named, _ = _parameters(model, problem.data, {n: p for n, p in problem.params.items() if n in model.names})
-    other = Problem(model, problem.data, named, problem.loss, problem.rate)
-    try:
-        found = grown(other, other.inside(start), t.size)
-        omega = other.motion(found)[0].angular_velocity(0.0)
-    except AtlasError:
-        return None
-    x = problem.inside({**other.values(found), **dict(zip(OMEGA, omega.tolist(), strict=True))})
-    steady = problem.chi_square(x)
-    fallen, chance = (steady - chi) / scale, 2 * np.log(t.size)
-    if fallen > chance + BEYOND:
-        return None
-    return (steady, x), (
-        f"No nutation is seen beyond noise: one of {nutation / values['b']:.2g} in the cosine between axis and field "
-        f"lowers chi square by {max(fallen, 0.0):.3g}, as noise does by some {chance:.2g}. The motion is taken for an "
-        "elementary one, with the axis at a constant angle to the field."
-    )

@@ -14,6 +14,8 @@ from atlas.study.fit.flow import ERROR, FINE
 from atlas.study.fit.least import RHO
 from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, units_of, unseen
 
+LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, np.inf), "I3": (0.0, np.inf)}
+
 HUGE = 1e6
 """A residual where there is no motion."""
 
@@ -34,6 +36,34 @@ def lag(t: FloatArray, r: FloatArray) -> float:
     """Return the correlation of residuals (N, k) at neighbouring times: 0 for white noise."""
     r = r[np.argsort(t, kind="stable")]
     return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
+
+
+def parameters(model: Model, data: Data, given: Any) -> tuple[Any, dict[str, float]]:
+    """Return lmfit's parameters, and the values to start from. Raises AtlasError for what is none of the family's."""
+    import lmfit
+
+    try:
+        ready = given and all(isinstance(p, lmfit.Parameter) for p in given.values())
+        own = given if ready else lmfit.create_params(**(given or {}))
+    except (AttributeError, TypeError, ValueError) as error:
+        raise AtlasError(f"The parameters of a fit are as lmfit.create_params takes them: {error}.") from error
+    hidden, found = unseen(model, data.kind), lmfit.Parameters()
+    for name in model.names:
+        low, high = LIMITS.get(name, (-np.inf, np.inf))
+        value = model.fixed.get(name, hidden.get(name, 1.0 if name in LIMITS else 0.0))
+        found.add(name, value, min=low, max=high, vary=name not in model.fixed and name not in hidden)
+    for name, p in own.items():
+        if name not in found and p.expr is None:
+            raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
+    for name, p in own.items():
+        low, high = LIMITS.get(name, (-np.inf, np.inf))
+        found.add(
+            name, value=None if p.expr else p.value, vary=p.vary, min=max(p.min, low), max=min(p.max, high), expr=p.expr
+        )
+    if all(name in model.names for name in B) and "b" not in found:
+        found.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
+    start = {name: float(p.value) for name, p in own.items() if p.vary and not p.expr and np.isfinite(p.value)}
+    return found, start
 
 
 class Problem:

@@ -73,7 +73,9 @@ class Fit:
     _whole: FloatArray
 
     @classmethod
-    def of(cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "") -> "Fit":
+    def of(
+        cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
+    ) -> "Fit":
         """Return the fit from the best of what was tried; a steady motion stays where it was found."""
         import lmfit
 
@@ -113,7 +115,7 @@ class Fit:
             covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
             sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
             undetermined=(*[steady] * bool(steady), *seen.words(), *gauge(problem)),
-            doubts=tuple(_doubts(problem, x, residuals, redchi, free)),
+            doubts=(*[doubt] * bool(doubt), *_doubts(problem, x, residuals, redchi, free)),
             rivals=tuple(_rivals(problem, tried, free * scale**2)), result=result, problem=problem,
             _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole,
         )  # fmt: skip

@@ -43,7 +43,8 @@ class Seen:
         if problem.loss == "linear":
             self.covariance = kept * scale**2
         else:  # of an M-estimator, whatever the noise
-            spread = (J * self.units * scores[:, None]).T @ (J * self.units * scores[:, None])
+            score = (J * self.units * scores[:, None]).reshape(problem.data.t.size, -1, len(x)).sum(1)
+            spread = score.T @ score  # the numbers of one time may be off together
             self.covariance = kept @ spread @ kept
         square = np.outer(self.units, self.units)
         self.covariance = self.covariance * square
