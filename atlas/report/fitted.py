@@ -91,7 +91,8 @@ class Fitted:
             self._parameters(),
             {"kind": "figure", "recipe": f"./{self.name}.py", "id": "data"},
             *self._correlations(),
-            *self._horizons(),
+            *([] if self.fit.doubts else [self._horizons()]),
+            *([_prose("What was asked of the time to come:", "", "```", *self.ahead, "```")] if self.ahead else []),
             *self._motion(left_out, there),
             _prose(
                 "## The same again", "", "This page, and its numbers with all covariances:", "", "```console",
@@ -115,7 +116,7 @@ class Fitted:
         fit = self.fit
         expected = f"where 1 ± {(2 / fit.result.nfree) ** 0.5:.2g} is expected"
         lines = [
-            f"The reduced chi square is {fit.redchi:.3f}, {expected}. The standard error of a measurement was given, "
+            f"The reduced chi square is {fit.redchi:.4g}, {expected}. The standard error of a measurement was given, "
             f"{fit.noise}."
             if fit.known
             else f"The standard error of a measurement, which makes the reduced chi square 1, is {fit.noise}."
@@ -126,7 +127,7 @@ class Fitted:
             ("What the data do not determine:", fit.undetermined),
             ("Other minima:", fit.others),
         ):
-            lines += ["", head, "", *(f"- {sentence}" for sentence in sentences)] if sentences else []
+            lines += ["", head, "", *(f"- {_marked(sentence)}" for sentence in sentences)] if sentences else []
         return "\n".join(lines)
 
     def _parameters(self) -> dict[str, Any]:
@@ -164,8 +165,8 @@ class Fitted:
                 "caption": f"Correlations of errors, from {STRONG:g} on: what one gains the other one pays.",
             }  # fmt: skip
 
-    def _horizons(self) -> Iterator[dict[str, Any]]:
-        """Yield how far ahead a prediction is good."""
+    def _horizons(self) -> dict[str, Any]:
+        """Return how far ahead a prediction is good."""
         fit = self.fit
         unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
         rows = [
@@ -173,13 +174,11 @@ class Fitted:
             for factor, words in AHEAD.items()
             for until in [fit.horizon(factor * size)]
         ]
-        yield {
+        return {
             "kind": "listing", "id": "horizon", "rows": rows, "columns": ["Error", "", "Until"],
             "caption": "How far ahead a prediction of what was measured is good: the time until which its largest "
             f"standard error is smaller. The data end at {fit.t.max():.6g}.",
         }  # fmt: skip
-        if self.ahead:
-            yield _prose("What was asked of the time to come:", "", "```", *self.ahead, "```")
 
     def _motion(self, left_out: list[str], there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
         """Yield the figures of the motion, and where its own page is."""
@@ -205,6 +204,11 @@ class Fitted:
                 "    return fit_file(FILE, **OPTIONS).scene()", "",
             ]
         )  # fmt: skip
+
+
+def _marked(sentence: str) -> str:
+    """Return a sentence for the terminal as Markdown."""
+    return re.sub(r"(--\w+)", r"`\1`", sentence).replace("+-", "±")
 
 
 def _prose(*lines: str) -> dict[str, Any]:

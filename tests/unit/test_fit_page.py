@@ -163,6 +163,8 @@ def test_what_speaks_against_the_family_is_told(tmp_path: Path, capsys: pytest.C
     assert "What speaks against this motion:" in page
     assert "Neighbouring residuals are correlated" in page
     assert "Nothing in the residuals" not in page
+    assert "How far ahead" not in page
+    assert "by params (--start)" in page
 
 
 def test_a_bad_file_or_a_changed_one_leaves_the_page(folder: Path, tmp_path: Path) -> None:
