@@ -150,14 +150,6 @@ def test_units_are_those_of_siunitx(number: str, unit: str, expected: tuple[str,
     assert _with_unit(number, unit) == expected
 
 
-def test_files_of_the_user_stay(made: Path, tmp_path: Path) -> None:
-    """What is there stays."""
-    (tmp_path / "small").mkdir()
-    (tmp_path / "small" / "thesis.tex").write_text("x", encoding="utf-8")
-    build_tex(made.parents[1] / "small.toml", tmp_path)
-    assert (tmp_path / "small" / "thesis.tex").read_text("utf-8") == "x"
-
-
 LATEX, TO_TEXT, FIND = (shutil.which(name) or "" for name in ("pdflatex", "pdftotext", "kpsewhich"))
 REVTEX = FIND and subprocess.run([FIND, "revtex4-2.cls", "siunitx.sty"], capture_output=True, text=True, check=False)
 needs_latex = pytest.mark.skipif(

@@ -174,6 +174,7 @@ def test_a_short_report_has_its_title_first_and_no_empty_head(tmp_path: Path) ->
     assert not any("Abstract" in page for page in pages)
 
 
+@pytest.mark.slow
 def test_a_report_has_its_style_wherever_it_is_drawn(tmp_path: Path) -> None:
     """`style` in the file, a sheet beside it, draws what `--style` does, in LaTeX, data and pages; the latter wins."""
     (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")

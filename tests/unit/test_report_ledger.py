@@ -218,6 +218,7 @@ def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.Html
         assert not re.search(r"\\[a-zA-Z]+|\$|\{\{|\}\}|\{%|@\w|\*\*|\{#", text), name
 
 
+@pytest.mark.slow
 def test_the_pdf_holds_every_entry(built: Built) -> None:
     """Every name is printed, none is broken before its corrected form."""
     pages = [page.extract_text() for page in PdfReader(built.pdf).pages]
@@ -287,6 +288,7 @@ def test_a_misspelt_record_is_an_error(tmp_path: Path, wrong: str, right: str) -
         compose(report := load(file), {}, gather(report))
 
 
+@pytest.mark.slow
 def test_pages_of_recorded_results_load_no_algebra(tmp_path: Path) -> None:
     """A report never waits for a proof or an integrator: neither SymPy nor SciPy is loaded."""
     file = tmp_path / "mine.toml"
