@@ -110,7 +110,9 @@ def inert(page: reader.HtmlElement) -> bool:
     )
 
 
-@pytest.mark.parametrize("text", MARKUP)
+@pytest.mark.parametrize(
+    "text", [pytest.param(text, marks=[pytest.mark.slow] * (k % 2)) for k, text in enumerate(MARKUP)]
+)
 def test_markup_in_a_text_is_shown_and_not_obeyed(text: str, tmp_path: Path) -> None:
     """Wherever a file takes a text, HTML, Typst, raw blocks, attributes and templates in it are only letters."""
     page, printed = visible(document(definition(text)), tmp_path)
