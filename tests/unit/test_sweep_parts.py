@@ -313,7 +313,7 @@ def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("digits", [None, 20])
-@pytest.mark.parametrize("pace", [1e-9, 1e-4, 0.05, 1.0, 1e3])
+@pytest.mark.parametrize("pace", [1e-4, 1e3, *(pytest.param(x, marks=pytest.mark.slow) for x in (1e-9, 0.05, 1.0))])
 def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float, digits: int | None) -> None:
     """A row that seems to take up to a thousand seconds: every row is in one part, few are lost with it."""
     for count in (1, 4097, 10**6, 10**8):
