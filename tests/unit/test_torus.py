@@ -17,6 +17,7 @@ from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.exact.motions import torus
 from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.torus import Torus
+from atlas.formulas.numbers import workprec
 
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 
@@ -169,6 +170,14 @@ def test_actions_and_riemann_matrix_are_those_of_the_motion(inertia: Any, field:
     assert [float(x) for x in record["actions"]] == pytest.approx(motion.actions.values, rel=1e-12)
     tau = np.array([[complex(*map(float, x)) for x in row] for row in record["riemann_matrix"]])
     assert tau == pytest.approx(motion.riemann_matrix, abs=1e-12)
+
+
+@pytest.mark.slow
+def test_actions_have_as_many_digits_as_are_asked_for() -> None:
+    """On paths that leave a cell of wp too, whose ends are first known to some 50 digits."""
+    curve = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (3.0, 0.7, 0.2)).curve
+    with workprec(500):
+        assert min(J.rel_accuracy_bits() for J in curve.actions) > 490
 
 
 def test_more_digits_begin_with_fewer(found: dict[str, Any]) -> None:

@@ -164,7 +164,7 @@ def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = HAL
 
 def _zero_at(curve: Curve, place: acb) -> acb:
     """Return the zero of Psi, in a ball, that is next to a place."""
-    places = [zero + away - curve.in_cell(away) for zero in curve.zeros for away in (place - zero,)]
+    places = [zero + away - curve.in_cell(away) for zero in curve.zeros for away in (centre(place) - zero,)]
     return min(places, key=lambda u: abs(complex_of(u - place)))
 
 

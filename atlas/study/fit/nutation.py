@@ -57,7 +57,8 @@ def settled(
     """
     (_, x), data = tried[0], problem.data
     motion, values = problem.motion(x)
-    if not values["b"] or (good and _nutation(problem, x) > HEIGHT * np.median(data.sigma)):
+    noise = np.median(data.sigma) * (1.0 if data.known else np.sqrt(problem.reduced(problem.residuals(x))))
+    if not values["b"] or (good and _nutation(problem, x) > HEIGHT * noise):
         return tried, "", ""
     try:
         other, mean = _elementary(problem, motion, values)
@@ -65,9 +66,10 @@ def settled(
         steady = steady | dict(zip(OMEGA, motion.angular_velocity(0.0).tolist(), strict=True))
         level = problem.inside(steady)
         least = problem.chi_square(level)
+        slopes = other.jacobian(mean)
     except AtlasError:
         return tried, "", ""
-    count, starts = _nutations(problem, motion, steady, other.jacobian(mean))
+    count, starts = _nutations(problem, motion, steady, slopes)
     for promise, begin in starts:
         if promise < least - tried[0][0] - 2 * BEYOND:
             break
