@@ -52,7 +52,9 @@ def in_si(number: Fraction, unit: str, option: str) -> tuple[float, Fraction | N
     allowed = {"turn": WANTED.get(option) == RATE or option == "times", "degree": option in ("angle", *WANTED)}
     if found != wanted or not all(allowed[name] for name in angle):
         right = f"--{option} is in {WANTED[option]}" if wanted is not None else f"--{option} has no unit"
-        raise AtlasError(f"{right}, or what can be made of it, not in {unit.strip()!r}.")
+        other = next((name for name, unit_of in WANTED.items() if _parsed(unit_of)[1] == found), None)
+        hint = f", as --{other} may be" if other and not angle else ""
+        raise AtlasError(f"{right}, or what can be made of it, not in {unit.strip()!r}{hint}.")
     value = number * factor
     exact = float(value)
     for name, power in angle.items():

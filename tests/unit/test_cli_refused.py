@@ -102,6 +102,7 @@ CASES = [
     ("figure hyperbola ratio=0.5", "a parameter has --set before it: --set ratio=0.5"),
     ("figure hyperbola --ratio 0.5", "given by --set ratio=VALUE"),
     ("motion --shape ring --radius 1kg --field 1 2 --omega2 1", "--radius is in m, or what can be made of it"),
+    ("motion --ratio 1 --field 1T --angle 1 --omega2 1", "not in 'T', as --magnetic may be."),
     ("motion --shape ring --radius 1xx --field 1 2 --omega2 1", "there is no unit 'xx'"),
     ("motion --shape ring --radius 1m+ --field 1 2 --omega2 1", "there is no unit 'm+'"),
     ("motion --shape disc --radius 1 --field 1 2 --omega2 1", "did you mean disk?"),
