@@ -37,7 +37,7 @@ NEAR = 2.0**-20
 WHOLE = 1e-3
 """How near to whole numbers are those by which a basis goes into another."""
 
-PART = 256
+PART = 512
 """Times at once."""
 
 ROUNDING, BOUND = 2.0**-52, 1e-9
@@ -104,12 +104,12 @@ class TorusVaried:
         """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, PART):
-            for part, values in zip(out, self._block(t[i : i + PART]), strict=False):
+            for part, values in zip(out, self._block(t[i : i + PART], slopes), strict=True):
                 part[i : i + PART] = np.einsum("np,pmk->mnk", names, values) @ left.T
         out[0] += turns
         return out
 
-    def _block(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _block(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
         half, rest, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
         half = half + rest
         x = self.ways @ half[:2]
@@ -117,19 +117,20 @@ class TorusVaried:
         dx = self.d_ways @ half[:2] + self.ways @ grown[:, :2]
         turn = np.exp(1j * (x[2].real + 2 * half[2]) - x[2].imag)
         d_turn = 1j * (dx[:, 2] + 2 * grown[:, 2])
-        waves = np.exp(1j * (self.P[:, None] * x[0] + self.Q[:, None] * x[1]))
-        inputs = len(self.d_ways)
+        waves = self._waves(self.P, x[0]) * self._waves(self.Q, x[1])
+        inputs, forms = len(self.d_ways), 10 if slopes else 7
         table = [self.weights, 1j * self.P * self.weights, 1j * self.Q * self.weights, *self.d_weights]
-        S, by_P, by_Q, *own = (np.concatenate(table) @ waves).reshape(3 + inputs, 10, -1)
+        sums = np.concatenate([x[:forms] for x in table]) @ waves
+        S, by_P, by_Q, *own = sums.reshape(3 + inputs, forms, -1)
         D = S[3]
-        changed = np.array(own).reshape(inputs, 10, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
+        changed = np.array(own).reshape(inputs, forms, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
         values = S / D
         sizes = (abs(changed) + abs(values * changed[:, 3:4])) / abs(D)
         sizes = np.stack([sizes[:, :3].max(1), sizes[:, 4:7].max(1)], 1)
         changed = (changed - values * changed[:, 3:4]) / D
         N, K = values[:3] * turn, values[4:7].real
         dN = changed[:, :3] * turn + N * d_turn[:, None]
-        dK, dW = changed[:, 4:7].real, changed[:, 7:].real
+        dK = changed[:, 4:7].real
         rows, d_rows = np.array([N.real, N.imag, K]), np.stack([dN.real, dN.imag, dK], 1)
         R = np.einsum("ka,kbm->mab", self.frame, rows)
         dR = np.einsum("pka,kbm->pmab", self.d_frame, rows) + np.einsum("ka,pkbm->pmab", self.frame, d_rows)
@@ -139,7 +140,16 @@ class TorusVaried:
         terms += np.tensordot(sizes[:, [0, 0, 1]], abs(self.frame).max(1), (1, 0))
         if not (ROUNDING * terms <= BOUND * (1 + abs(v).max(2))).all():
             raise DomainError("The field is too weak beside the angular velocity for derivatives in it in floats.")
-        return v, np.matvec(R, (dW - dK).swapaxes(1, 2)) * self.kernel.rate
+        if not slopes:
+            return [v]
+        return [v, np.matvec(R, (changed[:, 7:].real - dK).swapaxes(1, 2)) * self.kernel.rate]
+
+    @staticmethod
+    def _waves(orders: FloatArray, x: Array) -> Array:
+        """Return exp(i n x) of some orders, of which most come more than once, (orders, m)."""
+        least = int(orders.min())
+        powers = np.exp(1j * np.arange(least, int(orders.max()) + 1)[:, None] * x)
+        return np.asarray(powers[orders - least])
 
 
 def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:

@@ -20,7 +20,7 @@ from atlas.core.nutation.varied_pair import Array, Pair
 from atlas.exact.nutation.differences import Differences
 from atlas.exact.nutation.variations import Variation
 
-BLOCK = 512
+BLOCK = 2048
 """Times at once: products of so few the library does not thread."""
 
 MUCH, LOST = 256.0, 4096.0
@@ -122,10 +122,11 @@ class Weighted:
     def _sum(ways: Sequence[FloatArray], parts: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
         """Return what rows of derivatives add to v, or to dv/dt, (3, rows, m)."""
         pairs = [(ways[i], parts[level - i][:, rows]) for i in range(level + 1)]
-        total = ways[0][:, 0, None] * pairs[0][1][0] if not level else np.zeros(1)
-        for i, (way, part) in enumerate(pairs):
-            for j in range(i == level == 0, 4):
-                total = total + way[:, j, None] * part[j]
+        terms = [(way[:, j, None], part[j]) for way, part in pairs for j in range(4)]
+        total = np.multiply(*terms[0])
+        product = np.empty_like(total)
+        for way, part in terms[1:]:
+            total += np.multiply(way, part, out=product)
         return np.asarray(total)
 
     def _basis(
