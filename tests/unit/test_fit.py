@@ -271,6 +271,24 @@ def test_a_signal_of_few_numbers_is_enough(seen: Any) -> None:
     assert not found.doubts
 
 
+def test_a_free_body_is_not_taken_for_one_of_those_in_a_field_that_turn_alike() -> None:
+    """For any s these have moments in the ratios of J_i (J_j + J_k + s), in the field M/s along M."""
+    J, omega, t = (
+        np.array([0.8, 1.0, 1.3]),
+        np.array([1.3, 1.2, 0.9]),
+        np.sort(np.random.default_rng(0).uniform(0, 40, 120)),
+    )
+    R = atlas.AsymmetricMotion(J, np.zeros(3), omega).rotation(t)
+    for s in (0.1, 1.0, -4.0):
+        other = atlas.AsymmetricMotion(abs(J * (J.sum() - J + s)), J * omega / s, omega)
+        assert other.rotation(t) == pytest.approx(R, abs=1e-12)
+    noise = Rotation.from_rotvec(np.random.default_rng(1).normal(0, NOISE, (t.size, 3)))
+    found = atlas.fit(t, "asymmetric", rotation=(noise * Rotation.from_matrix(R)).as_matrix(), sigma=NOISE)
+    assert [found.params[name].value for name in ("I1", "I3", "b")] == pytest.approx([0.8, 1.3, 0.0], abs=0.01)
+    assert "free body of moments J" in found.undetermined[0]
+    assert {"I1", "I3"} <= set(found.undetermined[1].split(" are not")[0].replace(" and", ",").split(", "))
+
+
 def test_confidence_intervals_are_those_of_lmfit(attitudes: Any) -> None:
     """Where errors are small the ends at one sigma are one standard error away; none where nothing is determined."""
     found = attitudes.conf_interval(p_names=["ratio"], sigmas=[1])["ratio"]

@@ -9,6 +9,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.study.fit.data import of_arrays, of_file
+from atlas.study.fit.free import freely
 from atlas.study.fit.models import carried, model_of
 from atlas.study.fit.nutation import settled
 from atlas.study.fit.problem import Problem, lag, parameters
@@ -103,6 +104,8 @@ def fit(
     steady = doubt = ""
     if model.name == "general":
         tried, steady, doubt = settled(problem, tried, good=_good(problem, tried[0][1]))
+    elif model.name == "asymmetric":
+        tried, steady = freely(problem, tried)
     return Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
 
 

@@ -75,8 +75,8 @@ def settled(
             break
         nutating = grown(problem, problem.inside(begin), data.t.size)
         tried = sorted([*tried, (problem.chi_square(nutating), nutating)], key=lambda one: one[0])
-    (best, x), numbers = tried[0], data.t.size * problem.width
-    scale = 1.0 if data.known and problem.loss == "linear" else best / (numbers - len(x))
+    best, x = tried[0]
+    scale = problem.noise(best)
     fallen, chance = (least - best) / scale, 2 * np.log(max(count, data.t.size))
     if fallen > chance + BEYOND:
         return tried, "", _rival(problem, tried, scale)

@@ -267,3 +267,8 @@ class Problem:
         """Return the sum of squares, of what the loss leaves of them."""
         z = self.residuals(x) ** 2
         return float(np.sum(RHO[self.loss](z)))
+
+    def noise(self, chi: float) -> float:
+        """Return the unit of differences of chi square: 1, or its least value a number where sigma is a guess."""
+        known = self.data.known and self.loss == "linear"
+        return 1.0 if known else chi / (self.data.t.size * self.width - len(self.names))
