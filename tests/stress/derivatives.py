@@ -177,17 +177,22 @@ def _in_laboratory(regime: str, J: np.ndarray, start: Any, third: np.ndarray, ra
     """Draw a field, a start and an attitude, some of them along each other, of a body with a tensor."""
     R, size = _rotation(random), random.choice((0.1, 1.0, 10.0))
     B, w = (np.array([random.gauss(0, 1) for _ in range(3)]) * x for x in (size, 1.0))
-    special = random.choice(("", "", "", ", field along the axis", ", spin about the axis", ", spin about the field"))
+    special = random.choice(
+        ("", "", "", ", field along the axis", ", spin about the axis", ", spin about the field", ", free")
+    )
     if "field along" in special:
         B = R @ third * size
     if special.endswith("about the axis"):
         w = third * w[0]
     if special.endswith("about the field"):
         w = B @ R * 1.1
+    if special == ", free":
+        B = np.zeros(3)
     motion = atlas.motion(start, B, w, R)
     ways, rate = _vectors("B", "omega", "a"), max(abs(B).max(), abs(w).max())
     axes = np.asarray(motion.axes)
     if motion.family == "asymmetric":
+        ways = ways if B.any() else _vectors("omega", "a")
         ways |= {f"I{i + 1}": {"J": np.outer(axes[i], axes[i])} for i in range(3)}
     else:
         last = E[2] if motion.family == "ball" else axes[2]

@@ -254,7 +254,19 @@ def test_sensitivity_of_a_body_with_three_moments() -> None:
     assert slopes == pytest.approx((others[0].frequencies - others[1].frequencies) / (2 * h), rel=1e-7)
 
 
-def test_sensitivity_next_to_a_torus_is_refused() -> None:
-    """A free body of three moments: with a field its neighbours are on a torus."""
-    with pytest.raises(atlas.DomainError, match="Euler's top"):
-        atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0, 0, 0), (0.3, 0.7, 0.2)).sensitivity(1.0, "I1")
+@pytest.mark.parametrize("omega", [(0.3, 0.7, 0.2), (0.1, 2.0, 0.3), (0.0, 0.0, 0.9)])
+def test_sensitivity_of_a_free_body_with_three_moments(omega: tuple[float, ...]) -> None:
+    """By differences of motions, and along the motion at any time; its neighbours in a field are on a torus."""
+    x, names = np.array([0.8, 1.0, 1.3, *omega]), [f"{name}{i}" for name in ("I", "omega") for i in (1, 2, 3)]
+    way, h, t = np.array([0.3, -0.2, 0.5, -0.6, 0.2, 0.9]), 1e-5, np.array([0.7, -20.0, 1e9])
+    motion, *others = (atlas.AsymmetricMotion(y[:3], np.zeros(3), y[3:]) for y in (x, x + h * way, x - h * way))
+    v, R = motion.sensitivity(t, [*names, "t"]), motion.rotation(t)
+    turn = ((others[0].rotation(t) - others[1].rotation(t)) / (2 * h)) @ R.swapaxes(1, 2)
+    slope = np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
+    assert np.abs(way @ v[:, :6] - slope)[:2].max() <= 1e-7 * np.abs(slope)[:2].max()
+    later = motion.sensitivity(0.0, ["t"], "angular_velocity")[0] @ v[:, 3:6]
+    assert (
+        np.abs(later - (v[:, 6] - motion.angular_velocity(0.0))).max(1) <= BOUND * (1 + np.abs(v).max((1, 2)))
+    ).all()
+    with pytest.raises(atlas.AtlasError, match="no input 'B1'"):
+        motion.sensitivity(1.0, "B1")

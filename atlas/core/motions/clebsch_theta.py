@@ -27,7 +27,7 @@ from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
 from atlas.core.nutation.grid import moments
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.exact.motions.clebsch_periods import BITS, complex_of
 from atlas.exact.motions.clebsch_theta import ThetaMotion, frame
 from atlas.exact.motions.theta_sums import HALF, Array, Sums
 from atlas.exact.motions.torus import Period, Torus, frequencies
@@ -41,9 +41,6 @@ UPPER = 24
 
 CUT = np.array(1.5 * 2.0 ** (52 - UPPER))
 """Adding and subtracting it rounds to 2^-24."""
-
-BITS = 200
-"""Precision of the constants."""
 
 PERIODS = 160
 """Bits to which the real periods are proved."""

@@ -16,10 +16,10 @@ import numpy as np
 from flint import acb, arb, fmpq
 
 from atlas.core.inputs import FloatArray
-from atlas.core.motions.clebsch_theta import BITS, Constants, ThetaKernel
+from atlas.core.motions.clebsch_theta import Constants, ThetaKernel
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.motions.clebsch_lattice import Lattice
-from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.exact.motions.clebsch_periods import BITS, complex_of
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import Array
 from atlas.exact.motions.torus import Torus
@@ -42,9 +42,6 @@ PART = 512
 
 ROUNDING, BOUND = 2.0**-52, 1e-9
 """Error of a term of v, in parts of it, and that of v, in parts of 1 + |v|, up to which it is given."""
-
-LEAST = 2.0**-64
-"""Part of the largest weight below which a term is left out."""
 
 
 class TorusVaried:
@@ -80,11 +77,13 @@ class TorusVaried:
                     for n, x in enumerate(whole)
                 ]
         slopes = [[x / (kernel.rate if place > 2 else unit) for x in found[place]] for place in places]
-        kept = abs(weights.reshape(10, -1)).max(0) > LEAST * abs(weights).max()
+        self.weights = weights.reshape(10, -1)
+        self.d_weights = np.array([x[0].reshape(10, -1) for x in slopes]).reshape(len(places), 10, -1)
+        tables = np.concatenate([self.weights[None], self.d_weights])
+        kept = (tables != 0).any((0, 1))
         self.P, self.Q = (np.array([x[i] - low[i] for x in box])[kept] for i in (0, 1))
         self.ways, self.frame = ways.reshape(3, 2), frame.real.reshape(3, 3)
-        self.weights = weights.reshape(10, -1)[:, kept]
-        self.d_weights = np.array([x[0].reshape(10, -1)[:, kept] for x in slopes]).reshape(len(places), 10, -1)
+        self.weights, self.d_weights = self.weights[:, kept], self.d_weights[:, :, kept]
         self.d_ways = np.array([x[1].reshape(3, 2) for x in slopes]).reshape(len(places), 3, 2)
         self.d_frequencies = np.array([x[2].real for x in slopes]).reshape(len(places), 3)
         self.d_frame = np.array([x[3].real.reshape(3, 3) for x in slopes]).reshape(len(places), 3, 3)

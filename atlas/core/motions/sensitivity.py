@@ -124,6 +124,8 @@ class One:
             for j, e in enumerate(np.eye(3)):
                 for name, turn, change in ((f"B{j + 1}", np.zeros(3), L[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))):
                     found[name] = self._of_field(change, turn)
+        elif self.motion.family == "asymmetric":  # free
+            found |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
         if turned and "omega1" in own:
             found |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
         return found

@@ -16,6 +16,7 @@ from atlas.errors import DomainError
 from atlas.exact.inputs import sin_cos
 from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.elliptic import EllipticMotion
+from atlas.exact.motions.euler_top import EulerTop
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.cayley_klein import steady
@@ -178,6 +179,15 @@ def of_elliptic(exact: EllipticMotion) -> Inputs:
     )  # fmt: skip
 
 
+def of_euler(exact: AsymmetricMotion) -> Inputs:
+    """Return the inputs of Euler's top."""
+    size, J = _size(*exact.omega), floats(exact.inertia)
+    return Inputs(
+        ("I1", "I2", "I3", "omega1", "omega2", "omega3"), (*exact.inertia, *exact.omega), (*exact.inertia, *[size] * 3),
+        lambda *x: EulerTop(x[:3], x[3:]), {}, (J, J, 0.0, 0.0), np.zeros(3), {},
+    )  # fmt: skip
+
+
 @dataclass(frozen=True)
 class OnTorus(Inputs):
     """The inputs of a motion on a torus."""
@@ -201,6 +211,8 @@ class OnTorus(Inputs):
 def of_asymmetric(one: Any) -> Inputs:
     """Return the inputs of a body with three moments."""
     exact, kernel = one.exact, one.closed
+    if not any(exact.field):
+        return of_euler(exact)
     if not isinstance(kernel, ThetaKernel):
         raise DomainError(
             f"The motion has no theta functions whose constants could be differentiated: it is {exact.kind!r}."

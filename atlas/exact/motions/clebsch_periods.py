@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from atlas.errors import NotCertifiedError
 from atlas.formulas.numbers import workprec
 
-BITS = 200
-"""Precision of the integrals."""
+BITS = 240
+"""Precision of the integrals: of zeros that are closer than 2^-50, as a disk has them, half is lost."""
 
 LOST = 8
 """Fewest bits of an integrand that are known; there are fewer where zeros are next to the pole of z."""
@@ -35,7 +35,7 @@ field, or of a field 2^100 times the spin. Isolating the zeros takes hours for t
 
 NODES, ROOM = 64, 1.1
 """Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
-is left out is 2^-BITS, exp(-2 NODES ROOM)."""
+is left out is 2^-200, exp(-2 NODES ROOM)."""
 
 LEAST = 1e-10
 """That of the ellipse round a whole path from which on it is gone."""
