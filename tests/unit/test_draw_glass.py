@@ -154,7 +154,9 @@ GLASS: dict[str, tuple[Callable[[], list[Surface]], float, float]] = {
 
 
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
-@pytest.mark.parametrize("case", GLASS)
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, marks=[pytest.mark.slow] * (k % 2)) for k, case in enumerate(GLASS)]
+)
 def test_glass_is_what_sorted_rays_give(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Away from edges at most one pixel in 5000 is more than three grey levels from the exact picture."""
     make, azimuth, elevation = GLASS[case]

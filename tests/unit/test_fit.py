@@ -257,8 +257,10 @@ def test_tops_are_found_from_rates() -> None:
 
 @pytest.mark.parametrize(
     "seen",
-    [lambda R: np.stack([R[:, 0, 0], R[:, 1, 2]], -1), lambda R: R[:, 0, 0] / 2 + R[:, 1, 2]],
-    ids=["two", "one"],
+    [
+        pytest.param(lambda R: np.stack([R[:, 0, 0], R[:, 1, 2]], -1), id="two"),
+        pytest.param(lambda R: R[:, 0, 0] / 2 + R[:, 1, 2], id="one", marks=pytest.mark.slow),
+    ],
 )
 def test_a_signal_of_few_numbers_is_enough(seen: Any) -> None:
     """Two numbers, or a single one, that a function makes of R tell the ratio and the size of the field."""
@@ -304,7 +306,7 @@ def test_a_start_is_taken() -> None:
     assert abs(found.params["ratio"].value - RATIO) < 5 * found.params["ratio"].stderr
 
 
-@pytest.mark.parametrize("size", [0.0, 0.0009, 0.01])
+@pytest.mark.parametrize("size", [pytest.param(0.0, marks=pytest.mark.slow), 0.0009, 0.01])
 def test_a_small_nutation_is_never_silent(size: float) -> None:
     """None is an elementary motion, which says what it does not tell; one of 3 sigma is told with its size."""
     rng = np.random.default_rng(8)
@@ -338,6 +340,7 @@ def test_a_small_nutation_is_that_of_its_body() -> None:
         assert mode.frequency[0] ** 2 == pytest.approx(atlas.Hyperbola(ratio, (across, K[2])).stability(turned))
 
 
+@pytest.mark.slow
 def test_a_hardly_nutating_motion_tells_its_body_or_that_it_does_not() -> None:
     """A nutation of a fourteenth of the noise at 500 times is found by its frequency, among thousands."""
     rng = np.random.default_rng(9)
@@ -349,7 +352,7 @@ def test_a_hardly_nutating_motion_tells_its_body_or_that_it_does_not() -> None:
     assert abs(found.redchi - 1) < 0.2
 
 
-@pytest.mark.parametrize("loss", ["linear", "soft_l1"])
+@pytest.mark.parametrize("loss", ["linear", pytest.param("soft_l1", marks=pytest.mark.slow)])
 def test_standard_errors_are_those_of_many_measurements(loss: str) -> None:
     """Squared distances from the truth, by the covariance, are those of ten degrees of freedom each; with outliers too.
 

@@ -112,6 +112,7 @@ def test_the_pdf_and_the_file_have_the_pictures(folder: Path) -> None:
     assert all(words in text for words in ("The motion in mine.csv", "Figure 1", "reduced chi square", "How far ahead"))
 
 
+@pytest.mark.slow
 def test_its_commands_make_it_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The first one the same files; the one of the motion is a page of the motion that was measured."""
     out = folder / "out"
@@ -152,6 +153,7 @@ def test_what_is_not_determined_is_told(tmp_path: Path) -> None:
     assert "±" in values["omega3"]
 
 
+@pytest.mark.slow
 def test_what_speaks_against_the_family_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A body that slows down: chi square and correlated residuals on the page and on the terminal, with status 1."""
     file = written(tmp_path / "mine.csv", nutating(), slower=2e-3)

@@ -390,7 +390,13 @@ def test_without_pandas_one_line_names_the_extra(monkeypatch: pytest.MonkeyPatch
         ONE[5].to_dataframe()
 
 
-@pytest.mark.parametrize("one", [*TABLED, SymmetricBody.ring(1.0, 2.0)], ids=name)
+@pytest.mark.parametrize(
+    "one",
+    [
+        pytest.param(one, id=name(one), marks=[pytest.mark.slow] * (k % 3 > 0))
+        for k, one in enumerate([SymmetricBody.ring(1.0, 2.0), *TABLED])
+    ],
+)
 def test_html_is_light_and_needs_no_tex(one: Any) -> None:
     """A notebook shows each object within 40 kB, its picture among them, and no formula waits for MathJax."""
     shown = one._repr_html_()

@@ -179,6 +179,7 @@ def test_the_code_of_a_page_gives_its_numbers(made: Path) -> None:
         assert float(printed[name]) == pytest.approx(float(number(found[name][2])), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_report_file_that_was_changed_is_not_overwritten(
     ball: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

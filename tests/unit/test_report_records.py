@@ -119,7 +119,7 @@ def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=[pytest.mark.slow] * (name in {"trial", "three_moments"})) for name in names()],
+    [pytest.param(name, marks=[pytest.mark.slow] * (name in {"atlas", "trial", "three_moments"})) for name in names()],
 )
 def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""

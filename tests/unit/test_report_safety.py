@@ -124,7 +124,9 @@ def test_markup_in_a_text_is_shown_and_not_obeyed(text: str, tmp_path: Path) -> 
     assert all(word in printed for word in words if word not in {"html", "typst"})
 
 
-@pytest.mark.parametrize("block", BLOCKS)
+@pytest.mark.parametrize(
+    "block", [pytest.param(block, marks=[pytest.mark.slow] * (k % 2)) for k, block in enumerate(BLOCKS)]
+)
 def test_blocks_of_markdown_are_set_in_page_and_pdf(block: str, tmp_path: Path) -> None:
     """A rule, lists, tables and headings are set; raw blocks, attributes and metadata are text."""
     page, _ = visible(document(definition("x", block)), tmp_path)

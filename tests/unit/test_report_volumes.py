@@ -165,11 +165,11 @@ def test_page_and_print_cite_alike(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ("@klein1897 says", "@kelin1897 says", "klein1897"),
+        pytest.param("@klein1897 says", "@kelin1897 says", "klein1897", marks=pytest.mark.slow),
         ('kind = "bibliography"', 'kind = "prose", text = "None."', "'bibliography'"),
         ('bibliography = "works.bib"', 'bibliography = "work.bib"', "no file"),
-        ('bibliography = "works.bib"\n', "", "BibTeX"),
-        ("[@euler1765;", "[@(16);", "brackets of their own"),
+        pytest.param('bibliography = "works.bib"\n', "", "BibTeX", marks=pytest.mark.slow),
+        pytest.param("[@euler1765;", "[@(16);", "brackets of their own", marks=pytest.mark.slow),
         ("[@euler1765;", "[see @euler1765;", "lost in print"),
     ],
 )

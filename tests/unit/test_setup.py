@@ -73,6 +73,7 @@ def test_what_is_wrong_with_python_is_told(tmp_path: Path, programs: dict[str, s
     assert "a module of the user ran" not in told
 
 
+@pytest.mark.slow
 def test_pip_tells_why_it_failed(tmp_path: Path) -> None:
     """The reason is pip's own, and no half-made environment counts as ready."""
     hidden = {"PYTHONPATH": str(tmp_path), "PYTHONHOME": str(tmp_path), "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": ""}

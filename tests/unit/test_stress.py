@@ -173,6 +173,7 @@ def test_what_is_not_a_number_is_infinitely_wrong() -> None:
     assert of_length(np.array([3.0, 4.0 + 2.0**-50, 0.0]), [fmpq(3), fmpq(4), fmpq(0)]) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_extreme_motions_keep_the_promises_as_on_another_processor() -> None:
     """One motion of every regime keeps them where OpenBLAS multiplies matrices without fused steps."""
     words = [sys.executable, "-m", "stress", "--samples", "1", "--seed", "1", "--jobs", "1"]
@@ -181,6 +182,7 @@ def test_extreme_motions_keep_the_promises_as_on_another_processor() -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_kernels_and_balls_agree_as_on_another_processor() -> None:
     """The tests of agreement at the defaults of every family pass there too, but for three moments, which is slow."""
     words = ["-m", "pytest", "-n", "0", "-k", "agree and not asymmetric", "unit/test_families.py"]

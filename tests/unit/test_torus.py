@@ -158,9 +158,9 @@ def test_the_riemann_matrix_is_that_of_the_motion(found: dict[str, Any]) -> None
 @pytest.mark.parametrize(
     ("inertia", "field", "omega"),
     [
-        ((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (3.0, 0.7, 0.2)),
+        pytest.param((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (3.0, 0.7, 0.2), marks=pytest.mark.slow),
         ((822.0, 857.0, 1150.0), (-2.8e-4, 1.29e-3, 1.0e-3), (-5.42e-3, -3.78e-3, -3.5e-4)),
-        ((0.79, 0.86, 1.28), (-0.12, 2.1, -1.1), (-0.76, 4.1, 1.3)),
+        pytest.param((0.79, 0.86, 1.28), (-0.12, 2.1, -1.1), (-0.76, 4.1, 1.3), marks=pytest.mark.slow),
     ],
 )
 def test_actions_and_riemann_matrix_are_those_of_the_motion(inertia: Any, field: Any, omega: Any) -> None:

@@ -64,6 +64,7 @@ def test_modules_of_the_users_own_break_nothing(run: Run, tmp_path: Path) -> Non
     assert done.stdout.split() == ["build/figures/magn.svg", "build/figures/trochoids.svg"]
 
 
+@pytest.mark.slow
 def test_the_guides_own_recipe_works_anywhere(run: Run, tmp_path: Path) -> None:
     """What the guide says of it, word for word, in an empty folder, and every other format too."""
     assert RECIPE

@@ -40,7 +40,7 @@ WRITERS = {
 }
 """Commands, each with the first thing that it puts into its folder."""
 
-LONG = ("page", "tex")
+LONG = ("page", "tex", "fit")
 """Those that take seconds."""
 
 
@@ -143,7 +143,7 @@ def test_a_disk_without_room_leaves_what_was_there(tmp_path: Path, words: str) -
     assert {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()} == before
 
 
-@pytest.mark.parametrize("reads", ["", "cat >/dev/null; "])
+@pytest.mark.parametrize("reads", ["", pytest.param("cat >/dev/null; ", marks=pytest.mark.slow)])
 def test_an_ffmpeg_that_fails_is_one_line(tmp_path: Path, reads: str) -> None:
     """What it says is passed on, whether it goes at once or after the last frame."""
     program = tmp_path / "ffmpeg"
