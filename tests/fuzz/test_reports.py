@@ -147,6 +147,7 @@ def test_the_report_that_is_changed_is_a_good_one(folder: Path) -> None:
     assert status == 0, err
 
 
+@pytest.mark.slow
 @share(0.05, 5)
 @given(report=reports())
 def test_any_report_becomes_pages_or_a_line(folder: Path, report: dict[str, Any]) -> None:

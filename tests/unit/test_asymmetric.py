@@ -243,7 +243,9 @@ EXTREME = {
 }
 
 
-@pytest.mark.parametrize("name", EXTREME)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (k > 0)) for k, name in enumerate(EXTREME)]
+)
 def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """R(20) by the periods and R(20) by Taylor series all the way have numbers in common, to 20 digits."""
     with ctx.workprec(80):

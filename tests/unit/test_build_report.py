@@ -223,6 +223,7 @@ def test_text_is_escaped_for_html(tmp_path: Path) -> None:
     assert title in " ".join(PdfReader(BytesIO(made.pdf.read_bytes())).pages[2].extract_text().split())
 
 
+@pytest.mark.slow
 def test_pages_or_the_pdf_alone(tmp_path: Path) -> None:
     """With one format the other stays as it was; asked for both, only the one that is out of date is made."""
     file, out = tmp_path / "mine.toml", tmp_path / "out"

@@ -73,7 +73,9 @@ def test_the_kind_is_decided_on_the_exact_inputs(kind: str) -> None:
     assert GeneralMotion(*KINDS[kind]).kind == kind
 
 
-@pytest.mark.parametrize("inputs", [*KINDS.values(), *MORE])
+@pytest.mark.parametrize(
+    "inputs", [pytest.param(x, marks=[pytest.mark.slow] * (k % 2)) for k, x in enumerate([*KINDS.values(), *MORE])]
+)
 def test_it_is_what_the_equations_of_motion_make(inputs: Any) -> None:
     """R and Omega agree to 30 digits with a Taylor integration that shares no code, forwards and backwards."""
     I, B, omega = inputs

@@ -138,6 +138,7 @@ def unbuilt(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("atlas.build.report.build_report", build)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unbuilt")
 def test_what_is_not_determined_is_told(tmp_path: Path) -> None:
     """An elementary motion does not tell the ratio and the field apart: there are no numbers, and a sentence."""

@@ -165,7 +165,8 @@ def test_the_lines_are_the_mean_square_of_a_unit_vector() -> None:
         assert power == pytest.approx(1, abs=5e-3)
 
 
-@pytest.mark.parametrize("spin", [0.0, pytest.param(500.0, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("spin", [0.0, 500.0])
 def test_deviations_are_those_of_a_fit(spin: float) -> None:
     """A fit to noisy looks has the errors of the table, by differences of motions; it tells I3 where the table does."""
     data = table("inferred", **BALL, spins=[spin], samples=400, seconds=0.05, noise=0.01)

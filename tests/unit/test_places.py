@@ -65,7 +65,8 @@ def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkey
     assert sorted(path.name for path in tmp_path.iterdir()) == [".written", "elsewhere", "magn.svg"]
 
 
-@pytest.mark.parametrize("cache", [None, pytest.param("/proc/none", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("cache", [None, "/proc/none"])
 def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, cache: str | None) -> None:
     """No process says a word about it, nor of a backend and a date that are none."""
     folder = tmp_path / "no" / "home" if cache is None else tmp_path

@@ -36,7 +36,7 @@ MOTIONS: dict[str, Callable[[], Any]] = {
 }
 SLOW = {
     "general, two real roots", "as far from it as a double can be", "charged top", "slow nutation",
-    "elliptic, other oval", "without a closed form",
+    "elliptic, other oval", "without a closed form", "elementary", "three moments",
 }  # fmt: skip
 EVERY = pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in MOTIONS]

@@ -95,7 +95,10 @@ def test_what_has_no_lines_is_refused() -> None:
         motion.spectrum(least=0.0)
 
 
-@pytest.mark.parametrize("body", ["--ratio 1.5 --field 1 2", "--tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1"])
+@pytest.mark.parametrize(
+    "body",
+    ["--ratio 1.5 --field 1 2", pytest.param("--tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1", marks=pytest.mark.slow)],
+)
 def test_the_command_prints_the_lines_of_the_motion(body: str) -> None:
     """As a table and in JSON, of the axis unless another function is named."""
     words = ["motion", *body.split(), *"--omega 0.3 0.7 0.2 --least 1e-2 --spectrum".split()]

@@ -46,6 +46,7 @@ def other_run() -> Result:
     return stress(1, SHORT[1] + 1, first=1)
 
 
+@pytest.mark.slow
 def test_the_short_run_keeps_every_promise(short_run: Result) -> None:
     """No quantity exceeds its limit in ulps, and no kernel refuses an input inside the domain."""
     assert short_run.samples >= SHORT[0]

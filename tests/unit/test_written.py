@@ -89,7 +89,7 @@ LONE = {
     "animate trochoids --over turns=1:{}:2 --dpi 20": "out/trochoids.gif",
     "sweep ball --set inertia=1 larmor={} m2=1 m3=1 --quantity gamma --out out/t.csv": "out/t.csv",
     "check run2.csv --threshold {} --figure out/c.svg": "out/c.svg",
-    "fit run{}.csv --figure out/f.svg": "out/f.svg",
+    "fit run{}.csv --family elementary --figure out/f.svg": "out/f.svg",
 }
 """Commands that write one file, with a number that changes it."""
 
