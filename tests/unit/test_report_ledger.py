@@ -198,7 +198,7 @@ def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dic
         assert refuted[name].corrected_verdict in sides[1].xpath("string(./p)")
         if refuted[name].verdict != "refuted":
             continue
-        (example,) = element.xpath("./div[@class='counterexample']/p[2]")
+        (example,) = element.xpath("./div[contains(@class, 'counterexample')]/p[2]")
         counter = refuted[name].counterexample
         assert counter.get("reason", f"right {counter['right'].replace('-', '−')}.") in example.text_content()
         assert len(example.xpath(".//*[local-name()='math']")) >= len(counter) - ("reason" in counter)
