@@ -194,7 +194,8 @@ def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
         if name is None:
             raise AtlasError(
                 f"{where}: no column is called {plain!r}; "
-                f"there are t, R11 to R33, Omega1 to Omega3, {'K1 to K3, ' if more else ''}q0 to q3 (or w, x, y, z)."
+                f"there are t, R11 to R33 (the axis is R13, R23, R33), Omega1 to Omega3, "
+                f"{'K1 to K3, ' if more else ''}q0 to q3 (or w, x, y, z)."
             )
         if name in names:
             raise AtlasError(f"{where}: the column {name} is there twice.")

@@ -1,5 +1,6 @@
 """What a fit found: the parameters with their errors, what the data do not see, whether the family is the right one."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -210,11 +211,12 @@ class Fit:
         heading, rows = ["parameter", "value", "standard error", ""], []
         for name, p in self.params.items():
             note = "" if p.vary else f"= {p.expr}" if p.expr else "fixed"
+            sought = p.vary or any(self.params[x].vary for x in re.findall(r"\w+", p.expr or "") if x in self.params)
             if p.stderr:
                 digits = max(0, 1 - int(np.floor(np.log10(p.stderr))))
                 rows.append([name, f"{p.value:.{digits}f}", f"{p.stderr:.{digits}f}", note])
             else:
-                note = note if note == "fixed" else f"{note}, not determined".removeprefix(", ")
+                note = f"{note}, not determined".removeprefix(", ") if sought else note
                 rows.append([name, f"{p.value:.6g}", "-", note])
         return heading, rows
 
