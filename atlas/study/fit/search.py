@@ -132,12 +132,32 @@ def random(problem: Problem, count: int, seed: int) -> dict[str, FloatArray]:
         found |= dict(zip(("k2", "k3"), rng.normal(size=(2, count)) * size.T / 2, strict=True))
         found |= dict(zip(("linear", "quadratic"), rng.normal(size=(2, count)) * size.T**2, strict=True))
         found |= dict(zip(("n1", "n2", "n3"), rng.normal(size=(3, count)), strict=True))
+        if data.kind == "angular_velocity":
+            found["linear"], n = _pulled(problem, found["I3"], rng)
+            a = Rotation.from_matrix([upright(x).T for x in n]).as_rotvec()
+            found |= dict(zip(ATTITUDE, a.T, strict=True))
     D = I1 * I3
     ends = np.sort(-D[:, None] / np.stack([I1, np.ones(count), I3], -1), -1)
     inner = ends[:, 0] + rng.uniform(0.1, 0.9, count) * (ends[:, 1] - ends[:, 0])
     found["z"] = np.where(rng.random(count) < 0.3, inner, ends[:, 2] + np.exp(rng.normal(0, 1.5, count)))
     found["omega2"] = np.vecdot(omega, _across(np.vecmat(field, R)))
     return found
+
+
+def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
+    """Return A (M,) and n in the body (M, 3) of tops of moments I3 (M,) whose rates change as is seen at t = 0.
+
+    I Omega' = [I Omega, Omega] + A [n, e3] tells the part of A n across e3; how large n3 is, is random.
+    """
+    w, slope = local(problem.data, problem.rate)
+    J = np.stack([np.ones_like(I3), np.ones_like(I3), I3], -1)
+    torque = J * slope - np.cross(J * w, w)
+    n3, linear = rng.uniform(-0.95, 0.95, I3.size), problem.params["linear"]
+    sign = np.where(rng.random(I3.size) < 0.5, -1.0, 1.0)
+    sign = np.clip(sign, -1.0 if linear.min < 0 else 1.0, 1.0 if linear.max > 0 else -1.0)
+    size = np.maximum(np.hypot(torque[:, 0], torque[:, 1]), 1e-9 * problem.rate**2)
+    A = sign * size / np.sqrt(1 - n3 * n3)
+    return A, np.stack([-torque[:, 1] / A, torque[:, 0] / A, n3], -1)
 
 
 def _across(K: FloatArray) -> FloatArray:
