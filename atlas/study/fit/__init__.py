@@ -10,7 +10,7 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.study.fit.data import of_arrays, of_file
 from atlas.study.fit.free import freely
-from atlas.study.fit.models import carried, model_of
+from atlas.study.fit.models import model_of
 from atlas.study.fit.nutation import settled
 from atlas.study.fit.problem import Problem, lag, parameters
 from atlas.study.fit.result import FOLLOWED, Fit
@@ -120,8 +120,8 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
     found: list[tuple[float, tuple[float, Any]]] = []
     for centre, there, start, count in tries(problem):
         try:
-            values = there.values(grown(there, start, count))
-            x = problem.inside(carried(problem.model, problem.data.kind, values, -centre) if centre else values)
+            x = grown(there, start, count)
+            x = problem.inside(there.carried(x, -centre)) if centre else x
             chi = problem.chi_square(x)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so

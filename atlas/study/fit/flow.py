@@ -9,7 +9,6 @@ a charged body being k = I, b = K.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -28,6 +27,10 @@ LONGEST = 20000
 """Steps that are made at most."""
 
 
+HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], float)
+"""The matrix [Omega]x, row by row, is Omega times this."""
+
+
 @dataclass(frozen=True)
 class Flow:
     """Motions that start at t = 0, S of them: moments and couplings (S, 3), potential (S,), field, R and Omega."""
@@ -42,15 +45,55 @@ class Flow:
     error: float = ERROR
 
     def at(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return R (S, N, 3, 3) and Omega (S, N, 3) at times (N,) in any order."""
-        S = len(self.omega)
-        out = np.empty((S, t.size, 4, 3))
-        for ahead in (t >= 0, t < 0):
-            order = np.flatnonzero(ahead)
-            order = order[np.argsort(abs(t[order]), kind="stable")]
-            if order.size:
-                self._along(t[order], order, out)
-        return out[:, :, :3], out[:, :, 3]
+        """Return R (S, N, 3, 3) and Omega (S, N, 3) at times (N,) in any order, nan where there are too many steps.
+
+        What comes before t = 0 is made together with what comes after, as motions whose time runs backwards.
+        """
+        signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], ORDER, abs(t).max(initial=0.0)
+        S, both = len(self.omega), len(signs)
+        out = np.full((S, t.size, 4, 3), np.nan)
+        g = self.coupling.sum(-1, keepdims=True) - 2 * self.coupling
+        moments, gyration, field = (np.tile(x, (both, 1)) for x in (self.moments, g, self.field))
+        linear, quadratic = np.tile(self.potential, (both, 1)).T[..., None]
+        pulled, sign = bool(self.potential.any()), np.repeat(signs, S)[:, None, None]
+        left = np.zeros((both * S, 4, n + 1, 3))  # the series of the rows of R, and of I Omega - g b
+        right = np.zeros((both * S, n + 1, 3, 3))  # that of [Omega]x, the last first
+        b, flat = np.zeros((both * S, n + 1, 3)), left.reshape(both * S, 4, -1)
+        state = np.concatenate([self.attitude, (self.moments * self.omega)[:, None]], 1)  # R and I Omega
+        state, now = np.tile(state, (both, 1, 1)), 0.0
+        views = [  # of each order: slices cost as much as the sums
+            (left[:, :, k], left[:, 3, k], b[:, k], right[:, n - k].reshape(-1, 9), flat[:, :, : 3 * (k + 1)],
+             right[:, n - k :].reshape(both * S, -1, 3)) for k in range(n + 1)
+        ]  # fmt: skip
+        factors = [sign / (k + 1) for k in range(n)]
+        for _ in range(LONGEST):
+            for k, (rows, last_row, b_k, hat, rows_so_far, hats_so_far) in enumerate(views):
+                np.vecmat(field, state[:, :3], out=b_k)
+                rows[:] = state
+                np.subtract(last_row, gyration * b_k, out=last_row)
+                if k == n:
+                    break
+                np.matmul(state[:, 3] / moments, HAT, out=hat)
+                state = rows_so_far @ hats_so_far
+                if pulled:
+                    across = linear * b_k[:, :2] + quadratic * np.vecmat(b[:, k::-1, 2], b[:, : k + 1, :2])
+                    state[:, 3, :2] += across[:, ::-1] * [1.0, -1.0]
+                state *= factors[k]
+            size = np.maximum(abs(left[:, :3, n]).max((1, 2)), abs(left[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
+            own = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
+            h = float(np.sort(np.where(np.isfinite(own), own, np.inf))[int(SLOWEST * both * S)])
+            if not np.isfinite(h):
+                break
+            for series, side in zip(np.split(left, both), signs, strict=True):
+                places = np.flatnonzero((side * t >= now) & (side * t <= now + h))
+                out[:, places] = ((side * t[places] - now)[:, None] ** np.arange(n + 1) @ series).swapaxes(1, 2)
+            now += h
+            if now > end:
+                break
+            state = h ** np.arange(n + 1) @ left
+            state[:, 3] += gyration * np.vecmat(field, state[:, :3])
+        R = out[:, :, :3]
+        return R, (out[:, :, 3] + g[:, None] * np.vecmat(self.field[:, None], R)) / self.moments[:, None]
 
     def rotation(self, t: FloatArray) -> FloatArray:
         """Return R, (S, N, 3, 3)."""
@@ -63,49 +106,3 @@ class Flow:
     def field_in_body(self, t: FloatArray) -> FloatArray:
         """Return the field in the body, (S, N, 3)."""
         return np.asarray(np.vecmat(self.field[:, None], self.at(t)[0]))
-
-    def _along(self, t: FloatArray, places: Any, out: FloatArray) -> None:
-        """Fill in the states at times sorted away from 0, all of one sign."""
-        S, n = len(self.omega), ORDER
-        g = self.coupling.sum(-1, keepdims=True) - 2 * self.coupling
-        pulled = bool(self.potential.any())
-        left = np.zeros((S, 4, n + 1, 3))  # coefficients of the rows of R, and of I Omega - g b
-        right = np.zeros((S, n + 1, 3, 3))  # of [Omega]x, the last first
-        rates = np.zeros((S, n + 1, 3))
-        R, omega, now, first = self.attitude, self.omega, 0.0, 0
-        sign = -1.0 if t[-1] < 0 else 1.0
-        flat = left.reshape(S, 4, -1)
-        for _ in range(LONGEST):
-            b = np.zeros((S, n + 1, 3))
-            for k in range(n + 1):
-                b[:, k] = np.vecmat(self.field, R)
-                left[:, :3, k], left[:, 3, k], rates[:, k] = R, self.moments * omega - g * b[:, k], omega
-                hat = right[:, n - k]
-                hat[:, 2, 1], hat[:, 0, 2], hat[:, 1, 0] = omega.T
-                hat[:, 1, 2], hat[:, 2, 0], hat[:, 0, 1] = -omega.T
-                if k == n:
-                    break
-                change = flat[:, :, : 3 * (k + 1)] @ right[:, n - k :].reshape(S, -1, 3)
-                torque = change[:, 3]
-                if pulled:
-                    lin, quad = self.potential.T
-                    across = lin[:, None] * b[:, k, :2]
-                    across = across + quad[:, None] * np.vecmat(b[:, k::-1, 2], b[:, : k + 1, :2])
-                    torque = torque + np.stack([across[:, 1], -across[:, 0], np.zeros(S)], -1)
-                R, omega = change[:, :3] / (k + 1), torque / self.moments / (k + 1)
-            size = np.maximum(abs(left[:, :3, n]).max((1, 2)), abs(left[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
-            own = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
-            h = float(np.sort(np.where(np.isfinite(own), own, np.inf))[int(SLOWEST * S)])
-            if not np.isfinite(h):
-                break
-            last = int(np.searchsorted(abs(t), abs(now) + h, "right"))
-            steps = np.append(t[first:last] - now, sign * h)
-            powers = steps[:, None] ** np.arange(n + 1)
-            made = np.empty((S, steps.size, 4, 3))
-            made[:, :, :3] = np.einsum("kj,srjc->skrc", powers, left[:, :3], optimize=True)
-            made[:, :, 3] = powers @ rates
-            out[:, places[first:last]] = made[:, :-1]
-            R, omega, now, first = made[:, -1, :3], made[:, -1, 3], now + sign * h, last
-            if first == t.size:
-                return
-        out[:, places[first:]] = np.nan

@@ -24,6 +24,10 @@ LIKE = 1e-3
 """Weight of the moments that were found, beside 1 of a constant angular momentum: those that this leaves open."""
 
 
+TURNING = 0.3
+"""Change of the angular momentum, in parts of it, from which on a field is seen: noise is less."""
+
+
 def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple[float, Any]], str]:
     """Return what was tried with a free body before all, where a field is not seen beyond noise; and what is said then.
 
@@ -39,7 +43,11 @@ def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple
     try:
         motion, values = problem.motion(x)
         R, omega = (f(problem.data.t) for f in (motion.rotation, motion.angular_velocity))
-        I1, I2, I3 = _moments(R.reshape(-1, 3, 3), omega.reshape(-1, 3), np.array([values["I1"], 1.0, values["I3"]]))
+        (I1, I2, I3), turning = _moments(
+            R.reshape(-1, 3, 3), omega.reshape(-1, 3), np.array([values["I1"], 1.0, values["I3"]])
+        )
+        if turning > TURNING:
+            return tried, ""
         start = values | {"I1": I1 / I2, "I3": I3 / I2} | dict.fromkeys(B, 0.0)
         level = problem.inside(free.values(grown(free, free.inside(start), problem.data.t.size)))
         least = problem.chi_square(level)
@@ -55,10 +63,14 @@ def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple
     )
 
 
-def _moments(R: FloatArray, omega: FloatArray, inertia: FloatArray) -> FloatArray:
-    """Return the moments of a body whose angular momentum would be constant in the laboratory, by least squares."""
+def _moments(R: FloatArray, omega: FloatArray, inertia: FloatArray) -> tuple[FloatArray, float]:
+    """Return the moments of a body whose angular momentum would be constant in the laboratory, by least squares.
+
+    And by how much it changes, in parts of its size.
+    """
     momenta = R * omega[:, None] / np.linalg.norm(omega, axis=1).max()  # one column for each moment
     change = (momenta - momenta.mean(0)).reshape(-1, 3)
     like = np.sqrt(len(R)) * LIKE * np.eye(3)
     wanted = np.concatenate([np.zeros(len(change)), like @ inertia])
-    return np.asarray(np.linalg.lstsq(np.vstack([change, like]), wanted)[0])
+    moments = np.linalg.lstsq(np.vstack([change, like]), wanted)[0]
+    return moments, float(np.linalg.norm(change @ moments) / np.linalg.norm(momenta @ moments))

@@ -211,12 +211,6 @@ def upright(n: FloatArray) -> FloatArray:
     return np.asarray(Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix())
 
 
-def carried(model: Model, kind: str, p: Values, time: float) -> dict[str, float]:
-    """Return the parameters that a motion has at another time."""
-    motion = model.make(p)
-    return state(model, kind, p, motion.rotation(time), motion.angular_velocity(time))
-
-
 def _named(names: Sequence[str], v: FloatArray) -> dict[str, float]:
     return dict(zip(names, v.tolist(), strict=True))
 

@@ -12,7 +12,7 @@ from atlas.errors import AtlasError
 from atlas.study.fit.data import STEP, Data
 from atlas.study.fit.flow import ERROR, FINE
 from atlas.study.fit.least import RHO
-from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, units_of, unseen
+from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, state, units_of, unseen
 
 LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, np.inf), "I3": (0.0, np.inf)}
 
@@ -147,6 +147,12 @@ class Problem:
             values = self.values(x)
             self._kept = key, (self._made(values), values)
         return self._kept[1]  # type: ignore[no-any-return]
+
+    def carried(self, x: Vector, time: float) -> dict[str, float]:
+        """Return the parameters that a motion has at another time."""
+        motion, values = self.motion(list(x))
+        R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
+        return state(self.model, self.data.kind, values, R.reshape(3, 3), omega.reshape(3))
 
     def _made(self, values: Values) -> Any:
         if not self.followed:
