@@ -8,6 +8,8 @@ from atlas.core.inputs import FloatArray, components, finite, kept, plain
 from atlas.core.motions.clebsch import conserved
 from atlas.core.motions.nutating import NutatingMotion
 from atlas.core.nutation.constants import FIRST
+from atlas.core.nutation.elliptic_rows import EllipticBlocks, EllipticRows, EllipticScalars
+from atlas.core.nutation.scalars import IN_ARRAYS
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_elliptic import SingleElliptic
 from atlas.core.quantities import INERTIA, RATE
@@ -42,7 +44,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     - "elementary": two moments are equal, R = R_B(k t) R_3(phi t) as in (84), (85);
     - "elliptic", or "separatrix", where K tends to the axis of the middle E_i.
 
-    The cost does not depend on t; arrays of motions are made one by one, some milliseconds each. Entries of R are
+    The cost does not depend on t. Entries of R are
     within 3.6e-15 for phases up to 2^50, K within 3.6e-15 |B'|, Omega_i within 3.6e-15 |E_i - 1| |B'|; scalars within
     4 ulp. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
     others, for a z on neither oval or at the end of one, and for another branch; AtlasError for what is no finite
@@ -54,6 +56,8 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     """
 
     family = "elliptic"
+    _in_arrays, _kinds = (*(set(IN_ARRAYS) - {"turning_points"}), "v", "omega"), ("elliptic",)
+    _blocks_of, _rows_of, _scalars_of = EllipticBlocks, EllipticRows, EllipticScalars
 
     def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
         parts = [
@@ -62,7 +66,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
             *components((z, branch), ("z", "branch"), "The point of the curve"),
         ]
         super().__init__(lambda *row: SingleElliptic(balls(*row)), *parts)
-        self._of_each(lambda one: one.exact.kind)  # what is no motion is refused here
+        _ = self.kind  # what is no motion is refused here
         self.inertia, self.field, (self.z, self.branch) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
         )

@@ -24,13 +24,30 @@ Nutation = TypeVar("Nutation", bound=SingleMotion)
 
 
 class NutatingMotion(Motion[Nutation]):
-    """Motions R(t) whose axis nutates, with the numbers of a period."""
+    """Motions R(t) whose axis nutates, with the numbers of a period: in arrays by blocks."""
 
     _in_arrays: Container[str] = ()
     """Values that `_scalars` has for all motions at once; the others are made of each by itself."""
-    _scalars: Any
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
+    _blocks_of: type[Blocks] = Blocks
+    _rows_of: type[GeneralRows] = GeneralRows
+    _scalars_of: type[Scalars] = Scalars
+
+    @cached_property
+    def _blocks(self) -> Blocks:
+        """All motions in arrays, by blocks."""
+        return self._blocks_of(self._inputs, self.shape)
+
+    @cached_property
+    def _scalars(self) -> Scalars:
+        """Scalars of all motions in arrays."""
+        return self._scalars_of(self._blocks)
+
+    @cached_property
+    def _rows(self) -> GeneralRows:
+        """All motions in arrays, for a few times each."""
+        return self._rows_of(self._blocks)
 
     @kept
     def kind(self) -> Any:
@@ -133,25 +150,7 @@ class NutatingMotion(Motion[Nutation]):
 
 
 class SymmetricMotion(NutatingMotion[Nutation]):
-    """Motions of bodies with I1 = I2, in arrays too: by blocks, from which scalars and rows are made."""
-
-    _blocks_of: type[Blocks] = Blocks
-    _rows_of: type[GeneralRows] = GeneralRows
-
-    @cached_property
-    def _blocks(self) -> Blocks:
-        """All motions in arrays, by blocks."""
-        return self._blocks_of(self._inputs, self.shape)
-
-    @cached_property
-    def _scalars(self) -> Scalars:
-        """Scalars of all motions in arrays."""
-        return Scalars(self._blocks)
-
-    @cached_property
-    def _rows(self) -> GeneralRows:
-        """All motions in arrays, for a few times each."""
-        return self._rows_of(self._blocks)
+    """Motions of bodies with I1 = I2, whose quartic is that of the third component of Omega, or of nu."""
 
     @kept
     def roots(self) -> Any:

@@ -59,8 +59,12 @@ class Scalars:
     def __getitem__(self, name: str) -> Rounded:
         """Return a scalar by its name."""
         if name not in self._known:
-            self._fill(_angles if name.endswith("per_period") else _scalars)
+            self._fill(self._values(name))
         return self._known[name]
+
+    def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
+        """Return what makes a scalar, and others with it."""
+        return _angles if name.endswith("per_period") else _scalars
 
     def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:
         """Evaluate some scalars."""

@@ -1,0 +1,315 @@
+"""Elliptic motions in arrays: the roots of Q, the sphere of K, and what turns times into matrices.
+
+Seen along the axis a about which K does not circle, an elliptic motion nutates like a top: u = -K_a moves between the
+roots ±u_t of a quartic that is even in u, see `atlas.exact.nutation.elliptic_quartic`. With x_i = z + D/I_i, m the axis
+of the middle e_i = 1/(I_i x_i) and p the third one,
+
+    Q = L (u^2 - u_t^2) (u^2 - w),     L = -v^2 (e_a - e_m) (e_a - e_p),     e_i - e_j = z (I_j - I_i) e_i e_j,
+    u_t^2 = K_a^2 + [(I_p - I_m) I_a x_a] / [(I_p - I_a) I_m x_m] K_m^2,
+    w     = K_a^2 + [(I_m - I_p) I_a x_a] / [(I_m - I_a) I_p x_p] K_p^2 < 0,
+
+where nothing cancels but w, next to a separatrix. Kinds other than "elliptic" are not certain, and made by themselves.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, blocks, chosen, component, stacked
+from atlas.core.inputs import FloatArray
+from atlas.core.nutation.blocks import Block, Blocks, Constants
+from atlas.core.nutation.pair import Pair
+from atlas.core.nutation.roots import Turning
+from atlas.core.nutation.rows import GeneralRows, MotionsAtTimes
+from atlas.core.nutation.scalars import HALF_TURN, Rounded, Scalars, of_period, rounded
+from atlas.core.nutation.spheres import Sphere
+
+PLANE = 1 + 1e-12
+"""Factor to the largest moment from which on a body is all but plane, and whether it is one is told exactly."""
+
+
+@dataclass(frozen=True)
+class EllipticRoots(Turning):
+    """The turning points of u + K_a, with what else the sphere of K takes, for rows (m,).
+
+    `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
+    `E` the tensor along the principal axes; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
+    the third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
+    """
+
+    turning: DoubleDouble
+    w: DoubleDouble
+    K: Sequence[DoubleDouble]
+    v: DoubleDouble
+    along: DoubleDouble
+    across: DoubleDouble
+    b: DoubleDouble
+    torque: DoubleDouble
+    precession: DoubleDouble
+    E: Sequence[DoubleDouble]
+    frame: FloatArray
+    elliptic: Any
+    top: None = None
+
+    @property
+    def width(self) -> DoubleDouble:
+        """Distance of the turning points."""
+        return self.turning.scaled(1)
+
+    @property
+    def discriminant(self) -> DoubleDouble:
+        """A quarter of the discriminant of the other factor: negative."""
+        return self.f[2] * self.f[2] * self.w
+
+    @property
+    def ends(self) -> DoubleDouble:
+        """Values of -f at low and high, (2, m)."""
+        found = self.f[2] * (self.w - self.turning * self.turning)
+        return stacked(found, found)
+
+    @property
+    def free(self) -> Any:
+        """Where the motion is of another kind."""
+        return ~self.elliptic
+
+    @property
+    def tilt(self) -> FloatArray:
+        """Cosine and sine of the angle between axis and field at the start, (2, m)."""
+        return np.array([(self.along / self.b).hi, (self.across / self.b).hi])
+
+
+def roots_of_elliptic(*given: DoubleDouble) -> EllipticRoots:
+    """Return the turning points and the rest from I1, I2, I3, B1, B2, B3, z, branch."""
+    *I, B1, B2, B3, z, branch = given
+    x = [z + I[i - 2] * I[i - 1] for i in range(3)]
+    square = x[0] * x[1] * x[2]
+    v = square.sqrt() * branch
+    e = [ONE / (a * b) for a, b in zip(I, x, strict=True)]
+    shape = np.broadcast_shapes(*(np.shape(y.hi) for y in given))
+    sign = [np.sign(y.hi) for y in x]
+    above = [
+        sum((np.sign(z.hi) * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
+        for i in range(3)
+    ]
+    rank = np.array([np.broadcast_to(y, shape) for y in above])  # of e: 0 for the least, 1 for that in the middle
+    K = (B1, B2, B3)
+    low, middle, high = (np.argmax(rank == n, axis=0) for n in range(3))
+
+    def of(places: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
+        """Return the numbers of the axes at these places."""
+        first, second, third = numbers
+        return chosen(places == 0, first, chosen(places == 1, second, third))
+
+    def part(one: Any, other: Any, axis: Any) -> DoubleDouble:
+        """Return [(I_one - I_other) I_axis x_axis]/[(I_one - I_axis) I_other x_other] K_other^2."""
+        size = of(other, K)
+        up = (of(one, I) - of(other, I)) * of(axis, I) * of(axis, x)
+        return up / ((of(one, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
+
+    # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
+    outer = [(of(middle, I) - of(i, I)) * of(i, e) * of(i, K) * of(i, K) for i in (low, high)]
+    beyond = (outer[0] + outer[1]).hi * np.sign(z.hi) * np.sign(of(middle, e).hi) > 0
+    axis, other = np.where(beyond, low, high), np.where(beyond, high, low)
+    along = of(axis, K)
+    own = along * along
+    rise, w = part(other, middle, axis), own + part(middle, other, axis)
+    turning = (own + rise).sqrt()
+    farther = turning + abs(along)
+    nearer = rise / farther
+    up = along.hi > 0  # v = u + K_a
+    left, right = (axis + 1) % 3, (axis + 2) % 3
+    first, second, e_a = of(left, K), of(right, K), of(axis, e)
+    sides = [z * (of(i, I) - of(axis, I)) * of(i, e) * e_a for i in (left, right)]  # e_a - e_i
+    squares = first * first, second * second
+    flat = squares[0] + squares[1]
+    across, b = flat.sqrt(), (flat + own).sqrt()
+    E = [-(v * y) for y in e]
+    L = -(square * sides[0] * sides[1])
+    longer = b + abs(along)
+    shorter = -(flat / longer)
+    sizes = np.array([np.broadcast_to(y.hi, shape) for y in I])
+    certain = [
+        (sizes > 0).all(0) & (2 * PLANE * sizes.max(0) < sizes.sum(0)) & (abs(branch.hi) == 1),  # there is a motion
+        *(y.rel < 0.5 for y in x), square.hi > 0,
+        (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
+        np.count_nonzero(np.broadcast_arrays(*(y.hi for y in K)), axis=0) > 1,
+        w.hi < 0, w.rel < 0.5,
+    ]  # fmt: skip
+    return EllipticRoots(
+        rate=v * first * second * z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
+        low=-chosen(up, nearer, farther),
+        high=chosen(up, farther, nearer),
+        f=(-(L * part(middle, other, axis)), -(L * along).scaled(1), L),
+        poles=stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer)),
+        turning=turning,
+        w=w,
+        K=K,
+        v=v,
+        along=along,
+        across=across,
+        b=b,
+        torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
+        precession=(of(axis, E) - ONE) * b,
+        E=E,
+        frame=_frame(axis, (first / across).hi, (second / across).hi, shape),
+        elliptic=np.logical_and.reduce([np.broadcast_to(y, shape) for y in certain]),
+    )
+
+
+def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
+    """Return axes in which (x, y) along the two that follow `axis` in the cyclic order is along the second one."""
+    found = np.zeros((3, 3, *shape))
+    for k in range(3):
+        own, left, right = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
+        found[k] = np.where(left, y, np.where(right, -x, 0.0)), np.where(left, x, np.where(right, y, 0.0)), own
+    return found
+
+
+@dataclass(frozen=True)
+class EllipticBlock(Block):
+    """Elliptic motions of a block."""
+
+    roots: EllipticRoots  # type: ignore[assignment]  # what both have is a Turning
+
+    @cached_property
+    def pair(self) -> Pair:
+        """Pair of the axis a, on the sphere of K."""
+        r = self.roots
+        longer = ((abs(r.along) / r.b + ONE).scaled(-1)).sqrt()
+        shorter = r.across / (longer * r.b).scaled(1)
+        up, length, half = r.along.hi >= 0, r.b.hi, r.precession.scaled(-1)
+        return Pair(
+            self.means,
+            Sphere(
+                roots=r,
+                poles=r.poles,
+                torques=stacked(r.torque, r.torque),
+                amplitudes=stacked(chosen(up, longer, shorter), chosen(up, shorter, longer)),
+                meets=np.zeros((2, length.size), dtype=bool),
+                slopes=np.zeros((2, length.size)),
+                frames=stacked(half, half),
+                azimuth=(np.ones_like(length), np.zeros_like(length)),
+                sizes=(length, length),
+            ),
+        )
+
+
+class EllipticBlocks(Blocks):
+    """Motions I1, I2, I3, B1, B2, B3, z, branch, which broadcast to a shape, by blocks."""
+
+    def each(self) -> Iterator[Block]:
+        """Make the blocks."""
+        columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape) for x in self.inputs]
+
+        def formula(*row: Any) -> tuple[EllipticRoots]:
+            return (roots_of_elliptic(*row),)
+
+        for rows, _, exponents, (roots,) in blocks(formula, columns, self.shape, slice(3, 6), bound=1.0):
+            power, ordinary = exponents or (0, np.ones(rows.stop - rows.start, dtype=bool))
+            yield EllipticBlock(rows, roots, power, ordinary)
+
+
+class EllipticScalars(Scalars):
+    """Scalars of elliptic motions in arrays: all of one pass."""
+
+    def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
+        del name
+        return _scalars
+
+
+def _scalars(block: Block) -> dict[str, Rounded]:
+    """Return kind, period, moduli, nome, the angles of a period, v and Omega(0) of a block."""
+    with np.errstate(all="ignore"):
+        r, angles = cast("EllipticRoots", block.roots), block.pair.angles
+        mean = component(angles, 0) + component(angles, 1) + r.precession.scaled(1)
+        omega = [rounded((E - ONE) * K, block, 1) for E, K in zip(r.E, r.K, strict=True)]
+        shape = r.elliptic.shape
+        found = of_period(block) | {
+            "kind": Rounded(np.zeros(shape, int), block.fine),
+            "precession_per_period": rounded((HALF_TURN / block.means.rate).scaled(-1) * mean, block),
+            "spin_per_period": Rounded(np.zeros(shape), block.fine),
+            "v": rounded(r.v, block),
+            "omega": Rounded(
+                np.array([np.broadcast_to(x.values, shape) for x in omega]),
+                np.logical_and.reduce([np.broadcast_to(x.is_certain, shape) for x in omega]),
+            ),
+        }
+        return {
+            name: Rounded(
+                np.broadcast_to(x.values, (*x.values.shape[:-1], *shape)), x.is_certain & r.elliptic & r.exact
+            )
+            for name, x in found.items()
+        }
+
+
+class EllipticRows(GeneralRows):
+    """Elliptic motions in arrays, ready to be evaluated."""
+
+    @cached_property
+    def _constants(self) -> tuple[Constants, FloatArray, FloatArray]:
+        """Constants of the pair, its axes (3, 3, m) in the body, and E - 1 (3, m)."""
+        found = []
+        with np.errstate(all="ignore"):
+            for block in self.blocks:
+                r = cast("EllipticRoots", block.roots)
+                rates = [np.broadcast_to((E - ONE).hi, r.elliptic.shape) for E in r.E]
+                found.append((block.constants, r.frame, np.array(rates)))
+        pairs, frames, rates = zip(*found, strict=True)
+        return (
+            Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
+            np.concatenate(frames, axis=-1),
+            np.concatenate(rates, axis=-1),
+        )
+
+    @property
+    def field(self) -> Constants:
+        """Constants of the axis and of the field."""
+        return self._constants[0]
+
+    def frames(self, index: Any) -> FloatArray:
+        """Return the axes of the pair in the body, (m, 3, 3)."""
+        return np.moveaxis(self._constants[1][..., index], -1, 0)
+
+    def rates(self, index: Any) -> FloatArray:
+        """Return E - 1, (m, 3)."""
+        return self._constants[2][:, index].T
+
+    def at(self, index: Any, t: FloatArray) -> "EllipticAtTimes":
+        """Return motions by their index at the times t that go with them."""
+        return EllipticAtTimes(self, index, t)
+
+
+class EllipticAtTimes(MotionsAtTimes):
+    """Elliptic motions in a row, each at one time."""
+
+    _rows: EllipticRows
+
+    def rotation(self, t: FloatArray, out: FloatArray) -> None:
+        """Write R into (m, 3, 3)."""
+        super().rotation(t, out)
+        C = self._rows.frames(self._index)
+        out[:] = C @ out @ C.mT
+
+    def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
+        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        R = np.empty((len(out), 3, 3))
+        self.rotation(t, R)
+        out[:] = R[:, :, j - 1]
+
+    def quaternion(self, t: FloatArray, out: FloatArray) -> None:
+        """Write quaternions (x, y, z, w) into (m, 4)."""
+        super().quaternion(t, out)
+        out[:, :3] = np.matvec(self._rows.frames(self._index), out[:, :3])
+
+    def field_in_body(self, t: FloatArray, out: FloatArray) -> None:
+        """Write K into (m, 3)."""
+        super().field_in_body(t, out)
+        out[:] = np.matvec(self._rows.frames(self._index), out)
+
+    def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
+        """Write Omega = (E - 1) K into (m, 3)."""
+        self.field_in_body(t, out)
+        out *= self._rows.rates(self._index)
