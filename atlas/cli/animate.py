@@ -86,7 +86,7 @@ def through(text: str) -> tuple[str, list[Any]]:
     key, _, values = text.partition("=")
     parts = values.split(":")
     if parts == [values] and "," in values:
-        return key, [float(setting(f"{key}={one}")[1]) for one in values.split(",")]
+        return key, [float(setting(f"{key}={value}")[1]) for value in values.split(",")]
     if len(parts) != 3 or not (parts[2].isascii() and parts[2].isdecimal()):
         raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
     if len(parts[2]) > len(str(MOST)) or int(parts[2]) > MOST:  # before there is a list of them
@@ -97,6 +97,6 @@ def through(text: str) -> tuple[str, list[Any]]:
     except (TypeError, ValueError):
         steps = None
     if steps is None:
-        wrong = f"not from {parts[0]!r} to {parts[1]!r}."
-        raise click.UsageError(f"--over goes from a number to a number, or from a list to one as long, {wrong}")
-    return key, [tuple(map(float, one)) if np.ndim(one) else float(one) for one in steps]
+        complaint = f"not from {parts[0]!r} to {parts[1]!r}."
+        raise click.UsageError(f"--over goes from a number to a number, or from a list to one as long, {complaint}")
+    return key, [tuple(map(float, value)) if np.ndim(value) else float(value) for value in steps]

@@ -68,7 +68,7 @@ def apart(args: Sequence[str]) -> Iterator[str]:
         if option in VECTORS and equals:
             words[:0] = [option, value]
         elif after in VECTORS and "," in word:
-            yield from (one.strip() for one in word.strip("()[]").split(","))
+            yield from (component.strip() for component in word.strip("()[]").split(","))
         else:
             yield word
         after = "" if equals else word

@@ -219,8 +219,8 @@ def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
     options_typed = [name for name in names if options.get(name) is not None]
     if len(options_typed) != 1:
         known = [f"--{name}" for name in names if name in options]
-        found = " and ".join(f"--{name}" for name in options_typed) or "none"
-        raise click.UsageError(f"the {what} is one of {', '.join(known)}; found {found}.")
+        typed = " and ".join(f"--{name}" for name in options_typed) or "none"
+        raise click.UsageError(f"the {what} is one of {', '.join(known)}; found {typed}.")
     return options_typed[0]
 
 

@@ -38,15 +38,15 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
     from atlas.places import settle_matplotlib
 
     settle_matplotlib()
-    at = ""
+    place = ""
     if name.startswith("-") or context.args:
-        name, at = started([*([name] if name != "general" else []), *context.args])
+        name, place = started([*([name] if name != "general" else []), *context.args])
     subject(name)
     with Explorer(name, port) as server:
         try:
-            click.echo(server.address + at)
+            click.echo(server.address + place)
             if not no_browser:
-                webbrowser.open(server.address + at)
+                webbrowser.open(server.address + place)
             server.serve_forever()
         except KeyboardInterrupt:
             click.echo("ended", err=True)

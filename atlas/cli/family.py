@@ -92,10 +92,10 @@ charge_options = stack(
 
 def command(name: str) -> click.Command:
     """Make the command of this name."""
-    made = {
+    commands_by_key = {
         key: _command_of(one, one.command) for key, one in FAMILIES.items() if one.command and one.command.name == name
     }
-    return next(iter(made.values())) if len(made) == 1 else AnyMotion(name, made)
+    return next(iter(commands_by_key.values())) if len(commands_by_key) == 1 else AnyMotion(name, commands_by_key)
 
 
 class AnyMotion(click.Command):
@@ -104,12 +104,12 @@ class AnyMotion(click.Command):
     def __init__(self, name: str, commands: Mapping[str, click.Command]) -> None:
         first, *_ = commands.values()
         params = dict[str, click.Parameter]()
-        for one in (copy(one) for each in commands.values() for one in each.params):
-            known = params.setdefault(str(one.name), one)
+        for param in (copy(param) for each in commands.values() for param in each.params):
+            known = params.setdefault(str(param.name), param)
             known.required = False
-            if one.metavar and one.metavar not in str(known.metavar):
-                known.metavar = f"{known.metavar} or {one.metavar}"
-        lines = [line for one in commands.values() for line in str(one.epilog).split("\n")[2:]]
+            if param.metavar and param.metavar not in str(known.metavar):
+                known.metavar = f"{known.metavar} or {param.metavar}"
+        lines = [line for param in commands.values() for line in str(param.epilog).split("\n")[2:]]
         super().__init__(
             name, params=list(params.values()), help=first.help, epilog="\n".join(["\b", "Examples:", *lines])
         )
@@ -129,13 +129,13 @@ def family_of(args: Sequence[str]) -> str:
 
     Raises click.UsageError where there is no start.
     """
-    given = {word.partition("=")[0] for word in args}
-    if not given & {"--omega2", "--omega3", "--omega", "--spin"}:
+    typed = {word.partition("=")[0] for word in args}
+    if not typed & {"--omega2", "--omega3", "--omega", "--spin"}:
         raise click.UsageError(
             "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
         )
-    if given & {"--omega2", "--omega3"}:
-        if "--omega2" not in given:
+    if typed & {"--omega2", "--omega3"}:
+        if "--omega2" not in typed:
             raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
         return "elementary"
     return "asymmetric" if are_of_any_body(args) else "general"
@@ -156,10 +156,10 @@ def _command_of(family: Family, described: Described) -> click.Command:
         sampled = [s for s in family.sampled if s.printed]
 
         def floats() -> dict[str, Any]:
-            made = family.kernels()(*values_of(family, options, exact=False))
-            columns = {s.name: along(s.method_of(made), times) for s in sampled}
-            lines = _spectrum(made, options)
-            return named | _quantities(family, made, times, columns, exact=False) | _recorded(lines)
+            motion = family.kernels()(*values_of(family, options, exact=False))
+            columns = {s.name: along(s.method_of(motion), times) for s in sampled}
+            lines = _spectrum(motion, options)
+            return named | _quantities(family, motion, times, columns, exact=False) | _recorded(lines)
 
         @cache
         def near() -> list[Any]:
@@ -170,15 +170,15 @@ def _command_of(family: Family, described: Described) -> click.Command:
                 return [None for _ in times]
 
         def balls() -> dict[str, Any]:
-            made = family.balls()(*values_of(family, options, exact=True))
-            at = [exactly(t, options) for t in times]
-            found = {s.name: [sample(s, made, t, best) for t in at] for s in sampled if not s.uncertified}
-            if at and not best:
+            motion = family.balls()(*values_of(family, options, exact=True))
+            moments = [exactly(t, options) for t in times]
+            values = {s.name: [sample(s, motion, t, best) for t in moments] for s in sampled if not s.uncertified}
+            if moments and not best:
                 raise NotCertifiedError(best.reason)
-            if options["as_json"] and "R" in found:
-                found["q"] = [_quaternion(R, q) for R, q in zip(found["R"], near(), strict=True)]
-            columns = {s.name: found[s.name] for s in sampled if s.name in found}
-            return named | _quantities(family, made, times, columns, exact=True)
+            if options["as_json"] and "R" in values:
+                values["q"] = [_quaternion(R, q) for R, q in zip(values["R"], near(), strict=True)]
+            columns = {s.name: values[s.name] for s in sampled if s.name in values}
+            return named | _quantities(family, motion, times, columns, exact=True)
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = _parameters(family, options)
@@ -217,10 +217,10 @@ def _shown_otherwise(
     along_own = body.given_tensor(options) is None and options["attitude"] is None
     if along_own and (options["digits"] is not None or options["decimal"]):
         return False
-    made = motion_in_given_axes(options)
-    if made is not None:
-        _in_doubles(made, options, parameters, times)
-    return made is not None
+    motion = motion_in_given_axes(options)
+    if motion is not None:
+        _in_doubles(motion, options, parameters, times)
+    return motion is not None
 
 
 def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, Any]) -> None:
@@ -230,14 +230,14 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
     if uncertain(options) or body.given_tensor(options) is not None or options["attitude"] is not None:
         raise click.UsageError("--curve is proven: it goes with numbers without an uncertainty, along principal axes.")
     curve = SpectralCurve(family.balls()(*values_of(family, options, exact=True)))
-    found = curve.record(options["digits"] or TABLE_DIGITS)
+    record = curve.record(options["digits"] or TABLE_DIGITS)
     if options["as_json"]:
-        dump({"parameters": parameters, "curve": found})
+        dump({"parameters": parameters, "curve": record})
         return
-    guessed = found.pop("not_proved")
+    guessed = record.pop("not_proved")
     notes = ["The numbers are proven, but for " + ", ".join(name.replace("_", " ") for name in guessed) + "."]
     click.echo(
-        "\n".join([*(f"{name} = {value}" for name, value in (found | guessed).items()), *notes]).replace("'", "")
+        "\n".join([*(f"{name} = {value}" for name, value in (record | guessed).items()), *notes]).replace("'", "")
     )
 
 
@@ -249,43 +249,43 @@ def _with_sigma(
         raise click.UsageError("--digits, --decimal and --spectrum go with numbers without an uncertainty.")
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
 
-    def answered(given: dict[str, Any]) -> dict[str, Any]:
-        made = motion_in_given_axes(given) if family.name == "asymmetric" else None
-        of = family if made is None else FAMILIES[made.family]
-        made = of.kernels()(*values_of(of, given, exact=False)) if made is None else made
-        columns = {s.name: along(s.method_of(made), times) for s in sampled if hasattr(made, s.method)}
-        found = {"family": of.name} if described.name == "motion" else {}
-        if given is not options:  # a proof that is a sentence is said once
-            of = replace(of, quantities=tuple(q for q in of.quantities if q.tabled or not q.slow))
-        found |= _quantities(of, made, times, columns, exact=False)
-        larmor = in_field(family) and given["magnetic"] is not None
-        return found | ({"larmor": hypot(*body.chosen_field(given))} if larmor else {})
+    def answered(values: dict[str, Any]) -> dict[str, Any]:
+        motion = motion_in_given_axes(values) if family.name == "asymmetric" else None
+        answering = family if motion is None else FAMILIES[motion.family]
+        motion = answering.kernels()(*values_of(answering, values, exact=False)) if motion is None else motion
+        columns = {s.name: along(s.method_of(motion), times) for s in sampled if hasattr(motion, s.method)}
+        answers = {"family": answering.name} if described.name == "motion" else {}
+        if values is not options:  # a proof that is a sentence is said once
+            answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
+        answers |= _quantities(answering, motion, times, columns, exact=False)
+        larmor = in_field(family) and values["magnetic"] is not None
+        return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
 
-    found = spread(answered, options)
+    spread_of_answers = spread(answered, options)
     if options["as_json"]:
-        dump({"parameters": parameters, **found.record()})
+        dump({"parameters": parameters, **spread_of_answers.record()})
     else:
-        texts = found.texts()
+        texts = spread_of_answers.texts()
         printout = _printout(family, described, texts, options, "")
-        rates = found.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
+        rates = spread_of_answers.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
         hertz = [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
         known = [line for line in printout.lines if not line.symbol.endswith("/2 pi") and line.symbol != "larmor"]
         larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
         lines = [*known, *larmor, *(hertz if body.units_of(options) else [])]
-        show(replace(printout, lines=lines, notes=[*filter(None, printout.notes), *found.notes]))
+        show(replace(printout, lines=lines, notes=[*filter(None, printout.notes), *spread_of_answers.notes]))
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     """Return the parameters as they were given."""
     names = [p.name for p in family.parameters]
-    found = body.body_parameters(options) if in_field(family) else {}
-    found |= {p.name: options[p.name] for p in family.parameters if p.option and options[p.name] is not None}
-    found |= {"spin": options["spin"]} if options.get("spin") is not None else {}
-    found = parameters_of_top(names, options) if family.name == "top" and given_otherwise(options) else found
+    parameters = body.body_parameters(options) if in_field(family) else {}
+    parameters |= {p.name: options[p.name] for p in family.parameters if p.option and options[p.name] is not None}
+    parameters |= {"spin": options["spin"]} if options.get("spin") is not None else {}
+    parameters = parameters_of_top(names, options) if family.name == "top" and given_otherwise(options) else parameters
     if "c" in names:
-        found |= {name: options[name] for name in CHARGE if options[name] is not None}
-        found["units"] = body.system_of(options)
-    return found
+        parameters |= {name: options[name] for name in CHARGE if options[name] is not None}
+        parameters["units"] = body.system_of(options)
+    return parameters
 
 
 def motion_in_given_axes(options: dict[str, Any]) -> Any:
@@ -317,17 +317,17 @@ class Principal(NamedTuple):
         return self.family.command.name if self.family.command else self.family.name
 
 
-def in_principal_axes(made: Any, unit: str = "") -> Principal:
+def in_principal_axes(motion: Any, unit: str = "") -> Principal:
     """Return what asks for a motion in given axes in those of its class, rates in a unit."""
     from atlas.core.bodies.body import moments
 
-    family, given = FAMILIES["asymmetric" if made.family == "free" else made.family], dict(made.own.arguments)
-    if made.family == "free":
-        I2, I3 = moments(given["ratio"])
-        given = {"inertia": (I2, I2, I3), "field": (0.0, 0.0, 0.0), "omega": given["omega"]}
+    family, arguments = FAMILIES["asymmetric" if motion.family == "free" else motion.family], dict(motion.own.arguments)
+    if motion.family == "free":
+        I2, I3 = moments(arguments["ratio"])
+        arguments = {"inertia": (I2, I2, I3), "field": (0.0, 0.0, 0.0), "omega": arguments["omega"]}
     words, values = list[str](), dict[str, tuple[float, ...]]()
     for p in family.parameters:
-        value: Any = given.get(p.name)
+        value: Any = arguments.get(p.name)
         if p.name == "ratio" and hasattr(value, "I2"):
             words += ["--inertia", repr(float(value.I2)), repr(float(value.I3))]
             value = value.ratio
@@ -336,45 +336,45 @@ def in_principal_axes(made: Any, unit: str = "") -> Principal:
             words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts)]
         if value is not None:
             values[p.name] = tuple(float(x) for x in (value if isinstance(value, tuple) else (value,)))
-    axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in made.axes)
+    axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in motion.axes)
     return Principal(family, words, values, axes)
 
 
-def _in_doubles(made: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
+def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
     """Print a motion in given axes, which is certified in no twin."""
     from atlas.core.motions.chosen import body_of
 
     if options["digits"] is not None or options["decimal"]:
-        own = in_principal_axes(made, "rad/s" if body.units_of(options) else "")
+        own = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
         raise click.UsageError(
             "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are "
             f"along {own.axes}, and in them it is atlas {own.command} {' '.join(own.options)}"
         )
-    family = FAMILIES[made.family]
+    family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-    columns = {s.name: along(s.method_of(made), times) for s in sampled}
-    found, lines = (
-        {"family": family.name} | _quantities(family, made, times, columns, exact=False),
-        _spectrum(made, options),
+    columns = {s.name: along(s.method_of(motion), times) for s in sampled}
+    record, lines = (
+        {"family": family.name} | _quantities(family, motion, times, columns, exact=False),
+        _spectrum(motion, options),
     )
     if options["as_json"]:
-        known = body_of(made.arguments["inertia"])
+        known = body_of(motion.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
-        dump({"parameters": parameters, **principal, **found, **_recorded(lines)})
+        dump({"parameters": parameters, **principal, **record, **_recorded(lines)})
     else:
         described = family.command or Described("motion", "", "", (), family.says)
-        texts = mapped(found, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
+        texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
         show(_printout(family, described, texts, options, IN_DOUBLES))
-        _show_lines(family, options, made)
+        _show_lines(family, options, motion)
 
 
-def _spectrum(made: Any, options: dict[str, Any]) -> Any:
+def _spectrum(motion: Any, options: dict[str, Any]) -> Any:
     """Return the lines of a motion that are asked for, None where they are not."""
     if not options.get("spectrum"):
         return None
     if options["digits"] is not None or options["decimal"]:
         raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
-    return made.spectrum(options["spectrum"], least=options["least"])
+    return motion.spectrum(options["spectrum"], least=options["least"])
 
 
 def _recorded(lines: Any) -> dict[str, Any]:
@@ -389,11 +389,11 @@ def _recorded(lines: Any) -> dict[str, Any]:
     }}  # fmt: skip
 
 
-def _show_lines(family: Family, options: dict[str, Any], made: Any = None) -> None:
+def _show_lines(family: Family, options: dict[str, Any], motion: Any = None) -> None:
     """Print lines that are asked for, one a row, those of negative frequencies left out."""
     if not options.get("spectrum"):
         return
-    lines = _spectrum(made or family.kernels()(*values_of(family, options, exact=False)), options)
+    lines = _spectrum(motion or family.kernels()(*values_of(family, options, exact=False)), options)
     unit = _units(family, options).get(RATE, RATE)
     rows = [
         [*map(str, c), f"{f:.10g}", f"{size:.6g}"]
@@ -458,8 +458,8 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
     """Yield the parameters, as kernels or as balls take them."""
     if family.name == "top":
         if given_otherwise(options):
-            made = chosen_top(options)
-            yield from (getattr(made, p.name) for p in family.parameters)
+            top = chosen_top(options)
+            yield from (getattr(top, p.name) for p in family.parameters)
             return
         needs_no_way(options)
     for p in family.parameters:
@@ -506,13 +506,13 @@ class Best(dict[tuple[str, Any], Any]):
     reason = ""
 
 
-def sample(s: Sampled, made: Any, t: Any, best: Best) -> Any:
+def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
     """Return a matrix or a vector at a time; where the precision of the moment can't be had, at the last that could.
 
     So one time, whose numbers may be too small or which may be too far, never loses the others.
     """
     try:
-        best[s.name, t] = s.method_of(made)(t)
+        best[s.name, t] = s.method_of(motion)(t)
     except NotCertifiedError as reason:
         best.reason = str(reason)
         from atlas.exact.digits import NOT_CERTIFIED
@@ -531,27 +531,27 @@ def _quaternion(R: Any, near: Any) -> Any:
 
 
 def _quantities(
-    family: Family, made: Any, times: Sequence[float], columns: Mapping[str, Any], *, exact: bool
+    family: Family, motion: Any, times: Sequence[float], columns: Mapping[str, Any], *, exact: bool
 ) -> dict[str, Any]:
     """Return the quantities and samples by name.
 
     One that may be missing is left out then; of others without a value the reason stands under their name.
     """
-    found, missing = dict[str, Any](), dict[str, str]()
+    values, missing = dict[str, Any](), dict[str, str]()
     for q in family.quantities:
         if not q.printed:
             continue
         try:
-            found[q.name] = q.value(made, exact=exact)
+            values[q.name] = q.value(motion, exact=exact)
         except DomainError as reason:
             missing[q.name] = str(reason)
             if not q.missing:
-                found[q.name] = None
+                values[q.name] = None
         else:
-            if q.unit == TIME and not found[q.name] < float("inf"):
-                found[q.name] = "infinite"
+            if q.unit == TIME and not values[q.name] < float("inf"):
+                values[q.name] = "infinite"
     return (
-        found | ({"missing": missing} if missing else {}) | ({"samples": samples(times, **columns)} if columns else {})
+        values | ({"missing": missing} if missing else {}) | ({"samples": samples(times, **columns)} if columns else {})
     )
 
 
@@ -595,9 +595,9 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
     says, equation = q.cases.get(case, (q.says, q.equation))
     count = len(q.lines)
     parts = [texts] if not q.lines else [None] * count if texts is None else texts
-    for (symbol, words), part in zip(q.lines or [(q.symbol or q.name, says)], parts, strict=True):
-        unit = "" if part is None else units.get(q.unit, q.unit)
-        yield Line(symbol, words, "-" if part is None else q.text(part), unit, equation)
+    for (symbol, words), component in zip(q.lines or [(q.symbol or q.name, says)], parts, strict=True):
+        unit = "" if component is None else units.get(q.unit, q.unit)
+        yield Line(symbol, words, "-" if component is None else q.text(component), unit, equation)
 
 
 def _in_hertz(shown: Sequence[Quantity], texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:

@@ -54,14 +54,14 @@ def command(file: Path, **options: Any) -> int:
     What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
     residuals that are correlated. The exit status is 1 if something does, 2 if the file or an option is wrong.
     """
-    found = fitted(file, options)
-    record, lines = ahead(found, options)
+    result = fitted(file, options)
+    record, lines = ahead(result, options)
     if options["as_json"]:
-        dump({"file": file.name, **found.record(), **record})
+        dump({"file": file.name, **result.record(), **record})
     else:
-        click.echo("\n".join([f"{file.name}: {found.report()}", *lines]))
-    picture(found, options["figure"], silent=options["as_json"])
-    return 1 if found.doubts else 0
+        click.echo("\n".join([f"{file.name}: {result.report()}", *lines]))
+    picture(result, options["figure"], silent=options["as_json"])
+    return 1 if result.doubts else 0
 
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
@@ -80,15 +80,15 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
     return {**same, "sigma": sigma, "epoch": float(options["epoch"]), "params": params}
 
 
-def ahead(found: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     """Return what is asked of the time to come, as plain data and in lines."""
     record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):
-        value, error = found.predict(time)
+        value, error = result.predict(time)
         record.setdefault("predictions", []).append({"t": time, "value": value.tolist(), "sigma": error.tolist()})
         lines.append(f"at t = {time:g}: {value.round(6).tolist()} +- {[float(f'{x:.2g}') for x in error.ravel()]}")
     if options["horizon"] is not None:
-        record["horizon"] = until = found.horizon(float(options["horizon"]))
+        record["horizon"] = until = result.horizon(float(options["horizon"]))
         lines.append(f"a prediction is good within {float(options['horizon']):g} until t = {until:.6g}")
     return record, lines
 

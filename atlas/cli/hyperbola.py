@@ -49,10 +49,10 @@ def command(**options: Any) -> None:
         from atlas.exact.surfaces.hyperbola import Hyperbola
 
         curve = Hyperbola(exact_body(options), exact_field(options))
-        at = [exactly(x, options) for x in points]
-        pairs = [curve.frequencies(x) for x in at]
-        columns = ([p[0] for p in pairs], [p[1] for p in pairs], [curve.stability(x) for x in at])
-        return described(curve, points, [curve.omega3(x) for x in at], *columns)
+        abscissas = [exactly(x, options) for x in points]
+        pairs = [curve.frequencies(x) for x in abscissas]
+        columns = ([p[0] for p in pairs], [p[1] for p in pairs], [curve.stability(x) for x in abscissas])
+        return described(curve, points, [curve.omega3(x) for x in abscissas], *columns)
 
     texts = answer(options, body_parameters(options), floats, balls)
     if texts is not None:

@@ -64,7 +64,7 @@ def lay_out(record: dict[str, Any]) -> None:
     figures = []
     for name, title in record["figures"].items():
         figures.append([name, title])
-        words = [_shown(*one) for one in record["parameters"].get(name, {}).items()]
+        words = [_shown(*parameter) for parameter in record["parameters"].get(name, {}).items()]
         words += [f"(needs {record['narrowest'][name]:g} mm)"] if name in record["narrowest"] else []
         figures += [["", line] for line in _lines(words)]
     for heading, rows in (
@@ -84,12 +84,12 @@ def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
     }
 
 
-def _shown(name: str, said: dict[str, Any]) -> str:
+def _shown(name: str, record: dict[str, Any]) -> str:
     """Write a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
     from atlas.scene.parameters import typed
 
-    word = name if said["default"] is None else f"{name}={typed(said['default'])}"
-    ends = "[{:g},{:g}]".format(*said["range"]) if "range" in said else ""
+    word = name if record["default"] is None else f"{name}={typed(record['default'])}"
+    ends = "[{:g},{:g}]".format(*record["range"]) if "range" in record else ""
     return f"{word}{ends}"
 
 

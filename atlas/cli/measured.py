@@ -46,13 +46,13 @@ def in_si(number: Fraction, unit: str, option: str) -> tuple[float, Fraction | N
 
     Raises AtlasError for a unit that there is not, or of another quantity.
     """
-    factor, found = _parsed(unit)
+    factor, powers = _parsed(unit)
     wanted = _parsed(WANTED[option])[1] if option in WANTED else None
-    angle = {name: found.pop(name) for name in ANGLES if found.get(name)}
+    angle = {name: powers.pop(name) for name in ANGLES if powers.get(name)}
     allowed = {"turn": WANTED.get(option) == RATE or option == "times", "degree": option in ("angle", *WANTED)}
-    if found != wanted or not all(allowed[name] for name in angle):
+    if powers != wanted or not all(allowed[name] for name in angle):
         right = f"--{option} is in {WANTED[option]}" if wanted is not None else f"--{option} has no unit"
-        other = next((name for name, unit_of in WANTED.items() if _parsed(unit_of)[1] == found), None)
+        other = next((name for name, unit_of in WANTED.items() if _parsed(unit_of)[1] == powers), None)
         hint = f", as --{other} may be" if other and not angle else ""
         raise AtlasError(f"{right}, or what can be made of it, not in {unit.strip()!r}{hint}.")
     value = number * factor
@@ -64,17 +64,17 @@ def in_si(number: Fraction, unit: str, option: str) -> tuple[float, Fraction | N
 
 def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
     """Return how many of the base units, each to a power, a unit is. Raises AtlasError for one that there is not."""
-    factor, powers, at = Fraction(1), Counter[str](), 0
-    while at < len(unit):
-        part = FACTOR.match(unit, at)
-        if part is None:
+    factor, powers, place = Fraction(1), Counter[str](), 0
+    while place < len(unit):
+        factor_of_unit = FACTOR.match(unit, place)
+        if factor_of_unit is None:
             raise AtlasError(f"there is no unit {unit.strip()!r}; write 1.2um, 0.8T, 5000e, 1850kg/m3, 2MHz or 30deg.")
-        power = int(part[3] or 1) * (-1 if part[1] == "/" else 1)
-        size, base = _unit(part[2], unit)
+        power = int(factor_of_unit[3] or 1) * (-1 if factor_of_unit[1] == "/" else 1)
+        size, base = _unit(factor_of_unit[2], unit)
         factor *= size**power
         for name, count in base.items():
             powers[name] += count * power
-        at = part.end()
+        place = factor_of_unit.end()
     return factor, Counter({name: count for name, count in powers.items() if count})
 
 
@@ -83,8 +83,8 @@ def _unit(name: str, whole: str) -> tuple[Fraction, dict[str, int]]:
         if known in UNITS and (not prefix or prefix in PREFIXES):
             size, base = UNITS[known]
             powers = {
-                part.rstrip("-123456789"): int(part.lstrip("abcdefghijklmnopqrstuvwxyzCT") or 1)
-                for part in base.split()
+                power.rstrip("-123456789"): int(power.lstrip("abcdefghijklmnopqrstuvwxyzCT") or 1)
+                for power in base.split()
             }
             return Fraction(size) * Fraction(10) ** PREFIXES.get(prefix, 0), powers
     raise AtlasError(f"there is no unit {name!r} in {whole.strip()!r}; known: {', '.join(UNITS)}, with prefixes.")

@@ -229,11 +229,11 @@ def _inclined(args: list[str], ctx: click.Context) -> tuple[list[str], str, Incl
 
     Return its option and the field with it.
     """
-    at = args.index("--angle")
+    place = args.index("--angle")
     option = next((one for one in ("--magnetic", "--field") if one in args), "")
-    if at + 1 == len(args) or not option:
+    if place + 1 == len(args) or not option:
         raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
-    typed, args = args[at + 1], args[:at] + args[at + 2 :]
+    typed, args = args[place + 1], args[:place] + args[place + 2 :]
     strength = args.index(option) + 1
     following = list(takewhile(LIKE_A_NUMBER.fullmatch, args[strength:]))
     if len(following) != 1:
@@ -254,8 +254,8 @@ def _meant(error: click.UsageError, has_parameters: bool) -> str:
             return f"there is no option --{name}; a parameter is given by --set {name}=VALUE."
         return f"there is no option --{name}: {OTHERS[name]}." if name in OTHERS else ""
     if has_parameters and "unexpected extra argument" in error.format_message():
-        said = error.format_message().rstrip(".")
-        return f"{said}: a parameter is one word, --set KEY=VALUE, and so are values, KEY=START:STOP:COUNT."
+        message = error.format_message().rstrip(".")
+        return f"{message}: a parameter is one word, --set KEY=VALUE, and so are values, KEY=START:STOP:COUNT."
     return ""
 
 
@@ -266,10 +266,10 @@ def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
     """
     values = LIKE_A_NUMBER if any(isinstance(one, click.Argument) for one in params) else re.compile("(?!--).*")
     for param in (one for one in params if isinstance(one, click.Option) and one.nargs > 1):
-        for at in (i for i, word in enumerate(args) if word in param.opts):
-            following = list(takewhile(values.fullmatch, args[at + 1 :]))
+        for place in (i for i, word in enumerate(args) if word in param.opts):
+            following = list(takewhile(values.fullmatch, args[place + 1 :]))
             if len(following) != param.nargs:
-                return f"{args[at]} takes {param.nargs} numbers, {param.metavar}."
+                return f"{args[place]} takes {param.nargs} numbers, {param.metavar}."
     return ""
 
 
@@ -297,8 +297,8 @@ def are_of_any_body(args: Sequence[str]) -> bool:
 
 def are_three(args: Sequence[str], option: str) -> bool:
     """Return whether three numbers follow an option."""
-    at = args.index(option) + 1 if option in args else len(args)
-    following = args[at : at + 3]
+    place = args.index(option) + 1 if option in args else len(args)
+    following = args[place : place + 3]
     return len(following) == 3 and all(map(LIKE_A_NUMBER.fullmatch, following))
 
 
@@ -327,27 +327,27 @@ def _listed(word: str) -> list[str]:
 
 def _ranges_of_times(args: list[str]) -> list[str]:
     """Return arguments with --grid START:STOP:COUNT, a range as elsewhere, as --times."""
-    ranges = {i for i, (one, word) in enumerate(pairwise(args)) if one == "--grid" and ":" in word}
+    ranges = {i for i, (option, word) in enumerate(pairwise(args)) if option == "--grid" and ":" in word}
     return ["--times" if i in ranges else word for i, word in enumerate(args)]
 
 
 def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[str]) -> Iterator[str]:
-    option, given = "", True
+    option, starts = "", True
     for word in args:
         name, equals, value = word.partition("=")
         if equals and name in many:
-            option, given, word = name, True, value  # noqa: PLW2901  --times=0,1 is --times 0,1
+            option, starts, word = name, True, value  # noqa: PLW2901  --times=0,1 is --times 0,1
         if not option or word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha()):
-            if not given:
+            if not starts:
                 yield option  # no value came: click says so
-            option, given = (word, False) if word in many else ("", True)
+            option, starts = (word, False) if word in many else ("", True)
             if not option:
                 yield word
         else:
             for one in _listed(word) if option in numbers else word.split(",") if option in words else [word]:
                 yield from (option, one)
-            given = True
-    if not given:
+            starts = True
+    if not starts:
         yield option
 
 

@@ -52,8 +52,8 @@ def command_of(family: Family, name: str) -> click.Command:
     def run(**options: Any) -> int:
         return make(asked(family, options), options["out"], options["jobs"])
 
-    made = click.command(name, cls=Command, help=f"Make a page: {family.says}.", hidden=name in GONE)
-    return made(stack(*object_options(family), *more)(run))
+    command = click.command(name, cls=Command, help=f"Make a page: {family.says}.", hidden=name in GONE)
+    return command(stack(*object_options(family), *more)(run))
 
 
 COMMANDS = {
@@ -74,15 +74,15 @@ def of_fit(file: Path, **options: Any) -> int:
     from atlas.report.fitted import Fitted
 
     typed = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
-    called, found = _called(options), fitted(file, options)
+    called, result = _called(options), fitted(file, options)
     wanted = Fitted(
-        found, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
-        arguments(options), motion_of(found.motion), tuple(ahead(found, options)[1]), options["title"] or "", called,
+        result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
+        arguments(options), motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"] or "", called,
     )  # fmt: skip
     status = make(wanted, options["out"], options["jobs"])
-    for doubt in found.doubts:
+    for doubt in result.doubts:
         click.echo(f"atlas: {doubt}", err=True)
-    return status or (1 if found.doubts else 0)
+    return status or (1 if result.doubts else 0)
 
 
 def motion_of(made: Any) -> Any:
@@ -90,8 +90,8 @@ def motion_of(made: Any) -> Any:
     from atlas.core.motions.chosen import motion
 
     if not hasattr(made, "own"):
-        given = made.arguments
-        made = motion(given["ratio"], given["field"], made.angular_velocity(0.0), given["attitude"])
+        arguments = made.arguments
+        made = motion(arguments["ratio"], arguments["field"], made.angular_velocity(0.0), arguments["attitude"])
     own = in_principal_axes(made)
     with COMMANDS[in_group(own.family.name)].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)
@@ -128,31 +128,31 @@ def along_principal_axes(args: list[str], parent: click.Context) -> list[str]:
     """Return the arguments of a motion in given axes as those of the same motion in principal ones; none for others."""
     with COMMANDS["asymmetric"].make_context("asymmetric", list(args), parent) as context:
         options = context.params
-        made = motion_in_given_axes(options)
-        if made is None:
+        motion = motion_in_given_axes(options)
+        if motion is None:
             return []
-        found = in_principal_axes(made, "rad/s" if body.units_of(options) else "")
-        own = {one.name: one.opts[0] for one in context.command.params if one.name in OWN}
+        principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
+        own = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
         rest = [
             word
             for name, option in own.items()
             if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
             for word in (option, str(options[name]))
         ]
-    note = f"The axes of this page are principal ones: {found.axes} in those of the body that were given."
+    note = f"The axes of this page are principal ones: {principal.axes} in those of the body that were given."
     click.echo(note, err=True)
-    return [in_group(found.family.name), *found.options, *rest, "--note", note]
+    return [in_group(principal.family.name), *principal.options, *rest, "--note", note]
 
 
 def best(args: Sequence[str]) -> str:
     """Return the command to which options belong: the fewest are strange to it, and the fewest of its own missing."""
-    given = dict(_counted(args))
+    typed = dict(_counted(args))
 
     def misfit(name: str) -> tuple[int, int]:
-        known = {opt: one for one in COMMANDS[name].params if isinstance(one, click.Option) for opt in one.opts}
-        strange = sum(opt not in known or known[opt].nargs != count for opt, count in given.items())
-        starts = not {"--omega", "--spin"} & given.keys() if "--spin" in known else 0
-        return strange, starts + sum(one.required for opt, one in known.items() if opt not in given)
+        known = {opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts}
+        strange = sum(opt not in known or known[opt].nargs != count for opt, count in typed.items())
+        starts = not {"--omega", "--spin"} & typed.keys() if "--spin" in known else 0
+        return strange, starts + sum(param.required for opt, param in known.items() if opt not in typed)
 
     return min(COMMANDS, key=misfit)
 
@@ -200,20 +200,24 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     from atlas.report.page import Asked
 
     typed = _typed(options.keys() - OWN, options)
-    found = dict(
+    options_asked = dict(
         zip(
             (p.name for p in family.parameters),
             values_of(family, options | {"decimal": False}, exact=False),
             strict=True,
         )
     )
-    family.kernels()(*found.values())  # refuses what there is not, before figures are thought of
-    values = {p.name: _plain(found[p.name]) for p in family.parameters if p.option and found[p.name] is not None}
-    values |= {"c": found["c"]} if "c" in found else {}
+    family.kernels()(*options_asked.values())  # refuses what there is not, before figures are thought of
+    values = {
+        p.name: _plain(options_asked[p.name])
+        for p in family.parameters
+        if p.option and options_asked[p.name] is not None
+    }
+    values |= {"c": options_asked["c"]} if "c" in options_asked else {}
     records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}
     if in_field(family):
         records = {"time": body.units_of(options).get("time", "time")}
-    if "ratio" in found:
+    if "ratio" in options_asked:
         records["body"] = _body(options)
     if in_plane(family):
         records["field"] = _field(options)
@@ -225,9 +229,9 @@ def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[s
     """Return those of the options by these names that were typed, each with what was."""
     context = click.get_current_context()
     return {
-        one.opts[0].removeprefix("--"): _texts(options[one.name])
-        for one in context.command.params
-        if one.name in names and context.get_parameter_source(one.name) is click.core.ParameterSource.COMMANDLINE
+        param.opts[0].removeprefix("--"): _texts(options[param.name])
+        for param in context.command.params
+        if param.name in names and context.get_parameter_source(param.name) is click.core.ParameterSource.COMMANDLINE
     }
 
 
@@ -248,16 +252,16 @@ def _plain(value: Any) -> Any:
 
 def _body(options: dict[str, Any]) -> dict[str, Any]:
     """Return the body as a report file has it."""
-    given = {name: _plain(value) for name, value in body.body_parameters(options).items() if _of_body(name, value)}
+    parameters = {name: _plain(value) for name, value in body.body_parameters(options).items() if _of_body(name, value)}
     if options["points"] is not None:
-        found = points(options["points"])
-        given |= {"inertia": [found.body.I2, found.body.I3]}
-    if given.pop("density", None) is not None:
-        given["mass"] = float(body.mass_of(options))
+        places = points(options["points"])
+        parameters |= {"inertia": [places.body.I2, places.body.I3]}
+    if parameters.pop("density", None) is not None:
+        parameters["mass"] = float(body.mass_of(options))
     if options["shape"] is not None:
-        given = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | given
+        parameters = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | parameters
     title = options["shape"].replace("-", " ").replace("_", " ") if options["shape"] else "body"
-    return {"title": title, **given}
+    return {"title": title, **parameters}
 
 
 def _of_body(name: str, value: Any) -> bool:
@@ -271,7 +275,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
         shown = ", ".join(_texts(options["field"] or (B2, B3)))
         return {"title": f"field ({shown})", "prime": [float(B2), float(B3)]}
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
-    given = (
+    field = (
         {}
         if options["mu"] is None and options["points"] is None
         else {"charge_to_mass": body.charge_to_mass_of(options)}
@@ -281,7 +285,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
         "title": f"field of ({float(x):g}, {float(y):g}) {unit}",
         "system": system,
         "B": [0.0, *_plain((x, y))],
-        **given,
+        **field,
     }
 
 
@@ -295,10 +299,10 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
     from atlas.build.report import build_report
     from atlas.report.page import edited
 
-    for one in (file, recipe):
-        if one.exists() and edited(one.read_text(encoding="utf-8")):
+    for path in (file, recipe):
+        if path.exists() and edited(path.read_text(encoding="utf-8")):
             raise AtlasError(
-                f"{one} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move "
+                f"{path} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move "
                 "it."
             )
     with bar("page") as tell:

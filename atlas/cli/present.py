@@ -103,8 +103,8 @@ def dump(record: dict[str, Any]) -> None:
     JSON has no infinity and no NaN: such a float becomes null, and the reason stands under its place in "missing".
     """
     reasons: dict[str, str] = dict(record.get("missing", {}))
-    found = plain(record, "", reasons) | ({"missing": reasons} if reasons else {})
-    click.echo(json.dumps(found, ensure_ascii=not _unicode(), allow_nan=False, indent=None))
+    document = plain(record, "", reasons) | ({"missing": reasons} if reasons else {})
+    click.echo(json.dumps(document, ensure_ascii=not _unicode(), allow_nan=False, indent=None))
 
 
 def _unicode() -> bool:

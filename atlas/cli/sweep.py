@@ -140,8 +140,8 @@ def swept(
 def of_three_moments() -> click.Command:
     """Return the command of sweeps over bodies with three moments of inertia."""
     options = options_of(body.any_body_options, body.tensor_option, body.start_option, body.spin_option)
-    made: click.Command = click.command("sweep", cls=Command, help=HELP)(options(swept))
-    return made
+    command: click.Command = click.command("sweep", cls=Command, help=HELP)(options(swept))
+    return command
 
 
 @click.command(
@@ -198,13 +198,13 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
     """Return what the options of body, field and start say, by the names of a table."""
     if "tensor" in options:
         return _of_three_moments(options)
-    found, made = body.body_parameters(options), None
+    parameters, motion = body.body_parameters(options), None
     if any(options[name] is not None for name in body.BODY):
-        made = body.chosen_body(options)
-    ratio = getattr(made, "ratio", made)
+        motion = body.chosen_body(options)
+    ratio = getattr(motion, "ratio", motion)
     B = (
         dict(zip(("B2", "B3"), body.chosen_field(options), strict=True))
-        if set(found) - {*body.BODY, *body.SIZES}
+        if set(parameters) - {*body.BODY, *body.SIZES}
         else {}
     )
     start, second = body.start_of(options, needed=False), options["omega2"]
@@ -224,14 +224,14 @@ def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
             for name, values in principal.values.items()
             for name_of, x in zip(names[name], values, strict=True)
         }
-    given: dict[str, float] = {}
+    moments: dict[str, float] = {}
     if any(options[name] is not None for name in body.BODY):
-        given |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
+        moments |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
     if options["field"] is not None or options["magnetic"] is not None:
-        given |= zip(("B1", "B2", "B3"), body.chosen_field(options), strict=True)
+        moments |= zip(("B1", "B2", "B3"), body.chosen_field(options), strict=True)
     if options["omega"] is not None or options["spin"] is not None:
-        given |= zip(("omega1", "omega2", "omega3"), map(float, body.start_of(options)), strict=True)
-    return given
+        moments |= zip(("omega1", "omega2", "omega3"), map(float, body.start_of(options)), strict=True)
+    return moments
 
 
 def read(path: Path) -> Wanted:

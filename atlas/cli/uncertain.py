@@ -66,54 +66,57 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     or has no answer, they are carried by sampling.
     """
     inputs = uncertain(options)
-    found = answer(options)
-    middle = dict(_numbers(found))
+    answers = answer(options)
+    middle = dict(_numbers(answers))
     sizes = _sizes(middle)
-    lines, bent = [], set[tuple[Any, ...]]()
-    for one in inputs:
+    lines, curved = [], set[tuple[Any, ...]]()
+    for name in inputs:
         try:
             near, far = (
-                [dict(_numbers(answer(_moved(options, {one: part})))) for part in (step, -step)] for step in (STEP, 1.0)
+                [dict(_numbers(answer(_moved(options, {name: step_of_input})))) for step_of_input in (step, -step)]
+                for step in (STEP, 1.0)
             )
         except DomainError:
-            bent |= set(middle)
+            curved |= set(middle)
             continue
-        slope = {at: (near[0][at] - near[1][at]) / (2 * STEP) for at in middle if _in_all(at, near)}
+        slope = {key: (near[0][key] - near[1][key]) / (2 * STEP) for key in middle if _in_all(key, near)}
         lines.append(slope)
-        bent |= {at for at in middle if at not in slope or not _in_all(at, far)}
-        for at in slope.keys() - bent:
-            off = max(abs(far[0][at] - middle[at] - slope[at]), abs(far[1][at] - middle[at] + slope[at]))
-            if off > BENT * abs(slope[at]) + NONE * sizes[at]:
-                bent.add(at)
-    sigma = {at: math.hypot(*(line.get(at, 0.0) for line in lines)) for at in middle}
+        curved |= {key for key in middle if key not in slope or not _in_all(key, far)}
+        for key in slope.keys() - curved:
+            off = max(abs(far[0][key] - middle[key] - slope[key]), abs(far[1][key] - middle[key] + slope[key]))
+            if off > BENT * abs(slope[key]) + NONE * sizes[key]:
+                curved.add(key)
+    sigma = {key: math.hypot(*(line.get(key, 0.0) for line in lines)) for key in middle}
     notes = ["In brackets one standard deviation, in the last digits; of first order, by derivatives."]
-    if bent:
+    if curved:
         draws, failed = _draws(answer, options, inputs)
-        sigma |= {at: _deviation([draw[at] for draw in draws if at in draw]) for at in bent}
-        names = ", ".join(dict.fromkeys(str(at[2] if at[0] == "samples" else at[0]) for at in middle if at in bent))
+        sigma |= {key: _deviation([draw[key] for draw in draws if key in draw]) for key in curved}
+        names = ", ".join(
+            dict.fromkeys(str(key[2] if key[0] == "samples" else key[0]) for key in middle if key in curved)
+        )
         lost = f", of which {failed} had no answer" if failed else ""
         notes.append(f"Of {names} by sampling, {len(draws) + failed} draws{lost}, since they are not of first order.")
-    return Spread(found, {at: x if x > NONE * sizes[at] else 0.0 for at, x in sigma.items()}, notes)
+    return Spread(answers, {key: x if x > NONE * sizes[key] else 0.0 for key, x in sigma.items()}, notes)
 
 
 def _sizes(numbers: Numbers) -> Numbers:
     """Return for each number its size: of a matrix or a vector at a time that of its largest component."""
     largest = dict[tuple[Any, ...], float]()
-    for at, x in numbers.items():
-        group = at[:3] if at[0] == "samples" else at
+    for key, x in numbers.items():
+        group = key[:3] if key[0] == "samples" else key
         largest[group] = max(largest.get(group, 0.0), abs(x))
-    return {at: largest[at[:3] if at[0] == "samples" else at] for at in numbers}
+    return {key: largest[key[:3] if key[0] == "samples" else key] for key in numbers}
 
 
-def _in_all(at: tuple[Any, ...], several: list[Numbers]) -> bool:
-    return all(at in one for one in several)
+def _in_all(key: tuple[Any, ...], several: list[Numbers]) -> bool:
+    return all(key in numbers for numbers in several)
 
 
 def _moved(options: dict[str, Any], by: Mapping[tuple[str, int, Typed], float]) -> dict[str, Any]:
     """Return the options with numbers moved by parts of their standard deviations."""
     moved = dict(options)
-    for (name, i, x), part in by.items():
-        new, several = x.moved(x + part * x.sigma), _parts(before := moved[name])
+    for (name, i, x), step in by.items():
+        new, several = x.moved(x + step * x.sigma), _parts(before := moved[name])
         moved[name] = type(before)((*several[:i], new, *several[i + 1 :])) if isinstance(before, tuple) else new
     return moved
 
@@ -127,7 +130,7 @@ def _draws(
     normal, draws, failed, start = random.Random(1).gauss, list[Numbers](), 0, time.process_time()  # noqa: S311
     while len(draws) + failed < DRAWS and (len(draws) + failed < LEAST or time.process_time() - start < SECONDS):
         try:
-            draws.append(dict(_numbers(answer(_moved(options, {one: normal(0.0, 1.0) for one in inputs})))))
+            draws.append(dict(_numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs})))))
         except DomainError:
             failed += 1
     return draws, failed
@@ -147,12 +150,12 @@ def _numbers(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[An
         if math.isfinite(value):
             yield place, float(value)
     elif isinstance(value, Mapping):
-        for key, one in value.items():
+        for key, entry in value.items():
             if key != "t":
-                yield from _numbers(one, (*place, key))
+                yield from _numbers(entry, (*place, key))
     elif not isinstance(value, str) and hasattr(value, "__iter__"):
-        for i, one in enumerate(value):
-            yield from _numbers(one, (*place, i))
+        for i, entry in enumerate(value):
+            yield from _numbers(entry, (*place, i))
 
 
 def mapped(value: Any, function: Callable[[float, tuple[Any, ...]], Any], place: tuple[Any, ...] = ()) -> Any:
@@ -160,9 +163,9 @@ def mapped(value: Any, function: Callable[[float, tuple[Any, ...]], Any], place:
     if isinstance(value, float):
         return function(float(value), place)
     if isinstance(value, Mapping):
-        return {key: one if key == "t" else mapped(one, function, (*place, key)) for key, one in value.items()}
+        return {key: entry if key == "t" else mapped(entry, function, (*place, key)) for key, entry in value.items()}
     if not isinstance(value, str) and hasattr(value, "__iter__"):
-        return [mapped(one, function, (*place, i)) for i, one in enumerate(value)]
+        return [mapped(entry, function, (*place, i)) for i, entry in enumerate(value)]
     return value
 
 

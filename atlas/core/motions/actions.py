@@ -42,14 +42,14 @@ def actions(motion: Any) -> Actions:
     if motion.shape:
         raise AtlasError(f"Actions are those of one motion, not of an array of them, of shape {motion.shape}.")
     motion = getattr(motion, "own", motion)
-    one, wheels = motion._single(0), wheels_of(motion)  # noqa: SLF001  of the same floor
+    single, wheels = motion._single(0), wheels_of(motion)  # noqa: SLF001  of the same floor
     if motion.family == "asymmetric":
         J = k = np.array(motion.inertia)
         linear = quadratic = 0.0
         field = motion.field_in_body
     else:
         J, k, linear, quadratic = One(motion, 0).inputs.parts
-        B = One(motion, 0).inputs.field if motion.family != "general" else one.attitude @ One(motion, 0).inputs.field
+        B = One(motion, 0).inputs.field if motion.family != "general" else single.attitude @ One(motion, 0).inputs.field
 
         def field(t: Any) -> FloatArray:
             return np.asarray(np.vecmat(B, motion.rotation(t)))
@@ -60,9 +60,9 @@ def actions(motion: Any) -> Actions:
     start, Omega, nu = momentum(0.0), motion.angular_velocity(0.0), field(0.0)[2]
     energy = float((J * Omega * Omega).sum() / 2 + linear * nu + quadratic * nu * nu / 2)
     turns = [float(start @ (wheels.n @ motion.rotation(0.0))), float(start @ wheels.a)]
-    if isinstance(getattr(one, "closed", None), ThetaKernel):
-        return Actions(wheels.names[:3], np.array([*_of_torus(one, J), turns[0]]), wheels.rates[:3], energy)
-    found = []
+    if isinstance(getattr(single, "closed", None), ThetaKernel):
+        return Actions(wheels.names[:3], np.array([*_of_torus(single, J), turns[0]]), wheels.rates[:3], energy)
+    rates = []
     if len(wheels.phases):
         (M,) = wheels.phases
         rest = (
@@ -70,22 +70,22 @@ def actions(motion: Any) -> Actions:
             - wheels.p * turns[0]
             - wheels.s * turns[1]
         )
-        found = [rest / M]
-    values, there = np.array([*found, *turns]), wheels.rates != 0
+        rates = [rest / M]
+    values, there = np.array([*rates, *turns]), wheels.rates != 0
     names = tuple(name for name, moves in zip(wheels.names, there, strict=True) if moves)
     return Actions(names, values[there], wheels.rates[there], energy)
 
 
-def _mean(of: Callable[[FloatArray], FloatArray]) -> float:
+def _mean(function: Callable[[FloatArray], FloatArray]) -> float:
     """Return the mean of a function of one phase (1, m)."""
-    indices, found = coefficients(of, 1)
-    return float(found[np.flatnonzero(indices[:, 0] == 0)[0]].real)
+    indices, amplitudes = coefficients(function, 1)
+    return float(amplitudes[np.flatnonzero(indices[:, 0] == 0)[0]].real)
 
 
-def _of_torus(one: Any, J: FloatArray) -> list[float]:
+def _of_torus(single: Any, J: FloatArray) -> list[float]:
     """Return the actions of the two phases of a torus: along the flows of H and F/2, and back about the field."""
-    kernel, found = one.closed, []
-    unit = float(arb(one.exact.inertia[0] / one.exact.on_torus.moments[0]).mid())
+    kernel, actions_of_cycles = single.closed, []
+    unit = float(arb(single.exact.inertia[0] / single.exact.on_torus.moments[0]).mid())
     for i, period in enumerate(kernel.periods):
         T_H, T_F, angle = (float(x.mid()) for x in (period.H, period.F, period.angle))
         angle -= 2 * np.pi * round(angle / (2 * np.pi))
@@ -98,5 +98,5 @@ def _of_torus(one: Any, J: FloatArray) -> list[float]:
             M, n = J / unit * W, K / np.linalg.norm(K, axis=1, keepdims=True)
             return np.asarray(T[0] * (M * W).sum(1) + T[1] * (M * M).sum(1) - T[2] * (M * n).sum(1))
 
-        found.append(_mean(work) * unit * kernel.rate / (2 * np.pi))
-    return found
+        actions_of_cycles.append(_mean(work) * unit * kernel.rate / (2 * np.pi))
+    return actions_of_cycles

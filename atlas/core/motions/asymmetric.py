@@ -77,16 +77,16 @@ class SingleAsymmetric:
         """Return the closed form by Jacobi's functions, and what is known of it, or why it is not taken."""
         try:
             if isinstance(exact, EulerTop):
-                found: SingleElliptic = SingleEulerTop(exact, _floats(self.exact.field))
+                single: SingleElliptic = SingleEulerTop(exact, _floats(self.exact.field))
             else:
-                found = SingleElliptic(exact)
-            found.parts  # noqa: B018  what floats do not hold is refused here
+                single = SingleElliptic(exact)
+            single.parts  # noqa: B018  what floats do not hold is refused here
         except DomainError:  # next to the line about which its axis turns
             return None, "certified at each time: Jacobi's functions are too small for a float."
-        error = found.accuracy(self.size)
+        error = single.accuracy(self.size)
         balls = "" if error <= LOST else ", and Omega, of so slender a body, is certified at each time"
         adds = WITHIN if balls else error
-        return found, f"proved for this motion, at all times; rounding adds {adds:.1e} at most{balls}"
+        return single, f"proved for this motion, at all times; rounding adds {adds:.1e} at most{balls}"
 
     def _difference(self, closed: ThetaKernel, t: float) -> float:
         """Return how far the closed form is from the certified twin at a time."""
@@ -152,12 +152,12 @@ class SingleAsymmetric:
         """Return the values of a function of time, which is known at zero, without a closed form."""
         known = np.asarray(real(t, "The time") == 0)
         if known.all():
-            found = target(out, known.shape + start.shape)
+            products = target(out, known.shape + start.shape)
         else:
             balls = self.closed is None or (name == "angular_velocity" and self._slender)
-            found = getattr(self.certified if balls else self.closed, name)(*which, t, out)
-        found[known] = start
-        return found
+            products = getattr(self.certified if balls else self.closed, name)(*which, t, out)
+        products[known] = start
+        return products
 
 
 @lru_cache(maxsize=KEPT)
@@ -213,39 +213,39 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
             *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
         ]
         super().__init__(_single, *parts)
-        self._of_each(lambda one: one.exact.kind)  # what is no motion is refused here
+        self._of_each(lambda single: single.exact.kind)  # what is no motion is refused here
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
         self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
 
     @kept
     def kind(self) -> Any:
         """Name of the kind of motion, a string, or an array of them."""
-        return self._of_each(lambda one: one.exact.kind)
+        return self._of_each(lambda single: single.exact.kind)
 
     @kept
     def H(self) -> Any:
         """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson. DomainError beyond all floats."""
-        return finite(self._of_each(lambda one: _float(one.exact.H)), "H")
+        return finite(self._of_each(lambda single: _float(single.exact.H)), "H")
 
     @kept
     def F(self) -> Any:
         """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch. DomainError beyond all floats."""
-        return finite(self._of_each(lambda one: _float(one.exact.F)), "F")
+        return finite(self._of_each(lambda single: _float(single.exact.F)), "F")
 
     @kept
     def MK(self) -> Any:
         """The Casimir (M, K), |B'| times the canonical momentum along B. DomainError beyond all floats."""
-        return finite(self._of_each(lambda one: _float(one.exact.MK)), "(M, K)")
+        return finite(self._of_each(lambda single: _float(single.exact.MK)), "(M, K)")
 
     @kept
     def energy(self) -> Any:
         """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy. DomainError beyond all floats."""
-        return finite(self._of_each(lambda one: _float(one.exact.energy)), "The energy")
+        return finite(self._of_each(lambda single: _float(single.exact.energy)), "The energy")
 
     @kept
     def agreement(self) -> Any:
         """What is known of the truth of the closed form, or why there is none: a sentence, or an array of them."""
-        return self._of_each(lambda one: one.agreement)
+        return self._of_each(lambda single: single.agreement)
 
     @kept
     def accuracy(self) -> Any:
@@ -255,7 +255,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         sines of the library are within an ulp; errors that were seen are some ten times smaller. Where `agreement` says
         that the formulas are not proved, it bounds rounding alone. Else it is that of a value that is rounded once.
         """
-        return self._of_each(lambda one: one.accuracy)
+        return self._of_each(lambda single: single.accuracy)
 
     @kept
     def frequencies(self) -> Any:
@@ -265,8 +265,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
         Raises DomainError for other motions.
         """
-        found = self._of_each(lambda one: [_float(x) for x in enclosed(lambda: one.exact.frequencies, BITS)])
-        return np.asarray(finite(np.array(found), "A frequency"))
+        frequencies = self._of_each(
+            lambda single: [_float(x) for x in enclosed(lambda: single.exact.frequencies, BITS)]
+        )
+        return np.asarray(finite(np.array(frequencies), "A frequency"))
 
     @property
     def curve(self) -> Any:
@@ -280,7 +282,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
         if self.shape:
             raise AtlasError(f"A spectral curve is that of one motion, not of an array of them, of shape {self.shape}.")
-        return SpectralCurve(self._of_each(lambda one: one.exact))
+        return SpectralCurve(self._of_each(lambda single: single.exact))
 
     @kept
     def riemann_matrix(self) -> Any:
@@ -290,21 +292,21 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         makes zero, is shown as zero. Raises AtlasError for motions without
         closed form.
         """
-        return np.asarray(self._of_each(lambda one: one.theta.riemann_matrix))
+        return np.asarray(self._of_each(lambda single: single.theta.riemann_matrix))
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3).
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        return self._evaluate(lambda one, t, out: one.angular_velocity(t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body; shape (..., 3).
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        return self._evaluate(lambda one, t, out: one.field_in_body(t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
@@ -314,9 +316,9 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
         return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
 
-    def _fill_grid(self, one: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, single: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid, at exact times."""
-        (one.closed or one.certified).fill_grid(start, step, out)
+        (single.closed or single.certified).fill_grid(start, step, out)
         if step and (start / step).is_integer() and 0 <= -start / step < len(out):
             out[round(-start / step)] = np.eye(3)
 

@@ -81,14 +81,14 @@ class BallMotion(DoubleTurn[Ball]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda one, t, out: one.swung(one.vector("m"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.swung(single.vector("m"), t, out), t, (3,))
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:
         return [(turning, slice(None), self._inputs)]

@@ -54,9 +54,9 @@ class Certified:
                 f"not certified: without a closed form the sign of a quaternion is known up to |t| = "
                 f"{FOLLOWED / self.size:.6g}."
             )
-        found, out = of_matrix(self.rotation(times)), target(out, (*times.shape, 4))
-        near = self._followed(times.ravel()).reshape(found.shape)
-        out[...] = found * np.sign((found * near).sum(-1, keepdims=True))
+        quaternions, out = of_matrix(self.rotation(times)), target(out, (*times.shape, 4))
+        near = self._followed(times.ravel()).reshape(quaternions.shape)
+        out[...] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
         return out
 
     def _followed(self, times: FloatArray) -> FloatArray:
@@ -64,15 +64,15 @@ class Certified:
         inertia, K, Omega = (
             np.array([nearest(arb(x)) for x in v]) for v in (self.exact.inertia, self.exact.field, self.exact.omega)
         )
-        found = np.empty((times.size, 4))
+        quaternions = np.empty((times.size, 4))
         for side in (times >= 0, times < 0):
             y, now = np.concatenate([K, Omega, [0.0, 0.0, 0.0, 1.0]]), 0.0
             for i in np.flatnonzero(side)[np.argsort(abs(times[side]))].tolist():
                 count = int(np.ceil(abs(times[i] - now) * self.size / STEP))
                 for _ in range(count):
                     y = _stepped(np.diag(inertia), y, (times[i] - now) / count)
-                found[i], now = y[6:], times[i]
-        return found
+                quaternions[i], now = y[6:], times[i]
+        return quaternions
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
@@ -100,8 +100,8 @@ class Certified:
             )
         out = target(out, times.shape + shape)
         rows = out.reshape(times.size, *shape)
-        for row, at in zip(rows, times.flat, strict=True):
-            row[...] = rounded(lambda at=at: function(float(at)), size).reshape(shape)  # type: ignore[misc]
+        for row, time in zip(rows, times.flat, strict=True):
+            row[...] = rounded(lambda time=time: function(float(time)), size).reshape(shape)  # type: ignore[misc]
         return out
 
 

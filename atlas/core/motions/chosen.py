@@ -80,8 +80,8 @@ def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) 
         return FreeMotion(symmetric, _parts(np.matvec(axes, w))), axes
     turn, field, omega = _in_plane(axes, K, w)
     if not shape:
-        if found := _elementary(symmetric, field, omega):
-            return found, turn
+        if elementary := _elementary(symmetric, field, omega):
+            return elementary, turn
         if I2 == I3:
             b = float(np.linalg.norm(K))
             turn = _upright(K / b, w)
@@ -119,12 +119,12 @@ def _elementary(body: Any, field: Any, omega: Any) -> ElementaryMotion | None:
     size = max(map(abs, (*field, *omega)))
     if abs(w1) > MEMBER * size:
         return None
-    for given in (None, w3):
+    for omega3 in (None, w3):
         try:
-            found = ElementaryMotion(body, field, w2, given)
+            motion = ElementaryMotion(body, field, w2, omega3)
         except DomainError:
             continue
-        return found if abs(found.omega3 - w3) <= MEMBER * size else None
+        return motion if abs(motion.omega3 - w3) <= MEMBER * size else None
     return None
 
 
@@ -136,35 +136,35 @@ def body_of(inertia: Any) -> Body:
     several = isinstance(inertia, tuple | list) and len(inertia) == 3 and np.ndim(inertia[0]) != 1
     if several and not any(np.ndim(x) > 1 for x in inertia):
         return _of_moments(components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
-    given = real(inertia, "The inertia", "" if np.ndim(inertia) == 0 else INERTIA)
-    if given.shape == (3,):
-        return _of_moments(given, np.eye(3))
-    if given.shape[-2:] != (3, 3):
+    inertia_matrix = real(inertia, "The inertia", "" if np.ndim(inertia) == 0 else INERTIA)
+    if inertia_matrix.shape == (3,):
+        return _of_moments(inertia_matrix, np.eye(3))
+    if inertia_matrix.shape[-2:] != (3, 3):
         if isinstance(inertia, tuple | list):
             raise AtlasError(
                 f"The inertia is a ratio I3/I2, three moments (I1, I2, I3), a tensor (3, 3) or a SymmetricBody, not "
                 f"{reprlib.repr(inertia)}."
             )
-        I2, I3 = moments(given)
+        I2, I3 = moments(inertia_matrix)
         return _of_moments((I2, I2, I3), np.eye(3))
-    for tensor in given.reshape(-1, 3, 3):
+    for tensor in inertia_matrix.reshape(-1, 3, 3):
         inertia_tensor(tensor)
-    off = given * (1 - np.eye(3))
-    found, axes = np.linalg.eigh(given)
+    off = inertia_matrix * (1 - np.eye(3))
+    principal, axes = np.linalg.eigh(inertia_matrix)
     diagonal = (off == 0).all(axis=(-2, -1))[..., None]
     axes = np.swapaxes(axes, -1, -2)
     axes = axes * np.where(np.linalg.det(axes) < 0, -1.0, 1.0)[..., None, None]
-    found = np.where(diagonal, np.diagonal(given, axis1=-2, axis2=-1), found)
-    return Body(_joined(found), np.where(diagonal[..., None], np.eye(3), axes), given)
+    principal = np.where(diagonal, np.diagonal(inertia_matrix, axis1=-2, axis2=-1), principal)
+    return Body(_joined(principal), np.where(diagonal[..., None], np.eye(3), axes), inertia_matrix)
 
 
-def _of_moments(given: Any, axes: FloatArray) -> Body:
+def _of_moments(moments: Any, axes: FloatArray) -> Body:
     """Return the body of principal moments along axes. Raises DomainError for what no body has."""
-    found = np.stack(np.broadcast_arrays(*(real(x, "A moment of inertia") for x in given)), -1)
-    for one in np.unique(found.reshape(-1, 3), axis=0):
-        inertia_tensor(one)
-    tensor = np.swapaxes(axes, -1, -2) @ (found[..., None] * axes)
-    return Body(found, axes, tensor)
+    rows = np.stack(np.broadcast_arrays(*(real(x, "A moment of inertia") for x in moments)), -1)
+    for row in np.unique(rows.reshape(-1, 3), axis=0):
+        inertia_tensor(row)
+    tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
+    return Body(rows, axes, tensor)
 
 
 def _joined(I: FloatArray) -> FloatArray:
@@ -186,7 +186,7 @@ def _different(I: FloatArray) -> Any:
 
 def _parts(v: FloatArray) -> tuple[Any, Any, Any]:
     """Return the components of vectors (..., 3), numbers or arrays."""
-    x, y, z = (plain(part) for part in np.moveaxis(v, -1, 0))
+    x, y, z = (plain(component) for component in np.moveaxis(v, -1, 0))
     return x, y, z
 
 
@@ -212,28 +212,28 @@ def attitude_of(attitude: Any) -> FloatArray:
     return np.asarray(R if off == 0 else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)
 
 
-def in_laboratory(of: type[Any], body: Any, field: Any, attitude: Any, omega: Any, parameters: Any) -> Turned:
+def in_laboratory(family: type[Any], body: Any, field: Any, attitude: Any, omega: Any, parameters: Any) -> Turned:
     """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
     R, B = attitude_of(attitude), _vectors(getattr(field, "prime", field), "The field")
     K = np.vecmat(B, R)
     w = K if omega is None else np.vecmat(_vectors(omega, "The angular velocity"), R)
-    if of.family == "top":
+    if family.family == "top":
         I2, I3 = components(body, ("I2", "I3"), "The inertia", INERTIA)
         known = _of_moments((I2, I2, I3), np.eye(3))
         axes, direction, start = _in_plane(known.axes, K, w)
-        own = of((I2, I3), direction=direction, omega=start, **parameters)
-    elif of.family == "elliptic":
+        own = family((I2, I3), direction=direction, omega=start, **parameters)
+    elif family.family == "elliptic":
         known = body_of(body)
         axes = known.axes
-        own = of(_parts(known.moments), _parts(np.matvec(axes, K)), **parameters)
+        own = family(_parts(known.moments), _parts(np.matvec(axes, K)), **parameters)
     else:
-        found: Turned = motion(body, B, w, R)
-        if not issubclass(type(found), of):
+        motion_of_class: Turned = motion(body, B, w, R)
+        if not issubclass(type(motion_of_class), family):
             raise DomainError(
-                f"So no {of.__name__} starts, but one of the family {found.family}: atlas.motion finds the class."
+                f"So no {family.__name__} starts, but one of the family {motion_of_class.family}: atlas.motion finds the class."
             )
-        return found
-    given = {"body": body, "field": B, "attitude": R, "angular_velocity": omega, **parameters}
+        return motion_of_class
+    arguments = {"body": body, "field": B, "attitude": R, "angular_velocity": omega, **parameters}
     w = np.asarray(own.angular_velocity(0.0)) @ axes if omega is None else w
-    left, made_by = R @ np.swapaxes(axes, -1, -2), f"{of.__name__}.in_laboratory"
-    return turned(own, left, axes, known.tensor, B, (R, w), given, made_by)
+    left, made_by = R @ np.swapaxes(axes, -1, -2), f"{family.__name__}.in_laboratory"
+    return turned(own, left, axes, known.tensor, B, (R, w), arguments, made_by)

@@ -47,7 +47,7 @@ CORNERS = np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
 
 
 def quotients(
-    value: Array, slopes: Sequence[Array], bent: FloatArray, into: Array, half: float
+    value: Array, slopes: Sequence[Array], bends: FloatArray, unit: Array, half: float
 ) -> tuple[Array, list[Array], FloatArray, FloatArray]:
     """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and how far y may be from there.
 
@@ -56,10 +56,10 @@ def quotients(
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]
-    across, below = (abs(np.einsum("k...,kl->l...", x, into)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
-    least = abs(value[D]) - half * below - half**2 / 2 * bent[D]
+    across, below = (abs(np.einsum("k...,kl->l...", x, unit)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
+    least = abs(value[D]) - half * below - half**2 / 2 * bends[D]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return y, G, least, (half * across + half**2 / 2 * (bent + abs(y) * bent[D])) / least
+        return y, G, least, (half * across + half**2 / 2 * (bends + abs(y) * bends[D])) / least
 
 
 @dataclass(frozen=True)
@@ -85,18 +85,18 @@ class Rounding:
         cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
         if not self.sums.reach * abs(self.into.imag).sum(axis=1).max() * np.pi * HALF < FARTHEST:
             return float("inf")
-        enough, found = enough * 2.0**53, 0.0
+        enough, worst = enough * 2.0**53, 0.0
         for last in range(CUTS + 1):
-            wrong = self.wrong(cells, half)
-            if not wrong.max() <= enough:
+            errors = self.wrong(cells, half)
+            if not errors.max() <= enough:
                 enough = max(enough, WIDER * float(self.wrong(cells, 0.0).max()))
-            done = (wrong <= enough) | (last == CUTS)
-            found = max(found, float(wrong[done].max(initial=0.0)))
+            done = (errors <= enough) | (last == CUTS)
+            worst = max(worst, float(errors[done].max(initial=0.0)))
             half /= 2
             cells = (cells[:, ~done, None] + half * CORNERS[:, None]).reshape(2, -1)
             if not cells.size:
                 break
-        return found * 2.0**-53
+        return worst * 2.0**-53
 
     def wrong(self, cells: FloatArray, half: float) -> FloatArray:
         """Return bounds on errors in cells of phases about some (2, m), in units of 2^-53."""
@@ -104,14 +104,14 @@ class Rounding:
         table = abs(self.sums.table[D])
         first, second = (np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into @ cells).imag, strict=True))
         size, *middle = _summed(np.array([table, table * P[:, None], table * Q]), first, second)
-        near, found = np.round(np.array(middle) / size), np.empty(cells.shape[1])
-        part = max(UNTHREADED // (4 * table.size), 1)
+        near, errors = np.round(np.array(middle) / size), np.empty(cells.shape[1])
+        block = max(UNTHREADED // (4 * table.size), 1)
         for p in np.unique(near, axis=1).T:
             chosen = np.flatnonzero((near == p[:, None]).all(axis=0))
-            for i in range(0, chosen.size, part):
-                some = chosen[i : i + part]
-                found[some] = self._wrong(p, cells[:, some], half)
-        return found
+            for i in range(0, chosen.size, block):
+                some = chosen[i : i + block]
+                errors[some] = self._wrong(p, cells[:, some], half)
+        return errors
 
     def _places(self, p: FloatArray) -> list[FloatArray]:
         """Return P and Q of the terms, less p."""
@@ -133,10 +133,10 @@ class Rounding:
         turned = np.exp(-(self.turning @ corners).imag)
         summed = _summed(np.concatenate(rows), *sizes)
         summed[:3] *= turned
-        wrong, bent, *mixed = np.split(
+        error, bends, *mixed = np.split(
             summed.reshape(len(summed), -1, 4).max(axis=-1), len(table) + len(forms) * np.arange(3)
         )
-        y, G, least, varying = quotients(value, slopes, bent, self.into, half)
+        y, G, least, varying = quotients(value, slopes, bends, self.into, half)
         size = abs(y)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             moved = np.zeros(size.shape)
@@ -144,17 +144,17 @@ class Rounding:
                 change = abs(g) + half * (mix + size * mix[D]) + varying * (abs(slope[D]) + half * mix[D])
                 moved += (off + PHASE * abs(x).sum()) * change / least
             moved[:3] *= turned.reshape(-1, 4).max(axis=-1)
-            found = self._of_quotients(wrong / least, moved, size + varying)
-        return np.where(least > 0, found, np.inf)
+            errors = self._of_quotients(error / least, moved, size + varying)
+        return np.where(least > 0, errors, np.inf)
 
-    def _of_quotients(self, wrong: FloatArray, moved: FloatArray, y: FloatArray) -> FloatArray:
+    def _of_quotients(self, error: FloatArray, moved: FloatArray, y: FloatArray) -> FloatArray:
         """Return bounds on errors from those of forms over |D|, those of exponentials, and sizes of quotients."""
-        both = wrong + moved[: len(wrong)]
-        attitude = np.hypot(both[:3], both[4:7] / self.b).max(axis=0) + wrong[D]
+        both = error + moved[: len(error)]
+        attitude = np.hypot(both[:3], both[4:7] / self.b).max(axis=0) + error[D]
         turned = EXPONENTIAL + PHASE * (1 + abs(self.turning).sum()) + INVERSE + 2 * PRODUCT + COMBINED
         K, W, Omega = np.minimum(y[4:7], self.b), y[7:10], y[10:]
-        field = both[4:7] + K * (wrong[D] + INVERSE + QUOTIENT)
-        rate = wrong[4:7] + wrong[7:] + moved[10:] + Omega * (wrong[D] + INVERSE + 1) + QUOTIENT * (K + W)
+        field = both[4:7] + K * (error[D] + INVERSE + QUOTIENT)
+        rate = error[4:7] + error[7:] + moved[10:] + Omega * (error[D] + INVERSE + 1) + QUOTIENT * (K + W)
         return np.asarray(np.maximum(attitude + turned, np.maximum(field, rate).max(axis=0) / self.size))
 
 

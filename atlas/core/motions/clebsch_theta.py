@@ -188,8 +188,8 @@ class ThetaKernel:
         R, rest = np.empty((phases.shape[1], 9)), np.zeros_like(half)
         self._fill(half, rest, self.entries, R)
         x, less = self._places(half, rest)
-        D, *found = self.sums.at(x[:2], less[:2], slice(3, 10))
-        K, W = np.split(_real(np.array(found), _inverse(D)).T * self.rate, 2, axis=1)
+        D, *numerators = self.sums.at(x[:2], less[:2], slice(3, 10))
+        K, W = np.split(_real(np.array(numerators), _inverse(D)).T * self.rate, 2, axis=1)
         return R.reshape(-1, 3, 3), W - K, K
 
     def _attitude(self, weights: FloatArray) -> Callable[..., None]:
@@ -205,12 +205,12 @@ class ThetaKernel:
     def _fill(self, half: FloatArray, rest: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
         """Fill rows with combinations of Re N, Im N and K at half phases: two words, (3, m)."""
         (*x, angle), (*less, lacking) = self._places(half, rest)
-        found = self.sums.at(np.array(x), np.array(less), slice(0, 7))
-        inverse = _inverse(found[3])
+        sums = self.sums.at(np.array(x), np.array(less), slice(0, 7))
+        inverse = _inverse(sums[3])
         turned = np.exp(1j * angle)
         turned += turned * (1j * lacking)
-        N = found[:3] * (turned * inverse)
-        combined(np.concatenate([N.real, N.imag, _real(found[4:], inverse)]), weights, rows)
+        N = sums[:3] * (turned * inverse)
+        combined(np.concatenate([N.real, N.imag, _real(sums[4:], inverse)]), weights, rows)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
@@ -221,10 +221,10 @@ class ThetaKernel:
         table, steps = self._lift
         for i in range(0, t.size, PART):
             half, rest, whole = self._phases(t[i : i + PART])
-            found = self._quaternions(half, rest)
+            quaternions = self._quaternions(half, rest)
             index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
             near = product(self._turn(half[2]), table[index[0], index[1]])
-            rows[i : i + PART] = found * np.sign((found * near).sum(-1, keepdims=True))
+            rows[i : i + PART] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
             rows[i : i + PART] *= (signs(whole) ** steps).prod(axis=0)[:, None]
 
     def _quaternions(self, half: FloatArray, rest: FloatArray) -> FloatArray:
@@ -257,15 +257,15 @@ class ThetaKernel:
         steps = [bool(table[0, 0] @ end < 0) for end in (table[-1, 0], table[0, -1])]
         return table, np.array([*steps, True], dtype=int)[:, None]
 
-    def _vectors(self, part: slice, weights: FloatArray) -> Callable[..., None]:
+    def _vectors(self, sums_of: slice, weights: FloatArray) -> Callable[..., None]:
         """Return what fills rows with combinations of K, or of K and W."""
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, PART):
                 half, rest, _ = self._phases(t[i : i + PART])
                 x, less = self._places(half, rest)
-                D, *found = self.sums.at(x[:2], less[:2], part)
-                combined(_real(np.array(found), _inverse(D)) * self.rate, weights, rows[i : i + PART])
+                D, *numerators = self.sums.at(x[:2], less[:2], sums_of)
+                combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + PART])
 
         return fill
 
@@ -295,8 +295,8 @@ def _joined(q: FloatArray) -> FloatArray:
 def _sum(x: Array, y: Array) -> tuple[Array, Array]:
     """Return a sum and what its rounding left out, by Knuth."""
     s = x + y
-    part = s - x
-    return s, (x - (s - part)) + (y - part)
+    rounded = s - x
+    return s, (x - (s - rounded)) + (y - rounded)
 
 
 def _inverse(D: Array) -> Array:
@@ -317,11 +317,11 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
     torus = motion.torus
     try:
         theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
-        found = ThetaKernel(theta, torus, motion.rate, size)
+        kernel = ThetaKernel(theta, torus, motion.rate, size)
     except NotCertifiedError:
         raise
     except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
         raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
-    if not found.rounding.accuracy(LOST) <= LOST:
-        raise NotCertifiedError(f"not certified: rounding would be wrong by up to {found.accuracy:.1e} in its sums.")
-    return found
+    if not kernel.rounding.accuracy(LOST) <= LOST:
+        raise NotCertifiedError(f"not certified: rounding would be wrong by up to {kernel.accuracy:.1e} in its sums.")
+    return kernel

@@ -58,7 +58,7 @@ class TorusVaried:
             values += [w - k for w, k in zip(motion.torus.W, motion.torus.K, strict=True)]
             unit = float(arb(exact.inertia[0] / motion.torus.moments[0]).mid())
             weights, ways, frequencies, frame = (np.array([complex_of(x) for x in kind]) for kind in here)
-            found, groups = dict[int, list[Array]](), ((0, 1, 2), (3, 4, 5, 6, 7, 8))
+            derivatives, groups = dict[int, list[Array]](), ((0, 1, 2), (3, 4, 5, 6, 7, 8))
             # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
             left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
             b = max(abs(float(arb(x).mid())) for x in values[3:6])
@@ -66,24 +66,24 @@ class TorusVaried:
             for place in set(places) - left:
                 step = STEP + weak * (place in (3, 4, 5))
                 moved = _moved(values, place, step, motion.rate, kernel.made_of[0])
-                found[place] = _slopes(here, _tables(moved, box, peak), step)
+                derivatives[place] = _slopes(here, _tables(moved, box, peak), step)
             by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
             by_rates.append(-frame * np.repeat([0, 1], [6, 3]))
             for place in left:
                 group, whole = groups[place > 2], by_rates if place > 2 else [0 * x for x in by_rates]
                 others = {i: float(arb(values[i]).mid()) for i in group if i != place}
-                found[place] = [
-                    (x - sum(size * found[i][n] for i, size in others.items())) / float(arb(values[place]).mid())
+                derivatives[place] = [
+                    (x - sum(size * derivatives[i][n] for i, size in others.items())) / float(arb(values[place]).mid())
                     for n, x in enumerate(whole)
                 ]
-        slopes = [[x / (kernel.rate if place > 2 else unit) for x in found[place]] for place in places]
+        slopes = [[x / (kernel.rate if place > 2 else unit) for x in derivatives[place]] for place in places]
         self.weights = weights.reshape(10, -1)
         self.d_weights = np.array([x[0].reshape(10, -1) for x in slopes]).reshape(len(places), 10, -1)
         tables = np.concatenate([self.weights[None], self.d_weights])
-        kept = (tables != 0).any((0, 1))
-        self.P, self.Q = (np.array([x[i] - low[i] for x in box])[kept] for i in (0, 1))
+        matters = (tables != 0).any((0, 1))
+        self.P, self.Q = (np.array([x[i] - low[i] for x in box])[matters] for i in (0, 1))
         self.ways, self.frame = ways.reshape(3, 2), frame.real.reshape(3, 3)
-        self.weights, self.d_weights = self.weights[:, kept], self.d_weights[:, :, kept]
+        self.weights, self.d_weights = self.weights[:, matters], self.d_weights[:, :, matters]
         self.d_ways = np.array([x[1].reshape(3, 2) for x in slopes]).reshape(len(places), 3, 2)
         self.d_frequencies = np.array([x[2].real for x in slopes]).reshape(len(places), 3)
         self.d_frame = np.array([x[3].real.reshape(3, 3) for x in slopes]).reshape(len(places), 3, 3)
@@ -103,8 +103,8 @@ class TorusVaried:
         """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, PART):
-            for part, values in zip(out, self._block(t[i : i + PART], slopes), strict=True):
-                part[i : i + PART] = np.einsum("np,pmk->mnk", names, values) @ left.T
+            for block, values in zip(out, self._block(t[i : i + PART], slopes), strict=True):
+                block[i : i + PART] = np.einsum("np,pmk->mnk", names, values) @ left.T
         out[0] += turns
         return out
 
@@ -165,9 +165,9 @@ def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: Thet
     return Constants(theta, torus, rate)
 
 
-def _followed(found: Lattice, like: Lattice) -> Lattice:
+def _followed(lattice: Lattice, like: Lattice) -> Lattice:
     """Return a lattice in the basis that is next to another one's."""
-    periods = [*found.real, *found.others]
+    periods = [*lattice.real, *lattice.others]
 
     def reals(rows: Sequence[Sequence[acb]]) -> FloatArray:
         return np.array([[complex_of(x) for x in row[:2]] for row in rows]).view(float)
@@ -185,26 +185,29 @@ def _followed(found: Lattice, like: Lattice) -> Lattice:
     return Lattice(next_to(like.real), next_to(like.others), next_to(like.a), next_to(like.b))
 
 
-def _tables(found: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
+def _tables(constants: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
     """Return weights beside the largest of the denominator, ways, frequencies and frame, each in a row."""
-    hat = found.hat
-    rows = [{(P, Q): x for P, Q, x in form.terms(hat, found.start, box)} for form in found.forms]
+    hat = constants.hat
+    rows = [{(P, Q): x for P, Q, x in form.terms(hat, constants.start, box)} for form in constants.forms]
     if box[peak] not in rows[3]:
         raise _other_form()
     unit = rows[3][box[peak]]
     weights = [row.get(place, acb(0)) / unit for row in rows for place in box]
-    return [weights, *([x for row in kind for x in row] for kind in (found.ways, [found.frequencies], found.frame))]
+    return [
+        weights,
+        *([x for row in kind for x in row] for kind in (constants.ways, [constants.frequencies], constants.frame)),
+    ]
 
 
 def _slopes(here: list[list[Any]], there: list[list[Any]], step: int) -> list[Array]:
     """Return the derivatives of constants, whose changes are small beside the largest of their kind."""
-    found: list[Array] = []
+    slopes: list[Array] = []
     for first, second in zip(here, there, strict=True):
         change = np.array([complex_of(acb(y - x)) for x, y in zip(first, second, strict=True)], dtype=complex)
         if not abs(change).max() <= NEAR * max(abs(complex_of(acb(x))) for x in first):
             raise _other_form()
-        found.append(np.asarray(change * 2.0**step, dtype=np.complex128))
-    return found
+        slopes.append(np.asarray(change * 2.0**step, dtype=np.complex128))
+    return slopes
 
 
 def _other_form() -> DomainError:

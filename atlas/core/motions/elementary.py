@@ -26,14 +26,14 @@ from atlas.formulas.numbers import direction, nearest, workprec
 class Elementary(DoubleRotation):
     """One elementary motion: its case, omega3, and the exact axis and frequencies."""
 
-    def __init__(self, I2: float, I3: float, B2: float, B3: float, omega2: float, given: float | None) -> None:
+    def __init__(self, I2: float, I3: float, B2: float, B3: float, omega2: float, omega3: float | None) -> None:
         self.case = case_of(I2, I3, B2, B3, omega2)
-        inputs = exact(I2, I3, B2, B3, omega2, 0.0 if given is None else given)
+        inputs = exact(I2, I3, B2, B3, omega2, 0.0 if omega3 is None else omega3)
         with workprec():
             w3, along, k, phi = constants(self.case, *inputs)
             axis, third = (ZERO, *direction(along)), nearest(inputs[1] * w3 / inputs[0])
         self.omega3 = nearest(w3)
-        check_omega3(self.case, given, self.omega3)
+        check_omega3(self.case, omega3, self.omega3)
         self.vectors = {"Omega": (0.0, omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, omega2, third)}
         super().__init__(axis, k, phi)
 
@@ -76,17 +76,17 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         self.ratio = kept_ratio(ratio, I3)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         omega2 = real(omega2, "omega2", RATE)
-        given = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
-        super().__init__(Elementary, I2, I3, B2, B3, omega2, given)
+        typed_omega3 = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
+        super().__init__(Elementary, I2, I3, B2, B3, omega2, typed_omega3)
         self.field = (plain(B2), plain(B3))
-        free = None if omega3 is None else plain(given)
+        free = None if omega3 is None else plain(typed_omega3)
         self.arguments = {"ratio": self.ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
         if not self.shape:
             self._single()
         else:
             self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
             if omega3 is not None:
-                self._refuse((self._codes >= FREE) & (given != self.omega3))
+                self._refuse((self._codes >= FREE) & (typed_omega3 != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
         """Raise the error of the first row for which there is no motion."""
@@ -139,13 +139,13 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         if not self.shape:
             k, phi = self._single().frequencies
             return self._single().omega3, nearest(k), nearest(phi), self._single().vector("m")[2]
-        found = np.empty((4, prod(self.shape)))
+        table = np.empty((4, prod(self.shape)))
         for case, index, inputs in self._cases():
             for row, value in zip(
-                found, over(partial(scalars, case), *inputs, unit=self._frequencies, degree=(1,) * 4), strict=True
+                table, over(partial(scalars, case), *inputs, unit=self._frequencies, degree=(1,) * 4), strict=True
             ):
                 row[index] = np.ravel(value)
-        return found.reshape(4, *self.shape)
+        return table.reshape(4, *self.shape)
 
     @cached_property
     def _codes(self) -> NDArray[np.intp]:
@@ -158,8 +158,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
         """Return each case that there is, its rows and their inputs; omega2 = 0 is on the curve like any other."""
         codes = np.where(self._codes == CASES.index("at rest"), CASES.index("precession"), self._codes).ravel()
-        *inputs, given = self._inputs
-        inputs.append(np.zeros(()) if given.dtype == object else given)
+        *inputs, omega3 = self._inputs
+        inputs.append(np.zeros(()) if omega3.dtype == object else omega3)
         present = np.unique(codes)
         if present.size == 1:
             return [(CASES[present[0]], slice(None), [np.broadcast_to(inputs[0], self.shape), *inputs[1:]])]
@@ -182,21 +182,21 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda one, t, out: one.swung(one.vector("K"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.swung(single.vector("K"), t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda one, t, out: one.turned(one.vector("m"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.turned(single.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88), by name.
@@ -288,7 +288,7 @@ class FreeMotion(DoubleTurn[Free]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:
         return [(free, slice(None), self._inputs)]

@@ -104,9 +104,9 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     @kept
     def omega(self) -> tuple[Any, Any, Any]:
         """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'; DomainError beyond floats."""
-        found = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
-        finite(found, "omega")
-        return (found[..., 0], found[..., 1], found[..., 2]) if self.shape else tuple(found)
+        omega = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
+        finite(omega, "omega")
+        return (omega[..., 0], omega[..., 1], omega[..., 2]) if self.shape else tuple(omega)
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
@@ -124,8 +124,10 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         exceed 2^50.
         """
         if t is None:
-            found = self._each("invariants", lambda exact: list(map(nearest, enclosed(lambda: exact.invariants, BITS))))
-            return dict(zip(CONSTANTS, map(plain, np.moveaxis(finite(np.array(found), "H"), -1, 0)), strict=True))
+            constants = self._each(
+                "invariants", lambda exact: list(map(nearest, enclosed(lambda: exact.invariants, BITS)))
+            )
+            return dict(zip(CONSTANTS, map(plain, np.moveaxis(finite(np.array(constants), "H"), -1, 0)), strict=True))
         J = [self.inertia[i // 4] if i % 4 == 0 else 0.0 for i in range(9)]
         return dict(
             zip(CONSTANTS, vars(conserved(J, self.angular_velocity(t), self.field_in_body(t))).values(), strict=True)

@@ -64,11 +64,11 @@ class Motion(Shown, Generic[Single]):
     _rows: Any = None
     """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
 
-    def __new__(cls, *_: Any, **given: Any) -> Self:
+    def __new__(cls, *_: Any, **arguments: Any) -> Self:
         """Tell who gives a start that is another class's which one takes it."""
         code = cls.__init__.__code__
         known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
-        for name in given.keys() - set(known) & OTHERS.keys():
+        for name in arguments.keys() - set(known) & OTHERS.keys():
             raise TypeError(f"{cls.__name__} takes {', '.join(known)}, not {name}, which is for {OTHERS[name]}.")
         return super().__new__(cls)
 
@@ -91,8 +91,8 @@ class Motion(Shown, Generic[Single]):
         """Return a value of each motion made by itself: plain for one motion, else an array."""
         if not self.shape:
             return value(self._single())
-        found = np.array([value(self._single(i)) for i in range(prod(self.shape))])
-        return found.reshape(self.shape + found.shape[1:])
+        values = np.array([value(self._single(i)) for i in range(prod(self.shape))])
+        return values.reshape(self.shape + values.shape[1:])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrix R(t), (84), (85), with the body's axes as columns; shape (..., 3, 3).
@@ -101,7 +101,7 @@ class Motion(Shown, Generic[Single]):
         Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of a `TopMotion` or an
         `EllipticMotion` within 3.6e-15, of an `AsymmetricMotion` within its own `accuracy`. Raises AtlasError beyond.
         """
-        return self._evaluate(lambda one, t, out: one.rotation(t, out), t, (3, 3), out)
+        return self._evaluate(lambda single, t, out: single.rotation(t, out), t, (3, 3), out)
 
     def column(self, j: int, t: Any) -> FloatArray:
         """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3).
@@ -110,7 +110,7 @@ class Motion(Shown, Generic[Single]):
         """
         if not isinstance(j, Integral) or not 1 <= j <= 3:
             raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
-        return self._evaluate(lambda one, t, out: one.column(j, t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
 
     def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
         """Quaternion (x, y, z, w) of R(t), of length 1, its Cayley-Klein parameters; shape (..., 4).
@@ -119,8 +119,8 @@ class Motion(Shown, Generic[Single]):
         `scalar_first` gives (w, x, y, z). SciPy reads it by ``Rotation.from_quat(q)``. Bounds are those of
         `rotation`. Raises AtlasError for times as that does.
         """
-        found = self._evaluate(lambda one, t, out: one.quaternion(t, out), t, (4,))
-        return np.roll(found, 1, axis=-1) if scalar_first else found
+        quaternions = self._evaluate(lambda single, t, out: single.quaternion(t, out), t, (4,))
+        return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3)."""
@@ -142,8 +142,8 @@ class Motion(Shown, Generic[Single]):
         AtlasError for what is no number.
         """
         chosen = import_module("atlas.core.motions.chosen")
-        found: Motion[Any] = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
-        return found
+        motion: Motion[Any] = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
+        return motion
 
     def third_axis(self, t: Any) -> FloatArray:
         """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3).
@@ -240,11 +240,11 @@ class Motion(Shown, Generic[Single]):
         start, step = number(start, "The start of the grid", TIME), number(step, "The step of the grid", TIME)
         count = whole(count, "The count of the grid")
         out = target(out, (*self.shape, count, 3, 3))
-        for i, part in enumerate(out.reshape(prod(self.shape), count, 3, 3)):
-            self._fill_grid(self._single(i), start, step, part)
+        for i, matrices in enumerate(out.reshape(prod(self.shape), count, 3, 3)):
+            self._fill_grid(self._single(i), start, step, matrices)
         return out
 
-    def _fill_grid(self, one: Single, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, single: Single, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
         raise NotImplementedError
 
@@ -273,11 +273,11 @@ class Motion(Shown, Generic[Single]):
         """Write what motions of shape `own` have at times that they broadcast with into (m, ...), by blocks of rows."""
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
         for start in range(0, times.size, BLOCK):
-            part = slice(start, start + BLOCK)
-            t = np.asarray(times.flat[part])
-            rows = self._rows.at(part if times.shape == own else indices.flat[part], t)
+            block = slice(start, start + BLOCK)
+            t = np.asarray(times.flat[block])
+            rows = self._rows.at(block if times.shape == own else indices.flat[block], t)
             with np.errstate(over="ignore", invalid="ignore"):  # in extreme rows, which are made by themselves
-                function(rows, t, out[part])
+                function(rows, t, out[block])
             for i in np.unique(rows.indices[rows.extreme]).tolist():
                 places = rows.extreme[rows.indices[rows.extreme] == i]
                 out[start + places] = function(self._single(i), t[places], None)
@@ -314,6 +314,6 @@ class DoubleTurn(Motion[Turning]):
         """Return constant vectors of the motions by name, three components each."""
         raise NotImplementedError
 
-    def _fill_grid(self, one: Turning, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, single: Turning, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
-        fill_grid(one, start, step, out)
+        fill_grid(single, start, step, out)

@@ -110,14 +110,16 @@ class NutatingMotion(Motion[Nutation]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._evaluate(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
+        return np.asarray(
+            finite(self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), "Omega")
+        )
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._evaluate(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
+        return np.asarray(finite(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)), "K"))
 
     def _scalar(self, name: str) -> Any:
         """Return a number for each motion, in an array NaN for a motion that has none."""
@@ -135,18 +137,18 @@ class NutatingMotion(Motion[Nutation]):
     def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
         """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
         if not self.shape or name not in self._in_arrays:
-            return self._of_each(lambda one: value(one.exact))
-        values, sure = self._scalars[name]
-        found = np.moveaxis(shown(values), -1, 0)
-        for i in np.flatnonzero(~sure).tolist():
-            found[i] = value(self._single(i).exact)
-        return found.reshape(self.shape + found.shape[1:])
+            return self._of_each(lambda single: value(single.exact))
+        values, certain = self._scalars[name]
+        rows = np.moveaxis(shown(values), -1, 0)
+        for i in np.flatnonzero(~certain).tolist():
+            rows[i] = value(self._single(i).exact)
+        return rows.reshape(self.shape + rows.shape[1:])
 
-    def _fill_grid(self, one: Nutation, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, single: Nutation, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
         from atlas.core.nutation.grid import fill_grid
 
-        fill_grid(one, start, step, out)
+        fill_grid(single, start, step, out)
 
 
 class SymmetricMotion(NutatingMotion[Nutation]):
@@ -174,5 +176,5 @@ def ends_of(exact: Any) -> list[float]:
 
 def padded(roots: list[Any]) -> Any:
     """Return four roots as complex floats."""
-    found = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
-    return np.array(found + [complex("inf")] * (4 - len(found)))
+    finite_roots = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
+    return np.array(finite_roots + [complex("inf")] * (4 - len(finite_roots)))

@@ -158,8 +158,8 @@ class ParticleMotion(Shown):
         own = (1,) * (len(full) - len(self.shape)) + self.shape
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), full)
         for start in range(0, times.size, BLOCK):
-            part = slice(start, start + BLOCK)
-            moment = np.asarray(times.flat[part])
-            some = self._all.at(indices.flat[part], moment, centre=fill is Charge.fill_centre)
-            fill(some, moment, rows[part])
+            block = slice(start, start + BLOCK)
+            moment = np.asarray(times.flat[block])
+            some = self._all.at(indices.flat[block], moment, centre=fill is Charge.fill_centre)
+            fill(some, moment, rows[block])
         return out

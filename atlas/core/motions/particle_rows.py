@@ -136,8 +136,8 @@ class Charge:
     def centre(self) -> FloatArray:
         """Position, velocity and acceleration of the point O(t) of (99) at t = 0, (3, 3) or (3, 3, m)."""
         self.needs_field("guiding centre")
-        found = self._over("centre", 6)
-        return np.array([*found.reshape(2, 3, *found.shape[1:]), self.acceleration_parts[0]])
+        centre = self._over("centre", 6)
+        return np.array([*centre.reshape(2, 3, *centre.shape[1:]), self.acceleration_parts[0]])
 
     @cached_property
     def axes(self) -> FloatArray:
@@ -145,8 +145,8 @@ class Charge:
         self.needs_field("frame")
         if not _any(self._signs("crossed", 3)).all():
             raise DomainError("There is no axis along [E, B]: the electric field is along B or zero.")
-        found = self._over("axes", 9).T
-        return found.reshape(*found.shape[:-1], 3, 3)
+        axes = self._over("axes", 9).T
+        return axes.reshape(*axes.shape[:-1], 3, 3)
 
     @cached_property
     def case(self) -> Any:
@@ -158,11 +158,11 @@ class Charge:
     @cached_property
     def kind(self) -> Any:
         """Names of the paths across B, see `ParticleMotion.kind`."""
-        moving, bent = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bent", 3))
+        moving, curved = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bent", 3))
         drifting, circling = (_any(self._signs(name, 3)) for name in ("crossed", "circling"))
         larger, straight = self._signs("looping", 1)[0], ~drifting | ~circling
         chosen = [
-            ~self.force & bent, ~self.force & (self.driven | moving), ~self.force,
+            ~self.force & curved, ~self.force & (self.driven | moving), ~self.force,
             straight & circling, straight & drifting, straight, larger == 0, larger > 0,
         ]  # fmt: skip
         return np.array(KINDS)[np.select(chosen, [0, 1, 2, 3, 1, 2, 4, 5], 6)]
@@ -240,10 +240,10 @@ class Charge:
 
     def _parts(self, name: str, undivided: FloatArray) -> FloatArray:
         parts = self._over(name, 9)
-        found = parts.reshape(3, 3, *parts.shape[1:])
-        without = np.zeros_like(found)
+        components = parts.reshape(3, 3, *parts.shape[1:])
+        without = np.zeros_like(components)
         without[0] = undivided
-        return _check(np.where(self.force, found, without), TOO_LARGE[name])
+        return _check(np.where(self.force, components, without), TOO_LARGE[name])
 
     def _over(self, name: str, count: int) -> FloatArray:
         """Return results of a formula, (count,) or (count, m), each rounded once; DomainError beyond all floats."""

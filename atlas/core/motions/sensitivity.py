@@ -55,16 +55,16 @@ def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
     each = range(int(np.prod(motion.shape)))
     ones = (known.get(i) or known.setdefault(i, One(motion, i)) for i in each)
     if of not in VECTORS:
-        return np.array([one.scalar(names, of) for one in ones]).reshape(*motion.shape, len(names))
+        return np.array([single.scalar(names, of) for single in ones]).reshape(*motion.shape, len(names))
     times = real(bare(t, "The time", TIME), "The time")
     if not motion.shape:
-        (one,) = ones
-        return one.vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
+        (single,) = ones
+        return single.vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
     full = common_shape(motion.shape, times.shape)
     out, times = np.empty((*full, len(names), 3)), np.broadcast_to(times, full)
     own = np.broadcast_to(np.arange(len(each)).reshape(motion.shape), full)
-    for i, one in enumerate(ones):
-        out[own == i] = one.vectors(times[own == i], names, of)
+    for i, single in enumerate(ones):
+        out[own == i] = single.vectors(times[own == i], names, of)
     return out
 
 
@@ -104,31 +104,31 @@ class One:
 
     def _any_start(self, i: int, row: Sequence[Any]) -> Inputs:
         """Return the inputs of a motion in elementary functions among all of its body."""
-        shape, one = (*self.motion.shape, 3), self.motion.family == "ball"
+        shape, is_ball = (*self.motion.shape, 3), self.motion.family == "ball"
         R, w = self.motion._start  # noqa: SLF001
         start = np.broadcast_to(R, (*shape, 3)).reshape(-1, 3, 3)[i]
-        self.axes = np.eye(3) if one else self.axes
+        self.axes = np.eye(3) if is_ball else self.axes
         self.left = start @ self.axes.T
         B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (self.motion._given_field, w))  # noqa: SLF001
-        ratio = fmpq(1) if one else rational(float(row[1])) / rational(float(row[0]))
+        ratio = fmpq(1) if is_ball else rational(float(row[1])) / rational(float(row[0]))
         K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
         return of_general(ratio, K, omega)
 
     def _moved(self, turned: bool) -> dict[str, Moved]:
         """Return how each name that a user may ask for moves the inputs."""
         own, L, C = self.inputs.names, self.left, self.axes
-        found = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if turned else "K")}
+        moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if turned else "K")}
         if "K1" in own or (turned and "n2" in own):
             K = [x for x, name in zip(self.inputs.values, own, strict=True) if name[0] in "Kn"]
             B = L @ floats([fmpq(0)] * (3 - len(K)) + K)
             for j, e in enumerate(np.eye(3)):
                 for name, turn, change in ((f"B{j + 1}", np.zeros(3), L[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))):
-                    found[name] = self._of_field(change, turn)
+                    moved[name] = self._of_field(change, turn)
         elif self.motion.family == "asymmetric":  # free
-            found |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
+            moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
         if turned and "omega1" in own:
-            found |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
-        return found
+            moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
+        return moved
 
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
         """Return what a change of the field in the axes of the class at t = 0 moves, and a turn of the body."""
@@ -158,9 +158,10 @@ class One:
                 f"{', '.join((*VECTORS, *self.inputs.scalars))}."
             )
         needed = self._asked(names)
-        found = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
+        derivatives = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
         return np.array([
-            0.0 if name == "t" else sum(w * found[x] for x, w in self.moved[name].weights.items()) for name in names
+            0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.moved[name].weights.items())
+            for name in names
         ])  # fmt: skip
 
     def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
@@ -181,17 +182,17 @@ class One:
             if faster:
                 slopes = -np.matvec(R[:, None], slopes + np.cross(Omega[:, None], v))
             v = -np.matvec(R[:, None], v)
-        found, B = v, self.left @ self.inputs.field
+        vectors, B = v, self.left @ self.inputs.field
         if faster:
-            found = slopes @ R
+            vectors = slopes @ R
         elif of == "field":
             needed, none = self._asked(moving), np.zeros(3)
             fields = np.array([self.inputs.fields.get(x, none) for x in needed]).reshape(-1, 3)
-            found = (weights @ fields @ self.left.T + np.cross(turns, B) - np.cross(v, B)) @ R
+            vectors = (weights @ fields @ self.left.T + np.cross(turns, B) - np.cross(v, B)) @ R
         if len(moving) == len(names):
-            return np.asarray(found)
+            return np.asarray(vectors)
         out = np.empty((t.size, len(names), 3))
-        out[:, [x != "t" for x in names]] = found
+        out[:, [x != "t" for x in names]] = vectors
         rate = np.matvec(R, Omega) if of == "rotation" else self._rate(of, R, Omega, B)
         out[:, [x == "t" for x in names]] = rate[:, None]
         return out
@@ -224,9 +225,9 @@ class One:
         return np.asarray((change / J) @ self.axes)
 
 
-def _omega(one: Any, motion: Any, t: FloatArray) -> FloatArray:
+def _omega(single: Any, motion: Any, t: FloatArray) -> FloatArray:
     """Return Omega(t) of one motion, (m, 3)."""
-    if hasattr(one, "angular_velocity"):
-        return np.asarray(one.angular_velocity(t))
-    spin = one.turned if motion.family == "ball" else one.swung
-    return np.asarray(spin(one.vector("Omega"), t, None))
+    if hasattr(single, "angular_velocity"):
+        return np.asarray(single.angular_velocity(t))
+    spin = single.turned if motion.family == "ball" else single.swung
+    return np.asarray(spin(single.vector("Omega"), t, None))

@@ -63,8 +63,8 @@ class Inputs:
         def make(*x: fmpq) -> Constants:
             return Constants((), {name: [arb(self.scalars[name](self.twin(*x)))]})
 
-        found = variations(make, self.values, self._places(names), self.scales)
-        return np.array([float(x.slopes[name][0].mid()) for x in found])
+        varied = variations(make, self.values, self._places(names), self.scales)
+        return np.array([float(x.slopes[name][0].mid()) for x in varied])
 
     def _constants(self, *x: fmpq) -> Constants:
         twin = self.twin(*x)
@@ -127,13 +127,13 @@ def floats(values: Sequence[fmpq]) -> FloatArray:
 
 def _nutation() -> dict[str, Callable[[Nutating], Any]]:
     """Return the scalars of a motion that nutates."""
-    found: dict[str, Callable[[Nutating], Any]] = {
+    scalars: dict[str, Callable[[Nutating], Any]] = {
         name: lambda twin, name=name: getattr(twin, name)  # type: ignore[misc]
         for name in NUTATION
     }
     for name in ("precession", "spin"):
-        found[f"{name}_rate"] = lambda twin, name=name: getattr(twin, f"{name}_per_period") / twin.period  # type: ignore[misc]
-    return found
+        scalars[f"{name}_rate"] = lambda twin, name=name: getattr(twin, f"{name}_per_period") / twin.period  # type: ignore[misc]
+    return scalars
 
 
 def of_general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
@@ -208,9 +208,9 @@ class OnTorus(Inputs):
         return np.asarray(self.varied(names).of_frequencies[:, int(name[1]) - 1])
 
 
-def of_asymmetric(one: Any) -> Inputs:
+def of_asymmetric(single: Any) -> Inputs:
     """Return the inputs of a body with three moments."""
-    exact, kernel = one.exact, one.closed
+    exact, kernel = single.exact, single.closed
     if not any(exact.field):
         return of_euler(exact)
     if not isinstance(kernel, ThetaKernel):
@@ -240,12 +240,12 @@ BALL: dict[str, Callable[[Turns], Any]] = {
 }
 
 
-def of_elementary(case: str, row: Sequence[float], given: bool) -> Inputs:
+def of_elementary(case: str, row: Sequence[float], omega3_is_input: bool) -> Inputs:
     """Return the inputs of an elementary motion."""
     I2, I3, B2, B3, w2, w3 = (rational(float(x)) for x in row)
     size = _size(B2, B3, w2, w3)
     case, J = "precession" if case == "at rest" else case, np.array([1.0, 1.0, row[1] / row[0]])
-    count = 5 if given else 4
+    count = 5 if omega3_is_input else 4
     return Inputs(
         ("ratio", "B2", "B3", "omega2", "omega3")[:count],
         (I3 / I2, B2, B3, w2, w3)[:count], (I3 / I2, *[size] * 4)[:count],

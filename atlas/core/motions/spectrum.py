@@ -125,8 +125,8 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
     combinations, amplitudes = [], []
     for l in left if moves else (0,):
         for j, after in right.items():
-            found = left[l] @ S @ after if moves else S @ after  # that of R_a(-s t) at -j
-            amplitudes.append(found[..., 2] if of == "axis" else found)
+            amplitudes_of_line = left[l] @ S @ after if moves else S @ after  # that of R_a(-s t) at -j
+            amplitudes.append(amplitudes_of_line[..., 2] if of == "axis" else amplitudes_of_line)
             combinations.append(np.column_stack([indices, np.full((len(indices), 2), (l, j))]))
     return _sorted(of, wheels, np.concatenate(combinations), np.concatenate(amplitudes), least)
 
@@ -134,8 +134,8 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
 def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
     """Return lines in the order of their frequencies, those of one frequency added."""
     frequencies, size = combinations @ wheels.rates, _power(amplitudes)
-    kept = np.flatnonzero(size > (LEAST * 1e-3) ** 2 * size.max())
-    order = kept[np.lexsort((abs(combinations[kept]).sum(1), frequencies[kept]))]
+    lines = np.flatnonzero(size > (LEAST * 1e-3) ** 2 * size.max())
+    order = lines[np.lexsort((abs(combinations[lines]).sum(1), frequencies[lines]))]
     frequencies, combinations, amplitudes = frequencies[order], combinations[order], amplitudes[order]
     apart = np.diff(frequencies, prepend=-np.inf) > SAME * abs(frequencies).max(initial=0.0)
     starts = np.flatnonzero(apart)
@@ -143,12 +143,12 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
     amplitudes = np.add.reduceat(amplitudes, starts)
     power = _power(amplitudes)
     mean_square = float(power.sum())
-    kept = np.flatnonzero(power >= least * least * mean_square)
-    combinations = combinations[shortest][kept]
+    lines = np.flatnonzero(power >= least * least * mean_square)
+    combinations = combinations[shortest][lines]
     there = np.flatnonzero(combinations.any(0))
     names = tuple(wheels.names[i] for i in there)
     return Spectrum(
-        of, names, wheels.rates[there], combinations[:, there] @ wheels.rates[there], amplitudes[kept],
+        of, names, wheels.rates[there], combinations[:, there] @ wheels.rates[there], amplitudes[lines],
         combinations[:, there], mean_square,
     )  # fmt: skip
 
@@ -167,19 +167,19 @@ def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
     return dict(zip((-1, 0, 1), parts, strict=True))
 
 
-def coefficients(at: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
+def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
     """Return the whole numbers (n, d) and the Fourier coefficients (n, ...) of a function of phases (d, m)."""
     if not d:
-        return np.zeros((1, 0), dtype=int), at(np.zeros((0, 1))).astype(complex)
+        return np.zeros((1, 0), dtype=int), function(np.zeros((0, 1))).astype(complex)
     count = FIRST[d]
     while count <= LAST[d]:
         line = np.arange(count) * (2 * np.pi / count)
         grid = np.stack(np.meshgrid(*[line] * d, indexing="ij")).reshape(d, -1)
-        values = np.concatenate([at(grid[:, i : i + PART]) for i in range(0, grid.shape[1], PART)])
-        found = np.fft.fftn(values.reshape(*[count] * d, *values.shape[1:]), axes=range(d), norm="forward")
+        values = np.concatenate([function(grid[:, i : i + PART]) for i in range(0, grid.shape[1], PART)])
+        amplitudes = np.fft.fftn(values.reshape(*[count] * d, *values.shape[1:]), axes=range(d), norm="forward")
         m = np.fft.fftfreq(count, 1 / count).astype(int)
         indices = np.stack(np.meshgrid(*[m] * d, indexing="ij"), -1).reshape(-1, d)
-        coefficients = found.reshape(len(indices), *values.shape[1:])
+        coefficients = amplitudes.reshape(len(indices), *values.shape[1:])
         size, outer = _power(coefficients), abs(indices).max(1) > 3 * count // 8
         if size[outer].max() <= SETTLED**2 * size.max():
             return indices[~outer], coefficients[~outer]
@@ -189,24 +189,24 @@ def coefficients(at: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArra
 
 def wheels_of(motion: Any) -> Wheels:
     """Return the turns of one motion. Raises DomainError where it has none."""
-    one, e3 = motion._single(0), np.array([0.0, 0.0, 1.0])  # noqa: SLF001  of the same floor
+    single, e3 = motion._single(0), np.array([0.0, 0.0, 1.0])  # noqa: SLF001  of the same floor
     L, C = (np.eye(3) if x is None else x for x in getattr(motion, "_sides", (None, None)))
     if motion.family == "asymmetric":
-        closed = one.closed
+        closed = single.closed
         if isinstance(closed, ThetaKernel):
-            return _of_torus(one, closed, L, C)
-        if one.exact.kind in ("ball", "symmetric body"):
+            return _of_torus(single, closed, L, C)
+        if single.exact.kind in ("ball", "symmetric body"):
             state = motion.field_in_body(0.0), motion.angular_velocity(0.0)
-            moments = [float(arb(x).mid()) for x in one.exact.inertia]
+            moments = [float(arb(x).mid()) for x in single.exact.inertia]
             return wheels_of(import_module("atlas.core.motions.chosen").motion(C.T * moments @ C, *state))
         if closed is None:
-            raise DomainError(f"The motion has no lines in closed form: it is {one.exact.kind}, {one.agreement}")
+            raise DomainError(f"The motion has no lines in closed form: it is {single.exact.kind}, {single.agreement}")
         return _of_nutation(motion, closed.exact, L, C)
-    if isinstance(one, SingleMotion):
-        return _of_nutation(motion, one.exact, L @ one.rotation(0.0), C)
-    n = np.array([float(arb(x).mid()) for x in one.axis])
-    k, phi = (float(arb(x).mid()) for x in one.frequencies)
-    turns = (e3, -phi, n, -k) if one.inverse else (n, k, e3, phi)
+    if isinstance(single, SingleMotion):
+        return _of_nutation(motion, single.exact, L @ single.rotation(0.0), C)
+    n = np.array([float(arb(x).mid()) for x in single.axis])
+    k, phi = (float(arb(x).mid()) for x in single.frequencies)
+    turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)
     return Wheels(
         L @ turns[0], turns[1], turns[2] @ C, turns[3], np.empty(0), lambda of, _: _values(motion, of)(0.0)[None]
     )
@@ -220,8 +220,8 @@ def _values(motion: Any, of: str) -> Any:
 
 def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheels:
     """Return the turns of a motion in one nutation, or without."""
-    found = enclosed(lambda: _rates(exact), BITS)
-    half, p, s = (float(x.mid()) for x in found)
+    rates = enclosed(lambda: _rates(exact), BITS)
+    half, p, s = (float(x.mid()) for x in rates)
     n, third = (np.array([float(arb(x).mid()) for x in v]) for v in (exact.field, exact.omega))
     if not n.any():  # a free body precesses about its momentum
         n = third * (1.0, 1.0, float(arb(getattr(exact, "I", 1)).mid()))
@@ -249,19 +249,19 @@ def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheel
 
 def _rates(exact: Any) -> list[arb]:
     """Return half the period of nutation, and the rates about the field and about the body's axis."""
-    found = exact.solution
+    solution = exact.solution
     if exact.is_steady:
-        first, second = arb(found.alpha.rate), arb(found.beta.rate)
+        first, second = arb(solution.alpha.rate), arb(solution.beta.rate)
         return [arb(1), first + second, first - second]
-    if infinite(found.lattice.half):
+    if infinite(solution.lattice.half):
         raise DomainError("On a separatrix the axis comes to rest: the motion has no lines.")
     T = exact.period
     return [T / 2, exact.precession_per_period / T, exact.spin_per_period / T]
 
 
-def _of_torus(one: Any, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:
+def _of_torus(single: Any, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:
     """Return the turns of a motion on a torus."""
-    f = np.array([float(x.mid()) for x in enclosed(lambda: one.exact.frequencies, BITS)])
+    f = np.array([float(x.mid()) for x in enclosed(lambda: single.exact.frequencies, BITS)])
     n = L @ kernel.axis
 
     def at(of: str, x: FloatArray) -> FloatArray:

@@ -184,8 +184,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         omega1 = 0 start it. None with the axis along n, see `sleeping_bands`. AtlasError for an array; DomainError
         where every rate is one.
         """
-        found = enclosed(lambda: [tuple(x) for x in self._twin.steady_precessions], BITS)
-        return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in found]
+        balls = enclosed(lambda: [tuple(x) for x in self._twin.steady_precessions], BITS)
+        return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in balls]
 
     @property
     def sleeping_bands(self) -> dict[str, tuple[float, float] | None]:
@@ -194,8 +194,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         M3^2 < 4 (a + A), with the sign of a reversed for "hanging", theorem-sleeping-top; of Lagrange's top (I3
         omega3)^2 < 4 I2 m g l. None where it is stable at any spin. At an end see `stable`. AtlasError for an array.
         """
-        found = enclosed(lambda: list(self._twin.sleeping_bands.items()), BITS)
-        return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in found}
+        balls = enclosed(lambda: list(self._twin.sleeping_bands.items()), BITS)
+        return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in balls}
 
     @property
     def _twin(self) -> Balls:
@@ -214,7 +214,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._evaluate(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "b"))
+        return np.asarray(finite(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)), "b"))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3).

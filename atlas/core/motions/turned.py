@@ -53,21 +53,21 @@ class Turned(Motion[Any]):
 
         Bounds and times are those of the class, but for 1e-15 by the turns into the given axes.
         """
-        found = self.own.rotation(t, out)
+        R = self.own.rotation(t, out)
         left, right = self._sides
         if right is not None:
-            np.matmul(found, right, out=found)
+            np.matmul(R, right, out=R)
         if left is not None:
-            np.matmul(left, found, out=found)
-        return self._started(found, self._start[0], 2, t)
+            np.matmul(left, R, out=R)
+        return self._started(R, self._start[0], 2, t)
 
-    def _started(self, found: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
+    def _started(self, values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
         """Return vectors or matrices, those at t = 0 as they were given."""
         known = np.equal(bare(t, "The time", TIME), 0)
         if known.any():
-            known = np.broadcast_to(known, found.shape[:-rank])
-            np.copyto(found, start, where=known.reshape(known.shape + (1,) * rank))
-        return found
+            known = np.broadcast_to(known, values.shape[:-rank])
+            np.copyto(values, start, where=known.reshape(known.shape + (1,) * rank))
+        return values
 
     def column(self, j: int, t: Any) -> FloatArray:
         """Column j = 1, 2, 3 of R(t), as `Motion.column`."""
@@ -80,8 +80,8 @@ class Turned(Motion[Any]):
     def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
         """Quaternion (x, y, z, w) of R(t), continuous in t, as `Motion.quaternion`."""
         left, right = self._quaternions
-        found = product(product(left, self.own.quaternion(t)), right)
-        return np.roll(found, 1, axis=-1) if scalar_first else found
+        quaternions = product(product(left, self.own.quaternion(t)), right)
+        return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body's given axes; shape (..., 3)."""
@@ -100,16 +100,16 @@ class Turned(Motion[Any]):
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants of the motion by name, as its class has them."""
-        found: dict[str, Any] = getattr(self.own, "invariants")(t)  # noqa: B009  where the class has them
-        return found
+        invariants: dict[str, Any] = getattr(self.own, "invariants")(t)  # noqa: B009  where the class has them
+        return invariants
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices on a uniform grid, as `Motion.rotation_grid`."""
         left, right = (None if x is None else x[..., None, :, :] for x in self._sides)
-        found = self.own.rotation_grid(start, step, count, out)
+        matrices = self.own.rotation_grid(start, step, count, out)
         if right is not None:
-            np.matmul(found, right, out=found)
-        return found if left is None else np.matmul(left, found, out=found)
+            np.matmul(matrices, right, out=matrices)
+        return matrices if left is None else np.matmul(left, matrices, out=matrices)
 
     def _in_body(self, v: FloatArray) -> FloatArray:
         right = self._sides[1]
@@ -118,8 +118,8 @@ class Turned(Motion[Any]):
     @cached_property
     def _quaternions(self) -> tuple[FloatArray, FloatArray]:
         """Quaternions of both turns; that of the product at t = 0 has w >= 0."""
-        one = np.eye(3)
-        left, right = (of_matrix(one if x is None else x) for x in self._sides)
+        identity = np.eye(3)
+        left, right = (of_matrix(identity if x is None else x) for x in self._sides)
         return left * np.where(product(left, right)[..., 3:] < 0, -1.0, 1.0), right
 
 
@@ -128,9 +128,9 @@ def _by(left: FloatArray | None, v: FloatArray) -> FloatArray:
 
 
 @cache
-def _class(of: Any) -> type[Turned]:
+def _class(family: Any) -> type[Turned]:
     """Return the class of motions of a class in given axes."""
-    return type(of.__name__, (Turned, of), {"__doc__": of.__doc__, "__module__": of.__module__})
+    return type(family.__name__, (Turned, family), {"__doc__": family.__doc__, "__module__": family.__module__})
 
 
 def turned(
@@ -144,10 +144,10 @@ def turned(
     made_by: str = "motion",
 ) -> Turned:
     """Return a motion in given axes, see `Turned`: `start` is its state at t = 0, `made_by` what made it."""
-    of: Any = type(own)
-    found = object.__new__(_class(of))
-    found.__dict__.update({name: value for name, value in vars(own).items() if name != "arguments"})
+    family: Any = type(own)
+    motion = object.__new__(_class(family))
+    motion.__dict__.update({name: value for name, value in vars(own).items() if name != "arguments"})
     sides = tuple(None if (x == np.eye(3)).all() else x for x in (left, right))
-    found.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field, _start=start)
-    found.made_by, found.arguments = made_by, arguments
-    return found
+    motion.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field, _start=start)
+    motion.made_by, motion.arguments = made_by, arguments
+    return motion

@@ -92,14 +92,16 @@ class Block:
     @property
     def constants(self) -> Constants:
         """Constants of the pair; its words are those of the whole turn, its rates are not."""
-        found = self.constants_of(self.pair)
+        constants = self.constants_of(self.pair)
         if not (self.roots.top and self.swing and self.swing_rate):
-            return found
+            return constants
         half = self.swing_rate.scaled(-1)
         rates = self.pair.rates + joined(stacked(half, -half), constant(0.0, half))
         words, lack = in_half_turns(rates, self.exponents)
         twisted = self.roots.top.twisted
-        return found._replace(words=np.where(twisted, words, found.words), lack=np.where(twisted, lack, found.lack))
+        return constants._replace(
+            words=np.where(twisted, words, constants.words), lack=np.where(twisted, lack, constants.lack)
+        )
 
     def constants_of(self, pair: Pair) -> Constants:
         """Return the constants of a pair."""
@@ -172,8 +174,8 @@ class TopBlocks(Blocks):
         """Make the blocks."""
         columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape).reshape(-1) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
-            part = [x[start : start + BLOCK] for x in columns]
-            scaled, exponents = _scaled(part)
+            rows_of_block = [x[start : start + BLOCK] for x in columns]
+            scaled, exponents = _scaled(rows_of_block)
             shape = scaled[0].shape
             for rows, _, extreme, (roots,) in blocks(lambda *x: (roots_of_tops(*x),), scaled, shape, slice(0)):
                 I2, _, k2, k3, n2, n3, *omega, linear, quadratic = map(abs, scaled)
@@ -181,7 +183,9 @@ class TopBlocks(Blocks):
                 fine = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])
                 fine = fine if extreme is None else fine & extreme[1]
                 # a number that the scaling made zero is none
-                fine &= np.logical_and.reduce([(x == 0) == (y == 0) for x, y in zip(part, scaled, strict=True)])
+                fine &= np.logical_and.reduce(
+                    [(x == 0) == (y == 0) for x, y in zip(rows_of_block, scaled, strict=True)]
+                )
                 yield Block(slice(start, start + rows.stop), roots, exponents, fine)
 
 

@@ -84,24 +84,24 @@ class CayleyKlein:
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
         """Take the constants at one precision; return whether it suffices."""
         with workprec(precision):
-            found = solution()
-            lattice, pair = found.lattice, (found.alpha, found.beta)
+            constants = solution()
+            lattice, pair = constants.lattice, (constants.alpha, constants.beta)
             self.periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
-            turns, origin = _turns(found, self.periodic)
-            if not found.origin.is_finite() or not _reducible(turns, origin):
+            turns, origin = _turns(constants, self.periodic)
+            if not constants.origin.is_finite() or not _reducible(turns, origin):
                 return False
             kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
-            self.functions = kind(found, [x.sum for x in pair])
-            self.swing = _swing(found.swing)
+            self.functions = kind(constants, [x.sum for x in pair])
+            self.swing = _swing(constants.swing)
             self.by_balls = bool(self.swing and self.swing.is_coarse)
-            tables = _weights(found, self.functions, slopes=self.sloping)
+            tables = _weights(constants, self.functions, slopes=self.sloping)
             largest = max(abs(x).mid() for row in tables[0] for x in row)
             if not all(_is_known(x, largest) for table in tables for row in table for x in row):
                 return False
             if self.swing and not self.swing.is_known:
                 return False
             self.frequencies = [middle(x) for x in turns]
-            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else _crossed(found)
+            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else _crossed(constants)
             self.phases = self._phases()
             self.values = np.concatenate([_real_parts(table, largest) for table in tables])
             self.lost = self._lost(tables[0])
@@ -118,7 +118,7 @@ class CayleyKlein:
     def _lost(self, values: list[list[acb]]) -> bool:
         """Return whether alpha or beta is too small for a float beside the other, but not zero."""
         pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
-        return any(not found.any() and not all(x.is_zero() for x in exact) for exact, found in pairs)
+        return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
 
     def _phases(self) -> Phases:
         """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
@@ -141,16 +141,16 @@ def _swing(exact: Any) -> Any:
     return Crossing(exact) if isinstance(exact, ExactCrossing) else Swing(exact)
 
 
-def _crossed(found: Solution) -> list[arb] | None:
+def _crossed(solution: Solution) -> list[arb] | None:
     """Return the phases at t = 0 on a separatrix: of kappa s between n and -n, else None."""
-    if not isinstance(found.swing, ExactCrossing):
+    if not isinstance(solution.swing, ExactCrossing):
         return None
-    return [ZERO, middle(found.swing.kappa * found.swing.origin / (2 * arb.pi()))]
+    return [ZERO, middle(solution.swing.kappa * solution.swing.origin / (2 * arb.pi()))]
 
 
-def _turns(found: Solution, periodic: bool) -> tuple[list[arb], arb]:
+def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
     """Return the frequencies, in turns per unit of time, and the phase in the period at t = 0, in turns."""
-    pair, swing = (found.alpha, found.beta), found.swing
+    pair, swing = (solution.alpha, solution.beta), solution.swing
     rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
     if swing:
         rates[1] += swing.kappa * swing.rate
@@ -158,9 +158,9 @@ def _turns(found: Solution, periodic: bool) -> tuple[list[arb], arb]:
     if not periodic:
         return turns, arb(0)
     # the phase is 2v where only sin v / cos v is wanted, else v
-    odd = found.lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
-    whole = (2 if odd else 4) * found.lattice.half
-    return [*turns, 1 / whole], found.origin / whole
+    odd = solution.lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
+    whole = (2 if odd else 4) * solution.lattice.half
+    return [*turns, 1 / whole], solution.origin / whole
 
 
 def _reducible(turns: list[arb], origin: arb) -> bool:
@@ -171,12 +171,12 @@ def _reducible(turns: list[arb], origin: arb) -> bool:
     return all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) and bool(_radius(origin) <= FREQUENCY)
 
 
-def _weights(found: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
+def _weights(solution: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
     """Return the weights of the functions of time in alpha and beta and, with `slopes`, in their derivatives."""
-    swing, start = found.swing, acb(1)
+    swing, start = solution.swing, acb(1)
     if swing:
-        start = acb(0, -swing.at(arb(0), found.origin) / 2).exp()
-    pair = [(found.alpha, found.alpha.factor * start), (found.beta, found.beta.factor / start)]
+        start = acb(0, -swing.at(arb(0), solution.origin) / 2).exp()
+    pair = [(solution.alpha, solution.alpha.factor * start), (solution.beta, solution.beta.factor / start)]
     plain = [functions.weights(x.sum) for x, _ in pair]
     tables = [[[factor * w for w in row] for (_, factor), row in zip(pair, plain, strict=True)]]
     if slopes:

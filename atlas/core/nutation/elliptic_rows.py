@@ -67,8 +67,8 @@ class EllipticRoots(Turning):
     @property
     def ends(self) -> DoubleDouble:
         """Values of -f at low and high, (2, m)."""
-        found = self.f[2] * (self.w - self.turning * self.turning)
-        return stacked(found, found)
+        ends = self.f[2] * (self.w - self.turning * self.turning)
+        return stacked(ends, ends)
 
     @property
     def free(self) -> Any:
@@ -81,14 +81,14 @@ class EllipticRoots(Turning):
         return np.array([(self.along / self.b).hi, (self.across / self.b).hi])
 
 
-def roots_of_elliptic(*given: DoubleDouble) -> EllipticRoots:
+def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     """Return the turning points and the rest from I1, I2, I3, B1, B2, B3, z, branch."""
-    *I, B1, B2, B3, z, branch = given
+    *I, B1, B2, B3, z, branch = inputs
     x = [z + I[i - 2] * I[i - 1] for i in range(3)]
     square = x[0] * x[1] * x[2]
     v = square.sqrt() * branch
     e = [ONE / (a * b) for a, b in zip(I, x, strict=True)]
-    shape = np.broadcast_shapes(*(np.shape(y.hi) for y in given))
+    shape = np.broadcast_shapes(*(np.shape(y.hi) for y in inputs))
     sign = [np.sign(y.hi) for y in x]
     above = [
         sum((np.sign(z.hi) * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
@@ -103,11 +103,11 @@ def roots_of_elliptic(*given: DoubleDouble) -> EllipticRoots:
         first, second, third = numbers
         return chosen(places == 0, first, chosen(places == 1, second, third))
 
-    def part(one: Any, other: Any, axis: Any) -> DoubleDouble:
+    def part(third: Any, other: Any, axis: Any) -> DoubleDouble:
         """Return [(I_one - I_other) I_axis x_axis]/[(I_one - I_axis) I_other x_other] K_other^2."""
         size = of(other, K)
-        up = (of(one, I) - of(other, I)) * of(axis, I) * of(axis, x)
-        return up / ((of(one, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
+        up = (of(third, I) - of(other, I)) * of(axis, I) * of(axis, x)
+        return up / ((of(third, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
 
     # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
     outer = [(of(middle, I) - of(i, I)) * of(i, e) * of(i, K) * of(i, K) for i in (low, high)]
@@ -161,11 +161,11 @@ def roots_of_elliptic(*given: DoubleDouble) -> EllipticRoots:
 
 def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
     """Return axes in which (x, y) along the two that follow `axis` in the cyclic order is along the second one."""
-    found = np.zeros((3, 3, *shape))
+    axes = np.zeros((3, 3, *shape))
     for k in range(3):
         own, left, right = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
-        found[k] = np.where(left, y, np.where(right, -x, 0.0)), np.where(left, x, np.where(right, y, 0.0)), own
-    return found
+        axes[k] = np.where(left, y, np.where(right, -x, 0.0)), np.where(left, x, np.where(right, y, 0.0)), own
+    return axes
 
 
 @dataclass(frozen=True)
@@ -227,7 +227,7 @@ def _scalars(block: Block) -> dict[str, Rounded]:
         mean = component(angles, 0) + component(angles, 1) + r.precession.scaled(1)
         omega = [rounded((E - ONE) * K, block, 1) for E, K in zip(r.E, r.K, strict=True)]
         shape = r.elliptic.shape
-        found = of_period(block) | {
+        scalars = of_period(block) | {
             "kind": Rounded(np.zeros(shape, int), block.fine),
             "precession_per_period": rounded((HALF_TURN / block.means.rate).scaled(-1) * mean, block),
             "spin_per_period": Rounded(np.zeros(shape), block.fine),
@@ -241,7 +241,7 @@ def _scalars(block: Block) -> dict[str, Rounded]:
             name: Rounded(
                 np.broadcast_to(x.values, (*x.values.shape[:-1], *shape)), x.is_certain & r.elliptic & r.exact
             )
-            for name, x in found.items()
+            for name, x in scalars.items()
         }
 
 
@@ -251,13 +251,13 @@ class EllipticRows(GeneralRows):
     @cached_property
     def _constants(self) -> tuple[Constants, FloatArray, FloatArray]:
         """Constants of the pair, its axes (3, 3, m) in the body, and E - 1 (3, m)."""
-        found = []
+        constants = []
         with np.errstate(all="ignore"):
             for block in self.blocks:
                 r = cast("EllipticRoots", block.roots)
                 rates = [np.broadcast_to((E - ONE).hi, r.elliptic.shape) for E in r.E]
-                found.append((block.constants, r.frame, np.array(rates)))
-        pairs, frames, rates = zip(*found, strict=True)
+                constants.append((block.constants, r.frame, np.array(rates)))
+        pairs, frames, rates = zip(*constants, strict=True)
         return (
             Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
             np.concatenate(frames, axis=-1),

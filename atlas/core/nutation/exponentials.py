@@ -63,17 +63,17 @@ class Exponentials:
 def exponentials(exact: Nutating, precision: int) -> tuple[Exponentials, Exponentials] | None:
     """Return alpha and beta as sums of exponentials, None where there is no period or where they cancel or are many."""
     with workprec(precision):
-        found = exact.trigonometric()
-        if found.lattice.form != "trigonometric" or found.swing:
+        solution = exact.trigonometric()
+        if solution.lattice.form != "trigonometric" or solution.swing:
             return None
         if (
-            not (infinite(found.lattice.half) or infinite(found.lattice.imaginary))
-            and float(found.lattice.half / found.lattice.imaginary) > STEEP
+            not (infinite(solution.lattice.half) or infinite(solution.lattice.imaginary))
+            and float(solution.lattice.half / solution.lattice.imaginary) > STEEP
         ):
             return None
-        parts = (found.alpha, found.beta)
+        parts = (solution.alpha, solution.beta)
         unit = max(abs(x.factor * w) for x in parts for w in (*x.sum.odd, *x.sum.even))
-        pair = Exponentials(found.alpha, found.origin, unit), Exponentials(found.beta, found.origin, unit)
+        pair = Exponentials(solution.alpha, solution.origin, unit), Exponentials(solution.beta, solution.origin, unit)
     return pair if all(len(x.turns) <= TERMS for x in pair) and cancelling(*pair) <= CANCELLING else None
 
 

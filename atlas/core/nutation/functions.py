@@ -101,17 +101,17 @@ class Hyperbolic:
     In one period x is proportional to v; on a separatrix, where there is none, to the time itself.
     """
 
-    def __init__(self, found: Solution, sums: Sequence[Sum]) -> None:
-        lattice = found.lattice
+    def __init__(self, solution: Solution, sums: Sequence[Sum]) -> None:
+        lattice = solution.lattice
         self.periodic = not infinite(lattice.half)
         self.reach = lattice.reach
-        slope, start = lattice.rate, lattice.rate * found.origin
+        slope, start = lattice.rate, lattice.rate * solution.origin
         if self.periodic:
             # W = part (exp 2x + exp -2x), part = peak^2
             self.inverse = 2 * (2 * self.reach).cosh()
             self.peak, self.part = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
             slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
-            first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (found.alpha, found.beta))
+            first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
             self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
         self.line = Line(slope, start)
         self.distant = words(self.reach, 2) if self.periodic and self.reach > SATURATED else None
@@ -123,12 +123,12 @@ class Hyperbolic:
     def weights(self, sum_: Sum) -> list[acb]:
         """Return the weight of each row in a sum."""
         none = [acb(0)] * (2 * self.powers)
-        found = (self._polynomials(sum_) + none)[: 2 * self.powers]
+        polynomial = (self._polynomials(sum_) + none)[: 2 * self.powers]
         if not self.sech:
-            return found
+            return polynomial
         if sum_.doubled and self.distant:
-            found = [x / RAISED for x in found]
-        return none + found if sum_.doubled else found + none
+            polynomial = [x / RAISED for x in polynomial]
+        return none + polynomial if sum_.doubled else polynomial + none
 
     def _needed(self, weights: list[acb]) -> int:
         """Return how many powers of W matter."""
@@ -139,8 +139,8 @@ class Hyperbolic:
     def _polynomials(self, sum_: Sum) -> list[acb]:
         """Return the weights of tanh x W^j and of W^j by turns: both are polynomials in 2 cosh 2x = W/part."""
         pairs = zip(sum_.odd, sum_.even, strict=True)
-        found = _powers(pairs, doubled=sum_.doubled)
-        return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(found)]
+        powers = _powers(pairs, doubled=sum_.doubled)
+        return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
 
     def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
         """Fill the rows (m, N) from x + rest, both (N,)."""
@@ -186,9 +186,9 @@ class Linear:
     twist = None
     periodic = False
 
-    def __init__(self, found: Solution, _sums: Sequence[Sum]) -> None:
+    def __init__(self, solution: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 2
-        self.line = Line(found.lattice.rate, found.lattice.rate * found.origin, saturates=False)
+        self.line = Line(solution.lattice.rate, solution.lattice.rate * solution.origin, saturates=False)
 
     def weights(self, sum_: Sum) -> list[acb]:
         """Return the weight of each row in a sum."""
@@ -233,8 +233,8 @@ class Line:
         left += self.slope * rest
         if self.start:
             total = x + self.start
-            part = total - x
-            left += (x - (total - part)) + (self.start - part)
+            rounded = total - x
+            left += (x - (total - rounded)) + (self.start - rounded)
             left += self.start_rest
             x = total
         return x, left

@@ -116,8 +116,8 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
         low += start - origin
         i = 0 if away else np.abs(times).argmin()
         if start and abs(times[i]) <= CLOSE * far:
-            one = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
-            times[i], low[i] = one.hi, one.low
+            moment = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
+            times[i], low[i] = moment.hi, moment.low
     return times, low
 
 
@@ -215,10 +215,10 @@ def fill_products(
             for k in range(i, j, COARSE):
                 m = min(COARSE, j - k)
                 for place, (functions, table) in enumerate(zip(coarse, tables, strict=True)):
-                    for part in (0, 1):
-                        np.matmul(functions[k - i : k - i + m], table[part], out=q[place + 2 * part, :m])
-                found = products.of_pair(q[:, :m].reshape(4, m * FINE))
-                combined(found, motion.entries, rows[k * FINE : (k + m) * FINE])
+                    for half in (0, 1):
+                        np.matmul(functions[k - i : k - i + m], table[half], out=q[place + 2 * half, :m])
+                matrices = products.of_pair(q[:, :m].reshape(4, m * FINE))
+                combined(matrices, motion.entries, rows[k * FINE : (k + m) * FINE])
 
     shared(fill, len(out) // FINE, GROUP, FINE)
 

@@ -137,9 +137,9 @@ def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
     return x / size, y / size
 
 
-def _turned(one: Circle, other: Circle) -> Circle:
+def _turned(angle: Circle, other: Circle) -> Circle:
     """Return cosine and sine of the sum of two angles."""
-    (a, b), (c, d) = one, other
+    (a, b), (c, d) = angle, other
     return a * c - b * d, a * d + b * c
 
 

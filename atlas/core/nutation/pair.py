@@ -117,8 +117,8 @@ class Pair:
     def angles(self) -> DoubleDouble:
         """What alpha and beta turn by, on the average, twice, seen from their frame: (2, m), in 1/time."""
         k, width = self.sphere, self.means.roots.width
-        found = k.torques / k.far * (width / abs(k.near).scaled(1) * self._third[0] + ONE)
-        return chosen(k.torques.hi == 0, k.torques, found)
+        angles = k.torques / k.far * (width / abs(k.near).scaled(1) * self._third[0] + ONE)
+        return chosen(k.torques.hi == 0, k.torques, angles)
 
     @cached_property
     def rates(self) -> DoubleDouble:
@@ -199,8 +199,8 @@ class Pair:
         k, (x, y) = self.sphere, self.sums.start
         size = x * x + y * y
         lost = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
-        found = (k.amplitudes * x / size).hi - 1j * (k.amplitudes * y / size).hi
-        return np.where(k.meets, self._by_slopes, found) if k.meets.any() else found, np.where(k.meets, 0.0, lost)
+        factors = (k.amplitudes * x / size).hi - 1j * (k.amplitudes * y / size).hi
+        return np.where(k.meets, self._by_slopes, factors) if k.meets.any() else factors, np.where(k.meets, 0.0, lost)
 
     @property
     def _by_slopes(self) -> Any:
@@ -213,11 +213,11 @@ class Pair:
 
 def multiples(cos: FloatArray, sin: FloatArray, count: int) -> list[tuple[FloatArray, FloatArray]]:
     """Return cosines and sines of an angle times 1, 3, 5 ..."""
-    twice, found = 2 * (cos * cos - sin * sin), [(cos, -sin), (cos, sin)]
-    while len(found) <= count:
-        (x, y), (u, v) = found[-2:]
-        found.append((twice * u - x, twice * v - y))
-    return found[1:]
+    twice, circles = 2 * (cos * cos - sin * sin), [(cos, -sin), (cos, sin)]
+    while len(circles) <= count:
+        (x, y), (u, v) = circles[-2:]
+        circles.append((twice * u - x, twice * v - y))
+    return circles[1:]
 
 
 def _steps(

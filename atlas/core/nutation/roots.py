@@ -208,9 +208,9 @@ def plus(x: DoubleDouble | None, y: DoubleDouble) -> DoubleDouble:
     return y if x is None else x + y
 
 
-def roots_of_tops(*given: DoubleDouble) -> Roots:
+def roots_of_tops(*inputs: DoubleDouble) -> Roots:
     """Return the same from I2, I3, k2, k3, n2, n3, the three of omega, linear and quadratic."""
-    I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = given
+    I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = inputs
     twisted = (k3 * I2 - k2 * I3).hi != 0
     I, less, k, turn = I3 / I2, (I2 - I3) / I2, k2 / I2, k3 / I3
     b = (n2 * n2 + n3 * n3).sqrt()
@@ -223,17 +223,17 @@ def roots_of_tops(*given: DoubleDouble) -> Roots:
         twisted=twisted,
         linear=linear / (I2 * b),
         quadratic=potential,
-        A=_exact_where_it_cancels(A, given),
+        A=_exact_where_it_cancels(A, inputs),
         rates=np.max(rates, axis=0),
     )
     return roots_of(I2, I3, (n2, n3), (w1, w2, w3), (across, chosen(twisted, along, across)), top)
 
 
-def _exact_where_it_cancels(A: DoubleDouble, given: Sequence[DoubleDouble]) -> DoubleDouble:
+def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> DoubleDouble:
     """Return A, from exact numbers where it cancels: its sign says how many roots there are."""
     hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
     for i in np.flatnonzero(~(rel < 0.5)).tolist():
-        numbers = (float(np.broadcast_to(x.hi, A.hi.shape)[i]) for x in given)
+        numbers = (float(np.broadcast_to(x.hi, A.hi.shape)[i]) for x in inputs)
         I2, I3, k2, k3, n2, n3, *_, quadratic = (fmpq(*x.as_integer_ratio()) for x in numbers)
         exact = (k3 * k3 / I3 - k2 * k2 / I2 + quadratic) / (I2 * (n2 * n2 + n3 * n3))
         (hi[i], low[i]), rel[i] = words(exact, 2), 2.0**-105
@@ -268,8 +268,8 @@ def _first(q: FloatArray, reach: FloatArray, still: Any) -> FloatArray:
     the root of a parabola below q, whose second derivative is the least that q has between here and `reach`.
     """
     q = np.where(still, np.concatenate([q[1:], 0 * q[:1]]), q)
-    found, rows = np.zeros_like(reach), np.arange(reach.size)
-    v = found
+    roots, rows = np.zeros_like(reach), np.arange(reach.size)
+    v = roots
     for n in range(STEPS):
         value = np.maximum((((q[4] * v + q[3]) * v + q[2]) * v + q[1]) * v + q[0], 0.0)
         slope = ((4 * q[4] * v + 3 * q[3]) * v + 2 * q[2]) * v + q[1]
@@ -282,11 +282,11 @@ def _first(q: FloatArray, reach: FloatArray, still: Any) -> FloatArray:
         new = np.minimum(v + np.where(value == 0, 0.0, step), reach)
         going, v = new > v, new
         if n % 6 == 5:
-            found[rows] = v
+            roots[rows] = v
             if not going.any():
                 break
             q, reach, rows, v = q[:, going], reach[going], rows[going], v[going]
-    return found
+    return roots
 
 
 def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:

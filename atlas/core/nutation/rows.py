@@ -47,8 +47,8 @@ def _velocity(block: Block) -> tuple[Any, ...]:
     with np.errstate(all="ignore"):
         r = block.roots
         pair = Pair(block.means, sphere_of_velocity(r))
-        found, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
-        return *found._replace(is_certain=found.is_certain & (change.size.rel < KNOWN)), *Third(
+        constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
+        return *constants._replace(is_certain=constants.is_certain & (change.size.rel < KNOWN)), *Third(
             np.ldexp(r.omega[2].hi, block.exponents),
             np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
             np.ldexp(change.size.hi, block.exponents),
@@ -77,12 +77,12 @@ class GeneralRows:
     @cached_property
     def velocity(self) -> tuple[Constants, Third]:
         """Constants of the angular velocity."""
-        found, n = self._of(_velocity), len(Constants._fields)
-        return Constants(*found[:n]), Third(*found[n:])
+        columns, n = self._of(_velocity), len(Constants._fields)
+        return Constants(*columns[:n]), Third(*columns[n:])
 
     def _of(self, constants: Callable[[Block], tuple[Any, ...]]) -> list[Any]:
-        found = map(constants, self.blocks)
-        return [np.concatenate(x, axis=-1) for x in zip(*found, strict=True)]
+        of_blocks = map(constants, self.blocks)
+        return [np.concatenate(x, axis=-1) for x in zip(*of_blocks, strict=True)]
 
     def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
         """Return motions by their index at the times t that go with them."""
@@ -217,12 +217,12 @@ class TopRows(GeneralRows):
     def _constants(self) -> tuple[Constants, Swings, FloatArray]:
         """Constants of the pair, of what the integral of nu adds, and the largest rates: all of one pass."""
         with np.errstate(all="ignore"):
-            found = [
+            of_blocks = [
                 (block.constants, block.swings, np.ldexp(block.roots.top.rates, block.exponents))
                 for block in self.blocks
                 if block.roots.top
             ]
-        pairs, swings, largest = zip(*found, strict=True)
+        pairs, swings, largest = zip(*of_blocks, strict=True)
         return (
             Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
             Swings(*(np.concatenate(x, axis=-1) for x in zip(*swings, strict=True))),
@@ -237,8 +237,8 @@ class TopRows(GeneralRows):
     @cached_property
     def swings(self) -> Swings | None:
         """What the integral of nu adds; None where kappa is zero everywhere."""
-        found = self._constants[1]
-        return found if found.twisted.any() else None
+        swings = self._constants[1]
+        return swings if swings.twisted.any() else None
 
     @property
     def largest(self) -> FloatArray:

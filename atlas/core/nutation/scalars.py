@@ -71,8 +71,8 @@ class Scalars:
         parts: dict[str, list[Rounded]] = {}
         count = self.blocks.count
         for block in self.blocks if count else type(self.blocks)((1.0,) * len(self.blocks.inputs), (1,)):
-            for name, found in values(block).items():
-                parts.setdefault(name, []).append(found)
+            for name, scalar in values(block).items():
+                parts.setdefault(name, []).append(scalar)
         for name, all_of_it in parts.items():
             columns = (np.concatenate(x, axis=-1)[..., :count] for x in zip(*all_of_it, strict=True))
             self._known[name] = Rounded(*columns)
@@ -80,9 +80,11 @@ class Scalars:
 
 def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
     """Return numbers of a block, homogeneous of a degree in the frequencies, rounded once."""
-    values, sure = x.nearest()
+    values, certain = x.nearest()
     values = np.ldexp(values, degree * block.exponents)
-    return Rounded(values, sure & block.fine & ((values == 0) | ((abs(values) > 2.0**-1000) & (abs(values) < np.inf))))
+    return Rounded(
+        values, certain & block.fine & ((values == 0) | ((abs(values) > 2.0**-1000) & (abs(values) < np.inf)))
+    )
 
 
 def _scalars(block: Block) -> dict[str, Rounded]:
@@ -91,9 +93,9 @@ def _scalars(block: Block) -> dict[str, Rounded]:
         r = block.roots
         is_field = r.top is None
         known = r.exact & (~r.free if is_field else r.moving)
-        found = of_period(block) | ({} if is_field else _of_tops(block))
-        found = {name: Rounded(x.values, x.is_certain & known) for name, x in found.items()}
-        return found | _kinds(block) | _all_roots(block) if is_field else found
+        scalars = of_period(block) | ({} if is_field else _of_tops(block))
+        scalars = {name: Rounded(x.values, x.is_certain & known) for name, x in scalars.items()}
+        return scalars | _kinds(block) | _all_roots(block) if is_field else scalars
 
 
 def _of_tops(block: Block) -> dict[str, Rounded]:
@@ -158,5 +160,5 @@ def _angles(block: Block) -> dict[str, Rounded]:
             "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), whole, spin),
         }
         known = r.exact & (~r.free & ~(r.steady & r.along) if r.top is None else r.moving)
-        found = {name: rounded(x, block) for name, x in both.items()}
-        return {name: Rounded(x.values, x.is_certain & known) for name, x in found.items()}
+        of_period = {name: rounded(x, block) for name, x in both.items()}
+        return {name: Rounded(x.values, x.is_certain & known) for name, x in of_period.items()}

@@ -166,21 +166,21 @@ class SingleGeneral(SingleMotion):
         The sizes are the largest that Omega across and along the axis could be, sqrt(E') and sqrt(E'/I).
         """
         parts = CayleyKlein(lambda: self.exact.velocity)
-        found = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
-        C, S, across, along = (float(x.mid()) for x in found)
+        sizes = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
+        C, S, across, along = (float(x.mid()) for x in sizes)
         turn = np.array([[-S * across, C * across, 0], [C * across, S * across, 0], [0, 0, -along]])
         return parts, VECTOR @ turn, across, along
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
         parts, weights, across, along = self.velocity
-        found = self._linear(weights, t, (3,), out, parts)
+        Omega = self._linear(weights, t, (3,), out, parts)
         # Omega3 is within some u of the largest that it could be; of a slender body that exceeds all there is of Omega
         if along > SLENDER * across:
-            rows = found.reshape(-1, 3)
+            rows = Omega.reshape(-1, 3)
             small = np.flatnonzero(along > NEAR * largest(rows))
             rows[small, 2] = self._third(np.ravel(real(t, "The time"))[small])
-        return found
+        return Omega
 
     def _third(self, t: FloatArray) -> FloatArray:
         """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""

@@ -42,9 +42,9 @@ class SingleElliptic(SingleMotion):
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""
-        found = self._linear(self.field, t, (3,), out)
-        found *= self._rates
-        return found
+        Omega = self._linear(self.field, t, (3,), out)
+        Omega *= self._rates
+        return Omega
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
         """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
@@ -62,6 +62,6 @@ class SingleEulerTop(SingleElliptic):
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K, which is constant, shape (..., 3)."""
-        found = target(out, (*np.shape(t), 3))
-        found[...] = self._constant
-        return found
+        K = target(out, (*np.shape(t), 3))
+        K[...] = self._constant
+        return K

@@ -165,8 +165,8 @@ class Crossing:
     def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
         """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""
         s = x + rest
-        bent = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
-        return np.asarray(self.sense * (np.where(s < 0, -half, half) + bent))
+        logarithm = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
+        return np.asarray(self.sense * (np.where(s < 0, -half, half) + logarithm))
 
 
 def _is_known(x: arb, largest: arb) -> bool:

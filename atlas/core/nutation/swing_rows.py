@@ -81,7 +81,7 @@ class Swings(NamedTuple):
         size = np.sqrt(abs(extended(A)))
         start = np.array([extended(cos * cos - sin * sin), extended((cos * sin).scaled(1))])
         turns = means.rate * PER_RADIAN
-        found = cls(
+        swings = cls(
             twisted=twisted,
             kappa=np.ldexp((kappa * r.b).hi, exponents),
             factor=extended(kappa) / np.where(size == 0, 1, size),
@@ -95,7 +95,7 @@ class Swings(NamedTuple):
             lack=np.ldexp(turns.hi * turns.rel, exponents),
             known=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < KNOWN, sums.known, np.inf),
         )
-        return found._replace(before=found.half_of(*start)[0])
+        return swings._replace(before=swings.half_of(*start)[0])
 
     def half(self, phase: tuple[FloatArray, FloatArray], t: FloatArray) -> tuple[Extended, FloatArray]:
         """Return half the turn since t = 0, and its error, at a phase whose half is in two words, in radians."""
@@ -196,9 +196,9 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
     return _turned(whole, rest, A)
 
 
-def _turned(one: Circle, other: Circle, A: DoubleDouble) -> Circle:
+def _turned(angle: Circle, other: Circle, A: DoubleDouble) -> Circle:
     """Return cosine and sine of the sum of two angles."""
-    (a, b), (c, d) = one, other
+    (a, b), (c, d) = angle, other
     return a * c - A * b * d, a * d + b * c
 
 

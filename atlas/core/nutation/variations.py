@@ -92,22 +92,22 @@ class Weighted:
         derivatives = [np.array([x[i, j] for x in (A, B) for j in range(2)]) for i in levels]
         by_s = [self._sum(ways, derivatives, i, slice(1, 2))[:, 0] for i in levels]
         basis = [self._basis(t, s, count, by_s, axis, i) for i in levels]
-        found = [np.matmul(self.columns, x) for x in basis]
+        vectors = [np.matmul(self.columns, x) for x in basis]
         for i in levels:
-            found[i] += self._sum(ways, derivatives, i, slice(2, None))
+            vectors[i] += self._sum(ways, derivatives, i, slice(2, None))
         if pair.swing:
             change = pair.swing.change(self.names, s, count)
             for i in levels:
-                found[i] += axis[i][:, None] * change
+                vectors[i] += axis[i][:, None] * change
             if slopes:
                 normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
-                bent = ((found[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
-                found[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], bent)
+                changes = ((vectors[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
+                vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], changes)
         columns, basis_size = abs(self.columns).max(0), abs(basis[0]).max(0)
         if not self.cancels and (columns @ basis_size.max(1)).max() < LOST:
-            return found, None
+            return vectors, None
         terms = sum(abs(x[0, :, 2:]).sum(0) @ abs(y) for x, y in zip(self.parts, f, strict=True)) * 2 / np.sqrt(square)
-        return found, (terms + columns @ basis_size > LOST * (1 + abs(found[0]).max(0))).any(0)
+        return vectors, (terms + columns @ basis_size > LOST * (1 + abs(vectors[0]).max(0))).any(0)
 
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
         """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""
@@ -122,11 +122,11 @@ class Weighted:
     def _sum(ways: Sequence[FloatArray], parts: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
         """Return what rows of derivatives add to v, or to dv/dt, (3, rows, m)."""
         pairs = [(ways[i], parts[level - i][:, rows]) for i in range(level + 1)]
-        terms = [(way[:, j, None], part[j]) for way, part in pairs for j in range(4)]
+        terms = [(way[:, j, None], derivative[j]) for way, derivative in pairs for j in range(4)]
         total = np.multiply(*terms[0])
         product = np.empty_like(total)
-        for way, part in terms[1:]:
-            total += np.multiply(way, part, out=product)
+        for way, derivative in terms[1:]:
+            total += np.multiply(way, derivative, out=product)
         return np.asarray(total)
 
     def _basis(
@@ -135,14 +135,14 @@ class Weighted:
     ) -> FloatArray:  # fmt: skip
         """Return what the columns weigh, or the slopes of it, (3, 8, m)."""
         (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
-        found = np.empty((3, 8, t.size))
-        found[:, 0], found[:, 1], found[:, 2], found[:, 3], found[:, 4] = s * v, count * v, t * e, e, s * e
-        found[:, 5], found[:, 6], found[:, 7] = (n, n, 0.0) if level else (n * t, n * s, 1.0)
+        basis = np.empty((3, 8, t.size))
+        basis[:, 0], basis[:, 1], basis[:, 2], basis[:, 3], basis[:, 4] = s * v, count * v, t * e, e, s * e
+        basis[:, 5], basis[:, 6], basis[:, 7] = (n, n, 0.0) if level else (n * t, n * s, 1.0)
         if level:
-            found[:, 0] += by_s[0]
-            found[:, 2] += axis[0]
-            found[:, 4] += axis[0]
-        return found
+            basis[:, 0] += by_s[0]
+            basis[:, 2] += axis[0]
+            basis[:, 4] += axis[0]
+        return basis
 
 
 class Varied:
@@ -151,8 +151,8 @@ class Varied:
     Where there are none, or where terms cancel, they are differences of the motion in balls.
     """
 
-    def __init__(self, found: Sequence[Variation], differences: Callable[[], Differences]) -> None:
-        self.pairs = [(group, Pair([found[i] for i in group])) for group in _alike(found)]
+    def __init__(self, variations: Sequence[Variation], differences: Callable[[], Differences]) -> None:
+        self.pairs = [(group, Pair([variations[i] for i in group])) for group in _alike(variations)]
         self._make = differences
 
     @cached_property
@@ -162,11 +162,11 @@ class Varied:
 
     def weighted(self, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
         """Return what gives v of combinations of inputs, see `Weighted`; v is the sum of all."""
-        found: list[Weighted] = []
+        weighted: list[Weighted] = []
         for group, pair in self.pairs:
-            rest = 0 if found else 1
-            found.append(Weighted(pair, left, names[:, group], rest * turns, rest * spins))
-        return found
+            rest = 0 if weighted else 1
+            weighted.append(Weighted(pair, left, names[:, group], rest * turns, rest * spins))
+        return weighted
 
     def vectors(
         self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray,
@@ -175,15 +175,15 @@ class Varied:
         """Return v of combinations of inputs at times (m,), (m, N, 3), and dv/dt if asked for."""
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
-            part = slice(i, i + BLOCK)
-            alone = np.full(t[part].size, not known)
-            for n, one in enumerate(known):
-                values, cancels = one.at(t[part], slopes)
+            block = slice(i, i + BLOCK)
+            alone = np.full(t[block].size, not known)
+            for n, combination in enumerate(known):
+                values, cancels = combination.at(t[block], slopes)
                 for x, y in zip(out, values, strict=True):
                     if n:
-                        x[part] += y.transpose(2, 1, 0)
+                        x[block] += y.transpose(2, 1, 0)
                     else:
-                        x[part] = y.transpose(2, 1, 0)
+                        x[block] = y.transpose(2, 1, 0)
                 if cancels is not None:
                     alone |= cancels
             for j in (i + np.flatnonzero(alone)).tolist():
@@ -194,12 +194,12 @@ class Varied:
         return out
 
 
-def _alike(found: Sequence[Variation]) -> list[list[int]]:
+def _alike(variations: Sequence[Variation]) -> list[list[int]]:
     """Return the places of variations with the same constants: on a border each input has its own."""
     groups: list[list[int]] = []
-    for i, x in enumerate(found):
+    for i, x in enumerate(variations):
         for group in groups:
-            other = found[group[0]]
+            other = variations[group[0]]
             same = other.values is x.values or (
                 other.form == x.form
                 and all(

@@ -158,30 +158,31 @@ class Swing:
         (o, e), (o_s, e_s) = parts, bys
         by_s = 2 * self.kappa * (o_s * e - o * e_s) / (e * e - self.A * o * o)
         slope = self.kappa * self.twist + self.pair.rate * by_s
-        bent, by_A = self._bent(o, e)
+        integral, by_A = self._bent(o, e)
         basis = np.array([
-            self.twist * s + bent, self.kappa * s, self.kappa * by_A, s * by_s, slope, count * slope, np.ones(s.size)
+            self.twist * s + integral, self.kappa * s, self.kappa * by_A, s * by_s, slope, count * slope,
+            np.ones(s.size),
         ])  # fmt: skip
-        found = (names @ self.columns) @ basis
+        changes = (names @ self.columns) @ basis
         weight = 2 * self.kappa / (e * e - self.A * o * o)
         for change, f, other in zip(self.changes, functions, (e, -o), strict=True):
-            found += (names @ change) @ (f * (weight * other))
-        return np.asarray(found)
+            changes += (names @ change) @ (f * (weight * other))
+        return np.asarray(changes)
 
     def _bent(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return 2 at(sqrt(|A|) o/e)/sqrt(|A|), and its derivative in A."""
         A, size = self.A, np.sqrt(abs(self.A))
-        bent = 2 * o / e
+        integral = 2 * o / e
         if A:
-            bent = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
-        by_A = (o * e / (e * e - A * o * o) - bent / 2) / A if A else 2 * (o / e) ** 3 / 3
+            integral = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
+        by_A = (o * e / (e * e - A * o * o) - integral / 2) / A if A else 2 * (o / e) ** 3 / 3
         near = abs(A) * o * o < SMALL * e * e
         u = o[near] / e[near]
         square, series = A * u * u, np.zeros(u.size)
         for n in range(SERIES, 0, -1):
             series = series * square + 2 * n / (2 * n + 1)
         by_A[near] = series * u**3
-        return bent, by_A
+        return integral, by_A
 
     def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
         """Return the rates of the derivatives of the angle, kappa nu, but for those that are constant."""

@@ -80,9 +80,9 @@ class Surd:
         precision = ctx.prec
         while True:  # where a and b sqrt(N) cancel
             with workprec(precision):
-                found = arb(self.a) + self.b * arb(self.N).sqrt()
-            if found.rel_accuracy_bits() >= ctx.prec - 8 or self.is_zero:
-                return found
+                value = arb(self.a) + self.b * arb(self.N).sqrt()
+            if value.rel_accuracy_bits() >= ctx.prec - 8 or self.is_zero:
+                return value
             precision *= 2
 
 
@@ -111,7 +111,7 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
     """Return the factors without multiple roots, each with the multiplicity of its roots (Yun)."""
     if discriminant([_ball(c) for c in p]) != 0:
         return [(p, 1)]
-    found, n = list[tuple[Polynomial, int]](), 1
+    factors, n = list[tuple[Polynomial, int]](), 1
     slope = derivative(p)
     common = gcd(p, slope)
     b, c = divided(p, common)[0], divided(slope, common)[0]
@@ -119,9 +119,9 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
         d = _minus(c, derivative(b))
         a = gcd(b, d)
         if len(a) > 1:
-            found.append((a, n))
+            factors.append((a, n))
         b, c, n = divided(b, a)[0], divided(d, a)[0], n + 1
-    return found
+    return factors
 
 
 def roots(p: Polynomial) -> list[acb]:
@@ -140,18 +140,18 @@ def roots(p: Polynomial) -> list[acb]:
         with workprec(precision):
             # first from balls, in which most signs are known; what is exact takes longer
             for exact in (True,) if precision > 2 * digits else (False, True):
-                found = _closed(p, exact=exact)
-                apart = not any(x.overlaps(y) for x, y in combinations(found, 2))
-                if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in found):
-                    return _sorted(found)
+                closed = _closed(p, exact=exact)
+                apart = not any(x.overlaps(y) for x, y in combinations(closed, 2))
+                if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in closed):
+                    return _sorted(closed)
     raise DomainError(
         "The roots of Q are too many orders of magnitude apart to be found: make the components more alike."
     )
 
 
-def _sorted(found: list[acb]) -> list[acb]:
-    real = sorted((z for z in found if z.imag.is_zero()), key=lambda z: z.real.mid())
-    return real + [z for z in found if not z.imag.is_zero()]
+def _sorted(values: list[acb]) -> list[acb]:
+    real = sorted((z for z in values if z.imag.is_zero()), key=lambda z: z.real.mid())
+    return real + [z for z in values if not z.imag.is_zero()]
 
 
 def _closed(p: Polynomial, *, exact: bool) -> list[acb]:

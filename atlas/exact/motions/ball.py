@@ -22,8 +22,8 @@ class BallMotion:
     @property
     def gamma(self) -> Real:
         """The frequency of the turn about k_hat, (29)."""
-        found: Real = ball.turning(self.inertia, self.larmor, self.m2, self.m3)[1]
-        return found
+        gamma: Real = ball.turning(self.inertia, self.larmor, self.m2, self.m3)[1]
+        return gamma
 
     @property
     def k_hat(self) -> tuple[Real, Real]:

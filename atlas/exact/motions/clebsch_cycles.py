@@ -173,14 +173,14 @@ def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
     most, left = [arb(0)] * 4, [(k / AROUND, 1 / AROUND) for k in range(AROUND)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
     while left:
-        at, width = left.pop()
-        angle = 2 * arb.pi() * arb(at + width / 2, width / 2)
+        place, width = left.pop()
+        angle = 2 * arb.pi() * arb(place + width / 2, width / 2)
         numerators, r2 = forms(acb(middle + half * long * angle.cos(), half * short * angle.sin()))
         size = abs(r2)
         if not (size > 0 and numerators[1].is_finite() and float(size.rad()) < float(size.mid()) / 2):
             if width < FINEST:
                 return None
-            left += [(at, width / 2), (at + width / 2, width / 2)]
+            left += [(place, width / 2), (place + width / 2, width / 2)]
             continue
         most = [max(x, (abs(form) / size.sqrt()).upper()) for x, form in zip(most, numerators, strict=True)]
     return most

@@ -206,15 +206,15 @@ class _Way:
         p = [fmpz_poly(row) for row in rows]
         p += [v * x for v, x in zip(V, p, strict=False)]  # U in units of 2^-2b
         c = [p[x] * p[y] for x, y in PRODUCTS]
-        one = 1 << 2 * b
-        found = [_size(p[i].derivative() * one - first[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
-        found += [_size(p[3 + i].derivative() * one - c[6 + i] + c[9 + i], 2 * b) for i in range(3)]
-        turn = [_size(p[6].derivative() * (2 * one) + c[12] + c[13] + c[14], 2 * b + 1)]
+        unit = 1 << 2 * b
+        defects = [_size(p[i].derivative() * unit - first[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
+        defects += [_size(p[3 + i].derivative() * unit - c[6 + i] + c[9 + i], 2 * b) for i in range(3)]
+        turn = [_size(p[6].derivative() * (2 * unit) + c[12] + c[13] + c[14], 2 * b + 1)]
         turn += [
-            _size(p[7 + i].derivative() * (2 * one) - c[15 + i] - c[18 + i] + c[21 + i], 2 * b + 1) for i in range(3)
+            _size(p[7 + i].derivative() * (2 * unit) - c[15 + i] - c[18 + i] + c[21 + i], 2 * b + 1) for i in range(3)
         ]
         rounded = 4 * (W + K) * (W + K) + 4  # the rates are rounded to a unit
-        return 1.01 * (sqrt(sum(x * x for x in found)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
+        return 1.01 * (sqrt(sum(x * x for x in defects)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
 
     def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
         """Return the derivative of the step's flow of (W, K), and a bound on its error."""
@@ -261,12 +261,12 @@ def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
             return
         middle = (first + last) // 2
         yield from block(first, middle)
-        part = [fmpz_poly(row[first:middle]) for row in rows]
-        other = [fmpz_poly(row[: last - first]) for row in rows] if first else part
+        factors = [fmpz_poly(row[first:middle]) for row in rows]
+        other = [fmpz_poly(row[: last - first]) for row in rows] if first else factors
         for total, (x, y) in zip(sums, PRODUCTS, strict=True):
-            found = part[x] * other[y] + (part[y] * other[x] if first else 0)
+            product = factors[x] * other[y] + (factors[y] * other[x] if first else 0)
             for n in range(middle, last):
-                total[n] += found[n - first]
+                total[n] += product[n - first]
         yield from block(middle, last)
 
     yield from islice(block(0, size), count)
@@ -275,13 +275,13 @@ def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
 def _jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:
     """Return the coefficients (terms, 6, 6) of the derivative of the right-hand side along a series (6, terms)."""
     W, K = state[:3], state[3:]
-    found = np.zeros((state.shape[1], 6, 6))
+    J = np.zeros((state.shape[1], 6, 6))
     for i, (j, k) in enumerate(CYCLE):
-        found[:, i, j], found[:, i, k] = first[i] * W[k], first[i] * W[j]
-        found[:, i, 3 + j], found[:, i, 3 + k] = second[i] * K[k], second[i] * K[j]
-        found[:, 3 + i, 3 + j], found[:, 3 + i, 3 + k] = V[k] * W[k], -V[j] * W[j]
-        found[:, 3 + i, k], found[:, 3 + i, j] = V[k] * K[j], -V[j] * K[k]
-    return found
+        J[:, i, j], J[:, i, k] = first[i] * W[k], first[i] * W[j]
+        J[:, i, 3 + j], J[:, i, 3 + k] = second[i] * K[k], second[i] * K[j]
+        J[:, 3 + i, 3 + j], J[:, 3 + i, 3 + k] = V[k] * W[k], -V[j] * W[j]
+        J[:, 3 + i, k], J[:, 3 + i, j] = V[k] * K[j], -V[j] * K[k]
+    return J
 
 
 def _inverse_norm(X: Matrix) -> float:
@@ -305,11 +305,11 @@ def _scaled(row: list[int], factor: fmpq) -> list[int]:
     """Return coefficients for an argument that is so many times larger."""
     if factor == 1:
         return row
-    p, q, found, up, down = int(factor.p), int(factor.q), [], 1, 1
+    p, q, powers, up, down = int(factor.p), int(factor.q), [], 1, 1
     for x in row:
-        found.append(x * up // down)
+        powers.append(x * up // down)
         up, down = up * p, down * q
-    return found
+    return powers
 
 
 def _float(x: int, bits: int) -> float:

@@ -128,13 +128,13 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
     rows = arb_mat([_real(x) for x in periods])
     conjugate = arb_mat([[x, -y, z, -w] for x, y, z, w in (_real(p) for p in periods)])
     try:
-        found = conjugate * rows.inv()
+        conjugation = conjugate * rows.inv()
     except ZeroDivisionError as error:
         raise NotCertifiedError(
             "not certified: the periods found for the motion's torus depend on one another."
         ) from error
-    whole = np.array([[round(float(found[i, j].mid())) for j in range(4)] for i in range(4)])
-    if not all(abs(float(found[i, j].mid()) - whole[i, j]) < WHOLE for i in range(4) for j in range(4)):
+    whole = np.array([[round(float(conjugation[i, j].mid())) for j in range(4)] for i in range(4)])
+    if not all(abs(float(conjugation[i, j].mid()) - whole[i, j]) < WHOLE for i in range(4) for j in range(4)):
         raise NotCertifiedError(
             "not certified: the periods found for the motion's torus are no lattice with conjugates."
         )

@@ -38,7 +38,7 @@ class State:
 
 def origins(motion: Integrals) -> list[tuple[int, State]]:
     """Return the states with the integrals of a motion at which M_i = K_i = 0, with i: one of each four by symmetry."""
-    found = list[tuple[int, State]]()
+    states = list[tuple[int, State]]()
     I, D, b2, c = motion.moments, motion.D, motion.square, motion.c
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -58,8 +58,8 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
             K, M = [acb(0)] * 3, [acb(0)] * 3
             K[j], K[k] = a, d
             M[j], M[k] = (c * a - s * d) / b2, (c * d + s * a) / b2
-            found.append((i, State([centre(x) for x in M], [centre(x) for x in K], [])))
-    return sorted(found, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].all))
+            states.append((i, State([centre(x) for x in M], [centre(x) for x in K], [])))
+    return sorted(states, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].all))
 
 
 def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
@@ -93,12 +93,12 @@ def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
     """Return times on a circle about zero and the states at them along the flow of H."""
     rows = series(moments, start)
     growth = max(abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TERMS, TERMS - 1, TERMS - 2))
-    found = list[tuple[acb, State]]()
+    states = list[tuple[acb, State]]()
     for k in range(POINTS):
         t = centre((acb(0, 2 * arb.pi() * k / POINTS)).exp() / arb(growth) / NEAR)
         values = [centre(acb_poly(row)(t)) for row in rows]
-        found.append((t, State(values[:3], values[3:6], values[6:])))
-    return found
+        states.append((t, State(values[:3], values[3:6], values[6:])))
+    return states
 
 
 def fields(moments: Sequence[fmpq], state: Array) -> Array:

@@ -99,8 +99,8 @@ def real_periods(motion: Integrals) -> list[Pair]:
     """Return two approximate pairs of real times, as short as can be; fewer where the paths are too long."""
     with workprec(BITS):
         curve = Curve(motion)
-        found = [curve.along(*path) for path in curve.paths()]
-        pairs = [[2 * x.real, 2 * y.real] for x, y, _ in found]
+        periods = [curve.along(*path) for path in curve.paths()]
+        pairs = [[2 * x.real, 2 * y.real] for x, y, _ in periods]
         return [(x.mid(), y.mid()) for x, y in sums(pairs, generating(pairs))]
 
 
@@ -153,8 +153,8 @@ class Curve:
     def _place(self, z: acb, v: acb) -> acb:
         """Return the u of a point of the curve, in the cell about zero."""
         u = self._held(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
-        _, found = self.at(u)
-        if _far(found - v) > _far(found + v):
+        _, place = self.at(u)
+        if _far(place - v) > _far(place + v):
             u = -u
         return self._held(self.in_cell(u))
 
@@ -213,10 +213,10 @@ class Curve:
                 root = centre(square).sqrt()
                 if before is not None and _far(root - before) > _far(root + before):
                     root = -root
-                before, part = root, half * weight / root
-                first += part
-                second += z * part
-                third += v * part
+                before, term = root, half * weight / root
+                first += term
+                second += z * term
+                third += v * term
         factor = acb(0, -1) * way
         return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
 
@@ -233,8 +233,8 @@ def _roots(polynomial: fmpq_poly) -> list[acb]:
 def _rule() -> list[tuple[arb, arb]]:
     """Return nodes and weights of Gauss's rule on (-1, 1), from the left."""
     with workprec(BITS):
-        found = [arb.legendre_p_root(NODES, k, weight=True) for k in range(NODES)]
-    return [(x.mid(), weight.mid()) for x, weight in reversed(found)]
+        nodes = [arb.legendre_p_root(NODES, k, weight=True) for k in range(NODES)]
+    return [(x.mid(), weight.mid()) for x, weight in reversed(nodes)]
 
 
 def _parts(angles: Array) -> Iterator[tuple[arb, arb]]:
@@ -292,10 +292,10 @@ def nearest(x: arb) -> int:
 
 def value(polynomial: fmpq_poly, z: acb) -> acb:
     """Return the value of a polynomial with rational coefficients."""
-    found = acb(0)
+    total = acb(0)
     for x in reversed(polynomial.coeffs()):
-        found = found * z + x
-    return found
+        total = total * z + x
+    return total
 
 
 def _rates(a: complex, b: complex, places: Array) -> NDArray[np.float64]:

@@ -97,9 +97,9 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
             if np.max(growth @ rates.sum(axis=0)) < ENOUGH:
                 places = 2 * HALF * ((np.arange(parts) + 0.5) / parts - 0.5)
                 apart = [_apart(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
-                found = WIDER * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
-                if np.max(found) < SMALL:
-                    return np.asarray(found)
+                distance = WIDER * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
+                if np.max(distance) < SMALL:
+                    return np.asarray(distance)
     raise NotCertifiedError("not certified: what theta functions miss might grow too much over the motion's torus.")
 
 
@@ -156,9 +156,9 @@ class Cell:
         top = most.max()
         if not np.isfinite(top):
             return np.full((2, 3), np.inf)
-        kept = most.max(axis=1) > top - FAINT
-        faint = np.exp(most[~kept] - top).sum(axis=0) + np.exp(beyond - top)
-        S, size = S[kept], np.exp(size[kept] - top)
+        matters = most.max(axis=1) > top - FAINT
+        faint = np.exp(most[~matters] - top).sum(axis=0) + np.exp(beyond - top)
+        S, size = S[matters], np.exp(size[matters] - top)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
         ways, twice = (self.places - self.middle) @ self.into, ((S - 2 * self.middle) @ self.into).imag
         weight = max(abs(complex_of(x)) for x in self.theta.denominator.weights)
@@ -190,51 +190,51 @@ class Cell:
         """
         low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
         found, beyond, parts = [], [], np.array([0.0, 0.0, 0.5] * 2)
-        peaks = {part: 2 * self._peaks(part) for part in (0.0, 0.5)}  # where coefficients are largest
-        highest = np.array([2 * self._highest(part) for part in parts])
+        peaks = {height: 2 * self._peaks(height) for height in (0.0, 0.5)}  # where coefficients are largest
+        highest = np.array([2 * self._highest(height) for height in parts])
         others = np.log(_beyond(LEFT_OUT, 2 * np.pi * self.narrow))
         for S in product(*(range(int(s), int(s) + 4) for s in low)):
             place: Floats = np.array(S)
             ways = [near_hull(self.Y, (peak - place) / 4, LEFT_OUT / (2 * np.pi)) for peak in peaks.values()]
             shifts = 4 * np.unique(np.concatenate(ways), axis=0)
-            less = [self._left_out(place, part) for part in parts]
+            less = [self._left_out(place, height) for height in parts]
             defects = [
                 np.linalg.norm([float(abs(c).upper()) + spare for c in components])
                 for components, spare in zip(self._coefficients(S), less, strict=True)
             ]
-            sizes = np.array([self._size(place, part) for part in parts])
-            more = np.column_stack([self._size(place + shifts, part) for part in parts]) - sizes
+            sizes = np.array([self._size(place, height) for height in parts])
+            more = np.column_stack([self._size(place + shifts, height) for height in parts]) - sizes
             found.append((place + shifts, more + np.log(defects)))
             beyond.append(np.log(defects) - sizes + highest + others)
         all_beyond = np.logaddexp.reduce(beyond, axis=0)
         return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found]), all_beyond
 
-    def _peaks(self, part: float) -> Floats:
+    def _peaks(self, height: float) -> Floats:
         """Return the places (4, 2), not whole, of the largest term of a form at the corners of the cell."""
-        return np.asarray(-2 * np.linalg.solve(self.Y, self._heights(part)).T)
+        return np.asarray(-2 * np.linalg.solve(self.Y, self._heights(height)).T)
 
-    def _heights(self, part: float) -> Floats:
+    def _heights(self, height: float) -> Floats:
         """Return Im v (2, 4) at the corners, less that part of the shift."""
-        return np.asarray(self._imaginary(part)[:, None] + self.corners.imag / np.pi)
+        return np.asarray(self._imaginary(height)[:, None] + self.corners.imag / np.pi)
 
-    def _highest(self, part: float) -> float:
+    def _highest(self, height: float) -> float:
         """Return the logarithm of the largest that exp(i pi (n hat n/4 + n v)) is for any real n in the cell.
 
         It is pi (y, Y^-1 y), y = Im v, but for the power of the middle, which is taken out: convex, so largest in a
         corner.
         """
-        y = self._heights(part)
+        y = self._heights(height)
         quadratic = np.pi * np.einsum("ik,ik->k", y, np.linalg.solve(self.Y, y))
         return float(np.max(quadratic + self.middle @ self.corners.imag))
 
-    def _imaginary(self, part: float) -> Floats:
+    def _imaginary(self, height: float) -> Floats:
         """Return the imaginary part of the origin less that part of the shift."""
-        return np.array([complex_of(v - part * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
+        return np.array([complex_of(v - height * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
 
-    def _size(self, S: Floats, part: float) -> Floats:
+    def _size(self, S: Floats, height: float) -> Floats:
         """Return log |g_S|."""
         square = np.einsum("...i,ij,...j->...", S, self.Y, S)
-        return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(part)))
+        return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(height)))
 
     def _coefficients(self, S: tuple[int, ...]) -> Iterator[list[acb]]:
         """Yield the coefficients at S of the defects of M, K and N along the flow of H, and of F/2."""
@@ -261,18 +261,18 @@ class Cell:
         places = self._places(np.array(S) / 2)
         left = list(zip(*(self._terms(place) for place in places), strict=True))
         right = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])
-        found = [acb_mat(left) * right]
+        products = [acb_mat(left) * right]
         for u, v in self.flows:
             rates = [acb(0, 1) * arb.pi() * ((2 * P - S[0]) * u + (2 * Q - S[1]) * v) for P, Q in places]
-            found.append(acb_mat([[x * rate for x, rate in zip(row, rates, strict=True)] for row in left]) * right)
-        return found
+            products.append(acb_mat([[x * rate for x, rate in zip(row, rates, strict=True)] for row in left]) * right)
+        return products
 
     def _places(self, middle: Floats) -> list[Place]:
         """Return the places of the terms that matter, round the middle and round the middle plus a shift."""
-        found = near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
-        return [(int(P), int(Q)) for P, Q in found]
+        near_places = near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
+        return [(int(P), int(Q)) for P, Q in near_places]
 
-    def _left_out(self, S: Floats, part: float) -> float:
+    def _left_out(self, S: Floats, height: float) -> float:
         """Return a bound on what the terms that are left out add to a coefficient at S.
 
         Beyond LEFT_OUT a sum of exp(-q), q = pi/2 (p, Y p), is one of exp(-q/10) times exp(-9/10 LEFT_OUT); a tenth of
@@ -281,8 +281,8 @@ class Cell:
         sums = np.exp(-0.8 * LEFT_OUT) * (2 + np.sqrt(20 / self.narrow)) ** 2
         rate = max(abs(complex_of(x)) for flow in self.flows for x in flow)
         slopes = 8 * np.pi * rate * (abs(self.away).max() + 2 / np.sqrt(self.narrow))
-        peak = np.pi / 2 * self.away @ self.Y @ self.away if part else 0.0
-        return float(self.weight * sums * (1 + slopes) * np.exp(self._size(S, part) + peak))
+        peak = np.pi / 2 * self.away @ self.Y @ self.away if height else 0.0
+        return float(self.weight * sums * (1 + slopes) * np.exp(self._size(S, height) + peak))
 
     def _terms(self, place: Place) -> list[acb]:
         """Return the weights of all forms at a place (P, Q)."""
@@ -292,11 +292,11 @@ class Cell:
             i_pi, (x, y), (u, v) = acb(0, 1) * arb.pi(), self.origin, self.shift
             powers = [(i_pi * (square / 4 + P * x + Q * y)).exp()] * N[0]
             powers += [powers[0] * (-i_pi * (P * u + Q * v)).exp()] * len(N)
-            found = list[acb]()
+            terms = list[acb]()
             for form, power in zip(self.forms, powers, strict=True):
                 e, d = CHARACTERISTICS[form.place]
-                found.append(acb(0) if e != Q % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
-            self._known[place] = found
+                terms.append(acb(0) if e != Q % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
+            self._known[place] = terms
         return self._known[place]
 
 

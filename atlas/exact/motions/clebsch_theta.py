@@ -79,13 +79,13 @@ class ThetaMotion:
 
     def zeta(self, T: Sequence[acb]) -> Vector:
         """Return X^-1 T."""
-        found = self.X.solve(acb_mat([[T[0]], [T[1]]]))
-        return [centre(found[0, 0]), centre(found[1, 0])]
+        zeta = self.X.solve(acb_mat([[T[0]], [T[1]]]))
+        return [centre(zeta[0, 0]), centre(zeta[1, 0])]
 
     def pairs(self, zeta: Sequence[acb]) -> list[Pair]:
         """Return the four pairs of theta functions at zeta."""
-        found = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
-        return [(found[0, 4 * e + d], found[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
+        theta = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
+        return [(theta[0, 4 * e + d], theta[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
 
     def state(self, zeta: Sequence[acb]) -> State:
         """Return M and K at zeta."""
@@ -148,9 +148,9 @@ class ThetaMotion:
             steps = np.array(list(product(range(count), repeat=2))) / count
             times = (steps @ real + quarters @ others).reshape(-1, 2)
             far = np.linalg.norm(rough.states(times) - target, axis=1)
-            found = rough.near(times[np.argsort(far)[:CANDIDATES]], target)
-            if found is not None:
-                return self._improved(found)
+            candidates = rough.near(times[np.argsort(far)[:CANDIDATES]], target)
+            if candidates is not None:
+                return self._improved(candidates)
         raise NotCertifiedError("not certified: the place of the start on the motion's torus was not found.")
 
     @property
@@ -168,8 +168,8 @@ class ThetaMotion:
         times = [acb(complex(x)) for x in T]
         before = np.inf
         for _ in range(NEWTON):
-            found = self.state(self.zeta(times)).all
-            f, g = start[i] - found[i], start[j] - found[j]
+            states = self.state(self.zeta(times)).all
+            f, g = start[i] - states[i], start[j] - states[j]
             far = abs(complex_of(f)) + abs(complex_of(g))
             if not far < before:
                 break
@@ -220,19 +220,19 @@ class ThetaMotion:
         ]
 
 
-def _next_to(known: tuple[int, State], found: Sequence[tuple[int, State]]) -> tuple[int, State]:
+def _next_to(known: tuple[int, State], states: Sequence[tuple[int, State]]) -> tuple[int, State]:
     """Return the origin next to a known one, of those that are found and their images by the signs of components."""
     axis, state = known
 
-    def images(found: State) -> Iterator[State]:
+    def images(states: State) -> Iterator[State]:
         for signs in product((1, -1), repeat=3):
-            M, K = ([n * x for n, x in zip(signs, v, strict=True)] for v in (found.M, found.K))
+            M, K = ([n * x for n, x in zip(signs, v, strict=True)] for v in (states.M, states.K))
             yield State(M, K, [])
 
     def far(image: State) -> float:
         return sum(abs(complex_of(x - y)) ** 2 for x, y in zip(image.all, state.all, strict=True))
 
-    return axis, min((x for i, one in found if i == axis for x in images(one)), key=far)
+    return axis, min((x for i, candidate in states if i == axis for x in images(candidate)), key=far)
 
 
 class Rough:
@@ -268,8 +268,8 @@ class Rough:
             far = np.linalg.norm(states - target, axis=1)
             if far.min(initial=np.inf) < 1e-9 * size:
                 return np.asarray(times[far.argmin()])
-            kept = far < 4 * before
-            times, states, before = times[kept], states[kept], far[kept]
+            nearer = far < 4 * before
+            times, states, before = times[nearer], states[nearer], far[nearer]
             ways = np.linalg.pinv(fields(self.moments, states)) @ (target - states)[..., None]
             times = times + ways[..., 0]
         return None
@@ -291,21 +291,21 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
     """Return the solution of more equations than unknowns, and its residual beside the values."""
     A, B = acb_mat(rows), acb_mat([[x] for x in values])
     adjoint = A.transpose().conjugate()
-    found = (adjoint * A).solve(adjoint * B)
-    rest = A * found - B
+    solution = (adjoint * A).solve(adjoint * B)
+    rest = A * solution - B
     size = max(abs(complex_of(x)) for x in values) or 1.0
-    return [centre(found[i, 0]) for i in range(A.ncols())], max(
+    return [centre(solution[i, 0]) for i in range(A.ncols())], max(
         abs(complex_of(rest[i, 0])) for i in range(A.nrows())
     ) / size
 
 
 def _null(rows: list[Vector]) -> tuple[Vector, float]:
     """Return the vector that rows are orthogonal to, with the best of its components 1, and the residual."""
-    found = list[tuple[float, Vector]]()
+    vectors = list[tuple[float, Vector]]()
     for k in range(2):
         others = [n for n in range(len(rows[0])) if n != k]
-        part, error = _least_squares([[row[n] for n in others] for row in rows], [-row[k] for row in rows])
-        part.insert(k, acb(1))
-        found.append((error, part))
-    error, vector = min(found, key=lambda x: x[0])
+        solution, error = _least_squares([[row[n] for n in others] for row in rows], [-row[k] for row in rows])
+        solution.insert(k, acb(1))
+        vectors.append((error, solution))
+    error, vector = min(vectors, key=lambda x: x[0])
     return vector, error

@@ -24,11 +24,11 @@ class ElementaryMotion:
         self.I = ratio_of(ratio)
         self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
         self.omega2 = rational(omega2, "omega2")
-        given = None if omega3 is None else rational(omega3, "omega3")
+        rational_omega3 = None if omega3 is None else rational(omega3, "omega3")
         self.case = case_of(fmpq(1), self.I, self.B2, self.B3, self.omega2)
-        curve = fmpq(1), self.I, self.B2, self.B3, self.omega2, given or fmpq(0)
+        curve = fmpq(1), self.I, self.B2, self.B3, self.omega2, rational_omega3 or fmpq(0)
         self.omega3: fmpq = elementary.constants(self.case, *curve)[0]
-        check_omega3(self.case, given, self.omega3)
+        check_omega3(self.case, rational_omega3, self.omega3)
 
     @property
     def omega(self) -> tuple[fmpq, fmpq, fmpq]:
@@ -53,14 +53,14 @@ class ElementaryMotion:
     @property
     def k(self) -> Real:
         """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
-        found: Real = self._turning[1]
-        return found
+        k: Real = self._turning[1]
+        return k
 
     @property
     def phi(self) -> fmpq:
         """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
-        found: fmpq = self._turning[2]
-        return found
+        phi: fmpq = self._turning[2]
+        return phi
 
     @property
     def period(self) -> arb:
@@ -148,14 +148,14 @@ class FreeMotion:
     @property
     def k(self) -> Real:
         """Frequency of precession about the angular momentum: |m|/I2."""
-        found: Real = elementary.free(fmpq(1), self.I, *self.omega)[1]
-        return found
+        k: Real = elementary.free(fmpq(1), self.I, *self.omega)[1]
+        return k
 
     @property
     def phi(self) -> fmpq:
         """Frequency of proper rotation (1 - I) omega3, (87)."""
-        found: fmpq = elementary.free(fmpq(1), self.I, *self.omega)[2]
-        return found
+        phi: fmpq = elementary.free(fmpq(1), self.I, *self.omega)[2]
+        return phi
 
     @property
     def period(self) -> arb:

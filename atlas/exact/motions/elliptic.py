@@ -91,8 +91,8 @@ class EllipticMotion(Nutating):
     @property
     def splitting(self) -> fmpq:
         """C/D^2, whose sign decides on stability: see `atlas.formulas.elliptic`."""
-        found: fmpq = splitting(self.inertia, self.field, self.z)
-        return found
+        square: fmpq = splitting(self.inertia, self.field, self.z)
+        return square
 
     @property
     def stability(self) -> str:
@@ -224,8 +224,8 @@ class EllipticMotion(Nutating):
             axis = [fmpq(int(i == self.places[2])) for i in range(3)]
             return product(turn(self.field, c, s), turn(axis, C, S))
         a, b, _, _ = self.solution.parameters(t)
-        found, back = matrix(self.from_frame(a, b)), self._back
-        return [[found[i][j] for j in back] for i in back]
+        R, back = matrix(self.from_frame(a, b)), self._back
+        return [[R[i][j] for j in back] for i in back]
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B', the field in the body."""
@@ -243,8 +243,8 @@ class EllipticMotion(Nutating):
 
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
-        found = super().quaternion(t)
-        return [found[0], *(found[1 + i] for i in self._back)]
+        q = super().quaternion(t)
+        return [q[0], *(q[1 + i] for i in self._back)]
 
     @property
     def _back(self) -> list[int]:

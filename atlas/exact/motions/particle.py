@@ -47,8 +47,8 @@ class ParticleMotion:
     def radius(self) -> Real:
         """The radius a of (97): that of the circle around the drifting centre."""
         check_force(bool(self._force), "radius")
-        found: Real = particle.radius(*self._inputs)
-        return found
+        radius: Real = particle.radius(*self._inputs)
+        return radius
 
     def guiding_centre(self, t: Any) -> list[fmpq]:
         """Return the point O(t) of (99) about which the particle circles, carried along B with it."""

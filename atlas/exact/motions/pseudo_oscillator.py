@@ -20,8 +20,8 @@ class PseudoOscillator:
     @property
     def integrals(self) -> dict[str, fmpq]:
         """The integrals E' (36), K^2 (37), c3 (40) and c5 (41)."""
-        found = formulas.integrals(self.I, self.omega, (fmpq(0), self.B2, self.B3))
-        return dict(zip(("E", "K2", "c3", "c5"), found, strict=True))
+        integrals = formulas.integrals(self.I, self.omega, (fmpq(0), self.B2, self.B3))
+        return dict(zip(("E", "K2", "c3", "c5"), integrals, strict=True))
 
     @property
     def coefficients(self) -> tuple[fmpq, ...]:

@@ -43,15 +43,15 @@ class Symmetric:
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
-        found, back = self.exact.rotation(t), [self._places.index(i) for i in range(3)]
-        return [[found[i][j] for j in back] for i in back]
+        R, back = self.exact.rotation(t), [self._places.index(i) for i in range(3)]
+        return [[R[i][j] for j in back] for i in back]
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body."""
-        found = self.exact.angular_velocity(t)
-        return [found[self._places.index(i)] for i in range(3)]
+        Omega = self.exact.angular_velocity(t)
+        return [Omega[self._places.index(i)] for i in range(3)]
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B'."""
-        found = self.exact.field_in_body(t)
-        return [found[self._places.index(i)] for i in range(3)]
+        K = self.exact.field_in_body(t)
+        return [K[self._places.index(i)] for i in range(3)]

@@ -64,8 +64,8 @@ class SpectralCurve:
 
         The turn is that in Larmor's frame. NotCertifiedError where none are proved.
         """
-        found = self.torus.periods(_bits())
-        return [[p.H / self.rate, p.F / (self.rate * self.unit), p.angle] for p in found]
+        periods = self.torus.periods(_bits())
+        return [[p.H / self.rate, p.F / (self.rate * self.unit), p.angle] for p in periods]
 
     @property
     def winding_numbers(self) -> list[Any]:
@@ -103,11 +103,11 @@ class SpectralCurve:
         that integrals are not proved, the matrix, to 30 digits, and why there are no actions.
         """
         i = self.integrals
-        found, less = certified(self._proven, digits), self._approximate()
+        record, less = certified(self._proven, digits), self._approximate()
         try:
-            found["actions"] = certified(lambda: self.actions, digits)
+            record["actions"] = certified(lambda: self.actions, digits)
             with workprec(int(digits * BITS_A_DIGIT) + 64):
-                found["riemann_matrix"] = _matrix(riemann_matrix(self._cycles), digits)
+                record["riemann_matrix"] = _matrix(riemann_matrix(self._cycles), digits)
             less.pop("riemann_matrix", None)
         except NotCertifiedError as reason:
             less.setdefault("actions", str(reason))
@@ -115,7 +115,7 @@ class SpectralCurve:
             "curve": "eta^2 = g(z) + 2*c*v, v^2 = P(z)",
             "g": _texts(i.g), "c": str(i.c), "P": _texts(i.P), "quartic": _texts(self.quartic),
             "body_branch_points": [str(-i.D / I) for I in i.moments],
-            **found,
+            **record,
             "not_proved": less,
         }  # fmt: skip
 
@@ -132,11 +132,11 @@ class SpectralCurve:
             with workprec(BITS):
                 matrix = _matrix(self.theta.tau, APPROXIMATE)
             forms = {"denominator": self.theta.denominator}
-            forms |= {f"{name}{j + 1}": one for name, several in (("K", self.theta.K), ("M", self.theta.M))
-                      for j, one in enumerate(several)}  # fmt: skip
+            forms |= {f"{name}{j + 1}": value for name, several in (("K", self.theta.K), ("M", self.theta.M))
+                      for j, value in enumerate(several)}  # fmt: skip
             return {
                 "riemann_matrix": matrix,
-                "characteristics": {name: list(CHARACTERISTICS[one.place]) for name, one in forms.items()},
+                "characteristics": {name: list(CHARACTERISTICS[value.place]) for name, value in forms.items()},
             }
         except NotCertifiedError as reason:
             return {"missing": str(reason)}

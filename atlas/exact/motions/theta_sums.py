@@ -154,26 +154,26 @@ class Sums:
         np.subtract(words[0], words[2], out=words[1])
         return words[2], words[:2].reshape(2 * count, 2 * m)
 
-    def words(self, part: slice) -> list[Words]:
+    def words(self, rows: slice) -> list[Words]:
         """Return, for even and for odd powers, which of some forms have them, and their weights in words.
 
         Weights are (P and forms, rows): those that meet upper words, and those that meet all powers and lower words.
         """
-        key = part.start or 0, part.stop or len(self.table)
+        key = rows.start or 0, rows.stop or len(self.table)
         if key not in self._words:
-            self._words[key] = [self._split(part, parity) for parity in (0, 1)]
+            self._words[key] = [self._split(rows, parity) for parity in (0, 1)]
         return self._words[key]
 
-    def _split(self, part: slice, parity: int) -> Words:
+    def _split(self, rows: slice, parity: int) -> Words:
         """Cut weights, and what they lack, into two words each."""
-        forms = np.flatnonzero(self.odd[part] == parity)
+        forms = np.flatnonzero(self.odd[rows] == parity)
         columns, sizes = self.columns[parity], self.sizes[parity]
         there = (self.Q[0] <= columns) & (columns <= self.Q[-1])
         there[1] &= bool(parity)  # of the power 0 there is one
         chosen = columns[there] - self.Q[0]
         words, rest = np.zeros((2, len(self.P), len(forms), len(columns)), complex)
-        for found, table in ((words, self.table), (rest, self.rest)):
-            found[..., there] = table[part][forms][:, :, chosen].swapaxes(0, 1)
+        for sums, table in ((words, self.table), (rest, self.rest)):
+            sums[..., there] = table[rows][forms][:, :, chosen].swapaxes(0, 1)
         real, less = (np.concatenate([x.real, x.imag], -1).reshape(-1, len(sizes)) for x in (words, rest))
         largest = (abs(real) * sizes).max(axis=-1, keepdims=True) + np.finfo(float).tiny
         unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT) / sizes
@@ -242,7 +242,7 @@ def near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDA
     ends = zip(np.ceil(peaks.min(axis=0) - reach), peaks.max(axis=0) + reach, strict=True)
     lines = np.meshgrid(*(np.arange(low, high) for low, high in ends), indexing="ij")
     grid = np.stack(lines, -1).reshape(-1, 2).astype(int)
-    kept = np.zeros(len(grid), bool)
+    nearer = np.zeros(len(grid), bool)
     for peak in peaks:
-        kept |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < most
-    return np.asarray(grid[kept])
+        nearer |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < most
+    return np.asarray(grid[nearer])

@@ -143,12 +143,12 @@ class TopMotion(Nutating):
 
     def _nutation(self, *, trigonometric: bool = False) -> Solution:
         nutation = Nutation(self.quartic, self.sphere)
-        found = nutation.solution(trigonometric=trigonometric)
+        solution = nutation.solution(trigonometric=trigonometric)
         if self.quartic.kappa == 0:
-            return found
+            return solution
         if self.kind.endswith("between n and -n"):
-            return replace(found, swing=crossing(self.quartic, found.origin))
-        return replace(found, swing=swing(nutation, self.quartic))
+            return replace(solution, swing=crossing(self.quartic, solution.origin))
+        return replace(solution, swing=swing(nutation, self.quartic))
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
@@ -168,9 +168,9 @@ class TopMotion(Nutating):
     @property
     def roots(self) -> list[acb]:
         """Roots in nu of (dnu/dt)^2, each as often as it counts: the real ones ascending, then the complex pair."""
-        found = [root for root in self.quartic.roots() if not root.is_infinite]
-        real = [root for root in found if root.is_real]
-        return [-x.value for x in real[::-1] + found[len(real) :] for _ in range(x.multiplicity)]
+        finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
+        real = [root for root in finite_roots if root.is_real]
+        return [-x.value for x in real[::-1] + finite_roots[len(real) :] for _ in range(x.multiplicity)]
 
     @property
     def turning_points(self) -> tuple[Real, Real]:

@@ -33,7 +33,7 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
     if nu.is_zero:
         if M3.is_zero:
             return _any_rate(push)
-        found = [(push / M3, nu, nu)]
+        precessions = [(push / M3, nu, nu)]
     else:
         d = M3 * M3 - 4 * nu * push
         if d.sign < 0:
@@ -41,15 +41,17 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
         # w = (M3 -+ sqrt(d))/(2 nu): the root that does not cancel first in w, then the other one
         half, side = M3 / (2 * nu), 1 if (M3.sign or 1) * nu.sign > 0 else -1
         step = nu.of(1) / (2 * nu)
-        found = [(half, step * s, d) for s in (-nu.sign * side, nu.sign * side)][: 2 if d.sign else 1]
+        precessions = [(half, step * s, d) for s in (-nu.sign * side, nu.sign * side)][: 2 if d.sign else 1]
     rates = []
-    for x, y, d in found:
+    for x, y, d in precessions:
         # w^2 + (M3 - nu w)^2 + ..., with w = x + y sqrt(d)
         whole = (1 + nu * nu) * (x * x + y * y * d) - 2 * M3 * nu * x + level
-        part = 2 * (1 + nu * nu) * x * y - 2 * M3 * nu * y
-        sign = sign_of_sum(whole, part, d)
+        torque = 2 * (1 + nu * nu) * x * y - 2 * M3 * nu * y
+        sign = sign_of_sum(whole, torque, d)
         rates.append(
-            SteadyPrecession(_value(x - precession, y, d), _value(whole, part, d), sign > 0 or (sign == 0 and fourfold))
+            SteadyPrecession(
+                _value(x - precession, y, d), _value(whole, torque, d), sign > 0 or (sign == 0 and fourfold)
+            )
         )
     return rates
 

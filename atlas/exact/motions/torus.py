@@ -91,12 +91,12 @@ class Torus:
     def _approximate(self) -> list[tuple[fmpq, fmpq]]:
         if self._starts is None:
             try:
-                found = [(x.real, y.real) for x, y, _ in self.lattice.real]
+                rows = [(x.real, y.real) for x, y, _ in self.lattice.real]
             except NotCertifiedError:  # fewer will do here
-                found = real_periods(self.integrals)
-            if len(found) != 2:
+                rows = real_periods(self.integrals)
+            if len(rows) != 2:
                 raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
-            self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in found]
+            self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in rows]
         return self._starts
 
     @cached_property

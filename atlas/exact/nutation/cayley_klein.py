@@ -147,8 +147,8 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
     if shifted:
         cell = lattice.rate * lattice.imaginary
         zeta, beyond = zeta - (cell if y.mid() > 0 else -cell), not beyond
-    found = _sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
-    return replace(found, shifted=shifted)
+    sums = _sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
+    return replace(sums, shifted=shifted)
 
 
 def constant(lattice: Lattice) -> Sum:

@@ -46,10 +46,10 @@ class Differences:
         for steps, weights in SIDES:
             try:
                 moved = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]
-                made = [self.make(*x) if n else self.here for n, x in zip(steps, moved, strict=True)]
+                motions = [self.make(*x) if n else self.here for n, x in zip(steps, moved, strict=True)]
             except DomainError:
                 continue
-            return [(x, w / arb(2 * h), n / arb(h)) for x, w, n in zip(made, weights, (1, -2, 1), strict=True)]
+            return [(x, w / arb(2 * h), n / arb(h)) for x, w, n in zip(motions, weights, (1, -2, 1), strict=True)]
         raise DomainError("No motions beside this one are known.")
 
     def at(self, t: float) -> tuple[FloatArray, ...]:
@@ -59,12 +59,12 @@ class Differences:
             with workprec(8 * self.bits):
                 here = self._state(self.here, time)
                 R, Omega = [here[i : i + 3] for i in (0, 3, 6)], here[9:]
-                turns, changes, bent = zip(*(self._one(here, R, x, time) for x in self.beside), strict=True)
+                turns, changes, bends = zip(*(self._one(here, R, x, time) for x in self.beside), strict=True)
                 axis = [row[2] for row in R], [row[0] * Omega[1] - row[1] * Omega[0] for row in R]
             v, faster = (np.array([[float(x.mid()) for x in row] for row in rows]) for rows in (turns, changes))
             sizes = 1 + abs(v).max(1)
             radii = np.array([radii_of(x).max() for x in turns])
-            if ((radii <= KNOWN * sizes) & (np.array(bent) <= BENT * sizes)).all():
+            if ((radii <= KNOWN * sizes) & (np.array(bends) <= BENT * sizes)).all():
                 return v, faster, *(np.array([float(arb(x).mid()) for x in y]) for y in axis)
             self._at(2 * self.bits)
         raise DomainError("The motion is too near to a case of its own for derivatives.")
@@ -79,6 +79,6 @@ class Differences:
         """Return v and R dOmega/dp of one input, and by how much the derivative of R changes over a step."""
         rows = [here if x is self.here else self._state(x, t) for x, _, _ in beside]
         _, slopes, bends = zip(*beside, strict=True)
-        change, bent = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))
+        change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))
         turned = [[dot(change[3 * i : 3 * i + 3], R[j]) for j in range(3)] for i in range(3)]
-        return [turned[2][1], turned[0][2], turned[1][0]], [dot(row, change[9:]) for row in R], sizes_of(bent[:9]).max()
+        return [turned[2][1], turned[0][2], turned[1][0]], [dot(row, change[9:]) for row in R], sizes_of(bend[:9]).max()

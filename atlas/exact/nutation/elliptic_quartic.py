@@ -50,13 +50,13 @@ class EllipticQuartic(Quartic):
             precision *= 2
             with workprec(precision):
                 sizes = {x: arb(root(abs(x))) for x in counts}
-                found = [
+                roots = [
                     Root(acb(sign * size) if x >= 0 else acb(0, sign * size), counts[x])
                     for x, size in sizes.items() for sign in ((-1, 1) if x != 0 else (1,))
                 ]  # fmt: skip
-            if not any(x.value.overlaps(y.value) for x, y in combinations(found, 2)):
-                real = sorted((x for x in found if x.is_real), key=lambda x: x.value.real.mid())
-                return real + [x for x in found if not x.is_real]
+            if not any(x.value.overlaps(y.value) for x, y in combinations(roots, 2)):
+                real = sorted((x for x in roots if x.is_real), key=lambda x: x.value.real.mid())
+                return real + [x for x in roots if not x.is_real]
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of the torque, one and the same at both poles."""

@@ -116,10 +116,10 @@ class Nutating:
 
     def _periods(self) -> tuple[arb, arb]:
         """Return half the real and half the imaginary period; DomainError at a triple root, where both are infinite."""
-        found = self.solution.lattice
-        if infinite(found.half) and infinite(found.imaginary) and not self.is_steady:
+        lattice = self.solution.lattice
+        if infinite(lattice.half) and infinite(lattice.imaginary) and not self.is_steady:
             raise DomainError("At a triple root of Q both periods are infinite: modulus and nome have no limit.")
-        return found.half, found.imaginary
+        return lattice.half, lattice.imaginary
 
     def _moduli(self) -> tuple[arb, arb]:
         half, imaginary = self._periods()
@@ -129,24 +129,24 @@ class Nutating:
         return (second / third) ** 2, (fourth / third) ** 2
 
     def _angles(self) -> tuple[arb, arb]:
-        found = self.solution
-        T, pi = found.period, arb.pi()
+        solution = self.solution
+        T, pi = solution.period, arb.pi()
         if infinite(T):
             raise DomainError(f"A motion of the kind {self.kind!r} has no period: no angle belongs to one.")
         # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
         first, second = (
             T * x.own + pi * x.turn if self.is_steady or self.quartic.sign_beside(pole) else arb(0)
-            for x, pole in ((found.alpha, -1), (found.beta, 1))
+            for x, pole in ((solution.alpha, -1), (solution.beta, 1))
         )
         # a ball turns once about an axis: alpha and beta go half round zero each, with the signs of their torques
         signs = self.quartic.sign_beside(-1), self.quartic.sign_beside(1)
         ball, same = self._is_ball and not self.is_steady, signs[0] == signs[1]
         opposite = self.precesses_evenly or (ball and signs[0] * signs[1] < 0)
-        precession = T * found.precession + (arb(0) if opposite else first + second)
+        precession = T * solution.precession + (arb(0) if opposite else first + second)
         if self.swings_evenly or (ball and same):
             return precession, arb(0)
-        further = found.swing.kappa * found.swing.rate * T if found.swing else arb(0)
-        return precession, T * found.spin + first - second + further
+        further = solution.swing.kappa * solution.swing.rate * T if solution.swing else arb(0)
+        return precession, T * solution.spin + first - second + further
 
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
@@ -191,9 +191,9 @@ def attitude(motion: Nutating, t: fmpq) -> Matrix:
     """Return R(t) as rows: exact at t = 0, of two turns where it is their product, else of the pair (alpha, beta)."""
     if t == 0:
         return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
-    found = rotation(motion, t)
-    if found is not None:
-        return found
+    R = rotation(motion, t)
+    if R is not None:
+        return R
     a, b, _, _ = motion.solution.parameters(t)
     return matrix(motion.from_frame(a, b))
 

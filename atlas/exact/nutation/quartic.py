@@ -116,10 +116,10 @@ class Quartic:
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots."""
-        found = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
-        real = [root for root in found if root.is_real]
+        isolated = [Root(z, n) for factor, n in self._factors for z in roots(factor)]
+        real = [root for root in isolated if root.is_real]
         real.sort(key=lambda root: root.value.real.mid())
-        return real + [root for root in found if root.is_complex]
+        return real + [root for root in isolated if root.is_complex]
 
     @cached_property
     def _interval(self) -> tuple[int, int]:

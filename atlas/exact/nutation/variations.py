@@ -63,12 +63,12 @@ class Variation:
     slopes: Tables
 
 
-def constants(tilt: Sequence[Any], found: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
+def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
     """Return the constants of a pair (alpha, beta) whose axis has some tilt at t = 0; `places` are the body's axes.
 
     DomainError on a separatrix.
     """
-    lattice, pair, swing = found.lattice, (found.alpha, found.beta), found.swing
+    lattice, pair, swing = solution.lattice, (solution.alpha, solution.beta), solution.swing
     steady = lattice.rate.is_zero()
     if not steady and (infinite(lattice.half) or lattice.form == "linear"):
         raise DomainError(SEPARATRIX)
@@ -78,7 +78,7 @@ def constants(tilt: Sequence[Any], found: Solution, places: tuple[int, ...] = (0
     tables: Tables = {
         "tilt": [arb(x) for x in tilt],
         "rates": rates,
-        "times": [] if steady else [lattice.half, found.origin],
+        "times": [] if steady else [lattice.half, solution.origin],
         "slopes": [lattice.rate, pair[0].twist, pair[1].twist],
     }
     if swing:
@@ -137,9 +137,9 @@ def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int
     for _ in range(TRIES):
         h = scales[place] / fmpq(2) ** bits
         with workprec(4 * bits + 64):
-            found = _differences(make, values, place, h, scales[place])
-        if found is not None:
-            return found
+            differences = _differences(make, values, place, h, scales[place])
+        if differences is not None:
+            return differences
         bits *= 2
     raise TooNearError("The motion is too near to a case of its own for derivatives of its constants.")
 
@@ -202,10 +202,10 @@ class Groups:
     def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
         """Return whether slopes do not change over two steps, beside the sizes of the constants and of the slopes."""
         size, up, down = (sizes_of(x) for x in (middle, ups, downs))
-        bent = sizes_of(_combined((ups, downs), (1, -1)))
+        bend = sizes_of(_combined((ups, downs), (1, -1)))
         largest, whole = self._largest(np.maximum(up, down)), self._largest(size)
         return bool(
-            (bent <= FLAT * (largest + np.ldexp(whole, -STEP))).all() and ((up <= FLAT * whole) | (whole == 0)).all()
+            (bend <= FLAT * (largest + np.ldexp(whole, -STEP))).all() and ((up <= FLAT * whole) | (whole == 0)).all()
         )
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
@@ -220,9 +220,9 @@ class Groups:
 
     def _largest(self, sizes: FloatArray) -> FloatArray:
         """Return the largest of each group, at all of its places."""
-        found = np.zeros(len(self.lengths))
-        np.maximum.at(found, self.places, sizes)
-        return np.asarray(found[self.places])
+        largest = np.zeros(len(self.lengths))
+        np.maximum.at(largest, self.places, sizes)
+        return np.asarray(largest[self.places])
 
 
 def _combined(rows: Sequence[Row], weights: Sequence[Any]) -> Row:

@@ -43,8 +43,8 @@ class Hyperbola:
     def omega3(self, omega2: Any) -> fmpq:
         """Return the ordinate omega3 of (71): B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
         w2 = self._off_the_pole(omega2)
-        found: fmpq = hyperbola.ordinate(*self._constants, w2)
-        return found
+        omega3: fmpq = hyperbola.ordinate(*self._constants, w2)
+        return omega3
 
     def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
         """Return k = omega2/B2hat of (84) and phi of (72)."""
@@ -54,8 +54,8 @@ class Hyperbola:
 
     def stability(self, omega2: Any) -> fmpq:
         """Return the nutation frequency squared -p'(omega3), with p the cubic of (47); see `stable`."""
-        found: fmpq = hyperbola.stability(*self._constants, self._off_the_pole(omega2))
-        return found
+        square: fmpq = hyperbola.stability(*self._constants, self._off_the_pole(omega2))
+        return square
 
     def stable(self, omega2: Any) -> bool:
         """Say whether the motion is stable against nutation, theorem-band, theorem-band-ends.

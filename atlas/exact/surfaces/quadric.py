@@ -40,15 +40,15 @@ class Quadric:
     def a2(self) -> Real:
         """2 sin(beta)/(1 - sin(beta)), (54)."""
         check_a2(self.B2, self.B3)
-        found: Real = quadric.a2(*self._constants)
-        return found
+        a2: Real = quadric.a2(*self._constants)
+        return a2
 
     @property
     def a3(self) -> Real:
         """2 sin(beta)/(1 + sin(beta)), (54)."""
         check_a3(self.B2, self.B3)
-        found: Real = quadric.a3(*self._constants)
-        return found
+        a3: Real = quadric.a3(*self._constants)
+        return a3
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
@@ -83,8 +83,8 @@ class Quadric:
 
     def residual(self, omega: Any) -> fmpq:
         """Return the left-hand side of (50) at a point."""
-        found: fmpq = quadric.residual(*self._constants, *rationals(omega, "omega", 3))
-        return found
+        residual: fmpq = quadric.residual(*self._constants, *rationals(omega, "omega", 3))
+        return residual
 
     def canonical(self, omega: Any) -> list[Real]:
         """Return the coordinates omega'_1..3 of a point, (53)."""

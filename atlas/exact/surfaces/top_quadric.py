@@ -86,8 +86,8 @@ class TopQuadric(Quadric):
 
     def residual(self, omega: Any) -> Real:
         """Return -nu'' at t = 0 for a start at this point."""
-        found: Surd = top.residual(*self.top, *map(self.top[3].of, rationals(omega, "omega", 3)))
-        return found.value
+        residual: Surd = top.residual(*self.top, *map(self.top[3].of, rationals(omega, "omega", 3)))
+        return residual.value
 
     def canonical(self, omega: Any) -> list[Real]:
         """Return the coordinates along the axes about the centre, (53)."""
@@ -111,8 +111,8 @@ class TopHyperbola:
 
     def omega3(self, omega2: Any) -> Real:
         """Return the ordinate omega3."""
-        found: Surd = top.omega3(*self.top, self._off_the_pole(omega2))
-        return found.value
+        omega3: Surd = top.omega3(*self.top, self._off_the_pole(omega2))
+        return omega3.value
 
     def frequencies(self, omega2: Any) -> tuple[Real, Real]:
         """Return the rates about n and about the body's axis."""
@@ -121,8 +121,8 @@ class TopHyperbola:
 
     def stability(self, omega2: Any) -> Real:
         """Return the square of the frequency of small nutations."""
-        found: Surd = top.stability(*self.top, self._off_the_pole(omega2))
-        return found.value
+        square: Surd = top.stability(*self.top, self._off_the_pole(omega2))
+        return square.value
 
     def stable(self, omega2: Any) -> bool:
         """Say whether the motion is stable against nutation; where the frequency is zero, by the next derivatives."""
@@ -166,8 +166,8 @@ class TopHyperbola:
             else:  # the frequency touches zero: unstable at the point itself, but for a fourfold root
                 left = divided(factor, gcd(factor, self._fourfold))[0] if self._leading < 0 else factor
                 ends += 2 * _real_roots(left)
-        found = sorted(((u - k2) * n2.value for u in ends), key=lambda end: end.mid())
-        return list(zip(found[::2], found[1::2], strict=True))
+        ends_of_bands = sorted(((u - k2) * n2.value for u in ends), key=lambda end: end.mid())
+        return list(zip(ends_of_bands[::2], ends_of_bands[1::2], strict=True))
 
     @property
     def _quartic(self) -> Polynomial:
