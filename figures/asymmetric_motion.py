@@ -54,13 +54,13 @@ def scene(
     rate = float(max(np.linalg.norm(omega), np.linalg.norm(field))) or 1.0
     period = 2 * pi / rate
     times = np.linspace(0.0, positive(turns, "turns") * period, int(STEPS * turns) + 2)
-    found = simulate(inertia, field, omega, times)
-    e1, e2 = np.moveaxis(found.R, -1, 0)[:2]
-    speed = found.Omega[:, 1:2] * e1 - found.Omega[:, :1] * e2  # dR_3/dt = Omega2 R_1 - Omega1 R_2, (12)
-    drawn = Drawn(CubicHermiteSpline(times, found.R[..., 2], speed), CubicSpline(times, found.Omega))
-    of, words = any_motion.start(omega)
+    steps = simulate(inertia, field, omega, times)
+    e1, e2 = np.moveaxis(steps.R, -1, 0)[:2]
+    speed = steps.Omega[:, 1:2] * e1 - steps.Omega[:, :1] * e2  # dR_3/dt = Omega2 R_1 - Omega1 R_2, (12)
+    drawn = Drawn(CubicHermiteSpline(times, steps.R[..., 2], speed), CubicSpline(times, steps.Omega))
+    moment, words = any_motion.start(omega)
     setting = (
-        rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$ from {of}: {motion.kind}",
+        rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$ from {moment}: {motion.kind}",
         f"The motion of a body with the moments {plain_vector(inertia)} from {words}",
     )
     return any_motion.picture(

@@ -41,8 +41,10 @@ def scene(
         if m2 != 0.0:
             layers.append(Curve(solids.circle(m3 * E3, E3, abs(m2), fine), "precession"))
             quarter = np.pi / 5.0 * float(np.sign(larmor))
-            at = np.array([[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)])
-            layers.append(Arrow(at[0], at[1], "precession", r"$\mathbf{m}(t)$"))
+            tips = np.array(
+                [[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)]
+            )
+            layers.append(Arrow(tips[0], tips[1], "precession", r"$\mathbf{m}(t)$"))
     m2, m3 = momentum
     return Scene(
         title(__doc__),

@@ -36,12 +36,12 @@ def scene(
     """
     if not 0 < len(momentum) <= 4:
         raise DomainError(f"figure bifurcation takes one to four values of the momentum, not {momentum}.")
-    maps = [Bifurcation(inertia, b, one * b) for one in momentum]
+    maps = [Bifurcation(inertia, b, ratio * b) for ratio in momentum]
     panels = tuple(
-        panel(rf"({letter}) $p={tex(one.c / one.b)}$", one, reach, words=letter == "a")
-        for letter, one in zip("abcd", maps, strict=False)
+        panel(rf"({letter}) $p={tex(ratio.c / ratio.b)}$", ratio, reach, words=letter == "a")
+        for letter, ratio in zip("abcd", maps, strict=False)
     )
-    there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
+    there = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
     return Scene(
         title=title(__doc__),
         caption=(
@@ -69,16 +69,16 @@ def scene(
     )
 
 
-def panel(name: str, one: Bifurcation, reach: float, *, words: bool) -> Plane:
+def panel(name: str, bifurcation: Bifurcation, reach: float, *, words: bool) -> Plane:
     """Return the plane of one c, with names at its curves or not; upwards stands H less F over twice the middle moment.
 
     Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
     oval and somewhere not positive on the bounded one, so that the stretches with s > 0 are the border, for p = 0 the
     parabola and the stable rays.
     """
-    middle = int(np.argsort(one.inertia)[1])
-    slope = 1 / (2 * float(one.inertia[middle]))
-    spins = np.array([(spin.F, spin.H - slope * spin.F) for spin in one.spins])
+    middle = int(np.argsort(bifurcation.inertia)[1])
+    slope = 1 / (2 * float(bifurcation.inertia[middle]))
+    spins = np.array([(spin.F, spin.H - slope * spin.F) for spin in bifurcation.spins])
     start, spread = float(spins[:, 0].min()), float(np.ptp(spins[:, 0]))
     x_limits = start - 0.12 * spread, start + reach * spread
     sizes = (WIDTH / 2 - MARGIN) / (x_limits[1] - x_limits[0]), (HEIGHT - MARGIN) / float(np.ptp(spins[:, 1]))
@@ -86,16 +86,19 @@ def panel(name: str, one: Bifurcation, reach: float, *, words: bool) -> Plane:
         (
             stretch.oval,
             stretch.stable,
-            stretch.branch * one.c < 0 or not one.c,
-            line(one, stretch, slope, x_limits, sizes),
+            stretch.branch * bifurcation.c < 0 or not bifurcation.c,
+            line(bifurcation, stretch, slope, x_limits, sizes),
         )
-        for stretch in one.stretches()
+        for stretch in bifurcation.stretches()
     ]
-    for axis, low, high, stable in one.rays() if not one.c else ():
+    for axis, low, high, stable in bifurcation.rays() if not bifurcation.c else ():
         if low < high:
             F = np.array([low, min(high, 2 * x_limits[1] - x_limits[0])])
-            H = (F / one.inertia[axis] + (one.inertia.sum() - one.inertia[axis]) * one.b**2) / 2
-            oval = "unbounded" if axis == np.argmax(one.inertia) else "bounded"
+            H = (
+                F / bifurcation.inertia[axis]
+                + (bifurcation.inertia.sum() - bifurcation.inertia[axis]) * bifurcation.b**2
+            ) / 2
+            oval = "unbounded" if axis == np.argmax(bifurcation.inertia) else "bounded"
             lines.append((oval, stable, stable, np.stack([F, H - slope * F], axis=1)))
     edge = outline([(oval, points) for oval, _, outer, points in lines if outer], x_limits[1])
     low, high = float(edge[:, 1].min()), float(edge[:, 1].max())
@@ -111,26 +114,29 @@ def panel(name: str, one: Bifurcation, reach: float, *, words: bool) -> Plane:
             inside = points[(points[:, 0] > x_limits[0]) & (points[:, 0] < x_limits[1])]
             layers.append(Label(inside[np.argmin(abs(inside[:, 0] - inside[:, 0].mean()))], text, role, (0.0, 5.0)))
     for rank, which in enumerate(np.argsort(spins[:, 0])):
-        layers.append(Points(spins[which : which + 1], ROLES[one.spins[which].kind]))
-        offset = UPRIGHT if rank and one.spins[which].kind == "stable" else OFFSETS[rank]
+        layers.append(Points(spins[which : which + 1], ROLES[bifurcation.spins[which].kind]))
+        offset = UPRIGHT if rank and bifurcation.spins[which].kind == "stable" else OFFSETS[rank]
         layers.append(Label(spins[which], rf"$\mathbf{{e}}_{which + 1}$", "label", offset))
-    if one.rest is not None:
-        at = one.rest - [0.0, slope * one.rest[0]]
-        layers += [Points(at[None], "rest"), Label(at, "rest" if one.c > 0 else r"$-2\mathbf{K}$", "rest", (-4, -6))]
+    if bifurcation.rest is not None:
+        place = bifurcation.rest - [0.0, slope * bifurcation.rest[0]]
+        layers += [
+            Points(place[None], "rest"),
+            Label(place, "rest" if bifurcation.c > 0 else r"$-2\mathbf{K}$", "rest", (-4, -6)),
+        ]
     return Plane(tuple(layers), "$F$", rf"$H-F/2I_{middle + 1}$", x_limits, y_limits, title=name)
 
 
 def line(
-    one: Bifurcation, stretch: Stretch, slope: float, x_limits: tuple[float, float], sizes: tuple[float, float]
+    bifurcation: Bifurcation, stretch: Stretch, slope: float, x_limits: tuple[float, float], sizes: tuple[float, float]
 ) -> FloatArray:
     """Return a stretch (N, 2) as it is drawn; ``sizes`` are millimetres to a unit of both axes."""
-    poles = set((-one.a).tolist())
+    poles = set((-bifurcation.a).tolist())
     first, last = (NEAR if end in poles else 0.0 for end in (stretch.low, stretch.high))
 
     def points(u: FloatArray) -> FloatArray:
         z = stretch.low + (stretch.high - stretch.low) * np.sin(np.pi / 2 * u) ** 2
-        found = one.values(z, stretch.branch)
-        return found - [[0.0, slope]] * found[:, :1]
+        values = bifurcation.values(z, stretch.branch)
+        return values - [[0.0, slope]] * values[:, :1]
 
     box = np.array([x_limits[0], -np.inf]), np.array([x_limits[1], np.inf])
     return curve(points, first, 1 - last, quarter_pixel(1.0, 1.0), pieces=32, box=box, scale=np.array(sizes))
@@ -140,7 +146,7 @@ def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
     """Return the border (N, 2) of what exists, of its lines, from the upper right to the corner and the lower right."""
     sides = []
     for oval in ("bounded", "unbounded"):
-        points = np.concatenate([points for one, points in lines if one == oval])
+        points = np.concatenate([points for oval_of_line, points in lines if oval_of_line == oval])
         points = points[np.argsort(points[:, 0], kind="stable")]
         last = [stop, float(np.interp(stop, *points.T))]
         sides.append(np.array([*points[points[:, 0] < stop], last]))

@@ -62,8 +62,8 @@ def drawn(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
     unit = SIZE / float(np.hypot(*field))
     prime = (unit * field[0], unit * field[1])
     ends = [solids.extent(quadrics.pieces(I, prime, REACH * SIZE, 0.1), right) for _, I in BODIES]
-    part = min(1.0, 0.95 * STEP / max(high - low for low, high in ends))
-    return part * prime[0], part * prime[1]
+    share = min(1.0, 0.95 * STEP / max(high - low for low, high in ends))
+    return share * prime[0], share * prime[1]
 
 
 def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
@@ -75,8 +75,8 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
     low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
 
     def on_scale(I: float, height: float = 0.0) -> FloatArray:
-        part = (I - start) / (stop - start)
-        return np.asarray(low + part * (high - low) + (RULER + height) * E3)
+        share = (I - start) / (stop - start)
+        return np.asarray(low + share * (high - low) + (RULER + height) * E3)
 
     layers: list[Layer] = []
     for place, (name, I) in zip(places, some, strict=True):

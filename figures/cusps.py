@@ -77,8 +77,8 @@ def scene(
 
 def trace(top: TopMotion) -> str:
     """Return what the axis draws, by the rate of its precession at both ends of its range, theorem-cusp."""
-    kept = top.invariants()
-    p, M3 = float(kept["p"]), float(kept["M3"])
+    invariants = top.invariants()
+    p, M3 = float(invariants["p"]), float(invariants["M3"])
     if not top.omega[0] and not top.omega[1]:
         return "cusps"
     low, high = (p - M3 * nu for nu in top.turning_points)

@@ -69,10 +69,10 @@ def panel(
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     hyperbola = branches(inertia[2], field, view, millimetres)
     layers += [Curve(piece, "limit") for piece in hyperbola]
-    found = curves(inertia, field, view, millimetres)
-    named = {max((len(part), i) for i, (part, one) in enumerate(found) if one == role)[1] for _, role in found}
-    words = [NAMES[role] if name.startswith("(a)") and i in named else "" for i, (_, role) in enumerate(found)]
-    layers += [Curve(part, role, text) for (part, role), text in zip(found, words, strict=True)]
+    lines = curves(inertia, field, view, millimetres)
+    named = {max((len(part), i) for i, (part, one) in enumerate(lines) if one == role)[1] for _, role in lines}
+    words = [NAMES[role] if name.startswith("(a)") and i in named else "" for i, (_, role) in enumerate(lines)]
+    layers += [Curve(part, role, text) for (part, role), text in zip(lines, words, strict=True)]
     if name.startswith("(a)") and hyperbola:
         lowest = min(hyperbola[0], key=lambda point: abs(point[1] - 0.9 * view.y[0]))
         layers.append(Label(lowest, "(67)", "limit", (-4.0, 0.0)))
@@ -102,7 +102,7 @@ def curves(
     def bounded(s: FloatArray) -> FloatArray:
         return low + (middle - low) * np.sin(np.pi / 2 * s) ** 2
 
-    found = []
+    lines = []
     for role, branch in product(("main", "third"), (1.0, -1.0)):
         along = unbounded if role == "main" else bounded
 
@@ -123,5 +123,5 @@ def curves(
             piece = line[a : b + 1, :2]
             piece = piece[seen(piece, view)]
             if len(piece):
-                found.append((piece, "unstable_line" if saddle[a] else role))
-    return found
+                lines.append((piece, "unstable_line" if saddle[a] else role))
+    return lines

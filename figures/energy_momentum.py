@@ -37,7 +37,7 @@ def scene(
     called = [name(*top, alike=alike) for top in tops]
     panels = tuple(panel(f"({'abc'[k]}) {called[k]}", *top, M3, reach, unit) for k, top in enumerate(tops))
     same = f", $b={tex(b[0])}$" if alike else ""
-    there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
+    there = {getattr(layer, "role", "") for panel_drawn in panels for layer in panel_drawn.layers}
     rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
     kinds = {"start": "stable (dots)", "unstable_point": "of focus-focus type (crosses)"}
     spins = " or ".join(words for role, words in kinds.items() if role in there)
@@ -98,7 +98,9 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     scale = max(b, abs(linear) ** 0.5)
     wells, rest = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
     branches = list(wells.precessions(3.0 * reach * scale))
-    lines = [(part, "unstable_line" if unstable else "main") for one in branches for part, unstable in runs(one, rest)]
+    lines = [
+        (run, "unstable_line" if unstable else "main") for branch in branches for run, unstable in runs(branch, rest)
+    ]
     near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
     if not len(near):
         raise DomainError(
@@ -114,7 +116,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     above = [[p[-1], high + pad], [p[0], high + pad]]
     layers: list[Layer] = [Region(np.array([*np.stack([p, least], axis=1), *above]), "region")]
     layers += [Curve(line, role) for line, role in lines]
-    layers += [label for one in branches for label in names(one, reach * scale, rest)]
+    layers += [label for branch in branches for label in names(branch, reach * scale, rest)]
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers += [Label(np.array(spin[:2]), what, "note", (5, 6)) for spin in spins[:1]]

@@ -107,13 +107,13 @@ def periods(
     """Return the last panel: the period over the push."""
     decades = np.arange(-12.0, 0.0)
     push = abs(field[0]) * 10.0**decades
-    found = np.array([GeneralMotion(ratio, field, (one, *start)).period for one in push])
-    law = found[0] - 0.12 * found.max() - 4 / growth * np.log(10.0) * (decades - decades[0])
-    view = ((float(push[0]), float(push[-1])), (0.0, 1.1 * float(found.max())))
+    times = np.array([GeneralMotion(ratio, field, (omega1, *start)).period for omega1 in push])
+    law = times[0] - 0.12 * times.max() - 4 / growth * np.log(10.0) * (decades - decades[0])
+    view = ((float(push[0]), float(push[-1])), (0.0, 1.1 * float(times.max())))
     marked = np.array([[push, GeneralMotion(ratio, field, (push, *start)).period] for push in pushes])
     layers: list[Layer] = [
         Curve(np.stack([push, law], axis=1), "reference", r"$(4/\sqrt{-\nu_n^2})\ln(1/\omega_1)+$const"),
-        Curve(np.stack([push, found], axis=1), "main", "$T$"),
+        Curve(np.stack([push, times], axis=1), "main", "$T$"),
         Points(marked, "start"),
     ]
     return Plane(

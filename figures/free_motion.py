@@ -22,10 +22,10 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the precession about m."""
     motion = FreeMotion(ratio, omega)
-    of, words = any_motion.start(omega)
+    moment, words = any_motion.start(omega)
     rates = rf"$k{tex_equals(motion.k)}$, $\phi{tex_equals(motion.phi)}$"
     setting = (
-        f"A free body with $I={tex(quotient(ratio))}$ from {of}: {rates}",
+        f"A free body with $I={tex(quotient(ratio))}$ from {moment}: {rates}",
         f"The motion of a free body with I = {plain(quotient(ratio))} from {words}",
     )
     period = 2 * pi / motion.k if motion.k else 0.0

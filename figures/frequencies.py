@@ -47,12 +47,12 @@ def scene(
     I, one_less, _ = shape_factors(ratio)
     free = one_less / I * B3 / float(np.hypot(B2, B3))
     hyperbola = Hyperbola(ratio, field)
-    found = closed(hyperbola, free, order) if free else {}
+    motions = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     proper = (
         r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
         rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
-        + (rf" Dots: motions that repeat themselves after {counted(order)} of the precession." if found else "")
+        + (rf" Dots: motions that repeat themselves after {counted(order)} of the precession." if motions else "")
         if free
         else r"the proper rotation $\phi$, (72), which is zero on the whole curve. (b) Their quotient, (86)."
     )
@@ -73,10 +73,10 @@ def scene(
             )
         ),
         panels=(
-            frequencies(hyperbola, (B2, B3), ends, found, unit),
-            quotients((B2, B3), ends, free, found, unit),
+            frequencies(hyperbola, (B2, B3), ends, motions, unit),
+            quotients((B2, B3), ends, free, motions, unit),
         ),
-        named={"dotted": "pole", "Dashed": "reference", **({"Dots": "point"} if found else {})} if free else {},
+        named={"dotted": "pole", "Dashed": "reference", **({"Dots": "point"} if motions else {})} if free else {},
         size=(WIDTH, HEIGHT),
     )
 
@@ -103,7 +103,7 @@ def frequencies(
     hyperbola: Hyperbola,
     field: tuple[float, float],
     ends: tuple[float, float],
-    found: dict[Fraction, ElementaryMotion],
+    motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
     """Panel (a): k and phi."""
@@ -131,7 +131,7 @@ def frequencies(
         pieces = (view.level(0.0),)
     layers += [Curve(piece, "main", "" if order else r"$\phi$") for order, piece in enumerate(pieces)]
     side = float(np.copysign(1.0, B2))
-    marks = [m for m in found.values() if ends[0] < m.omega2 < ends[1] and abs(m.phi) < top]
+    marks = [m for m in motions.values() if ends[0] < m.omega2 < ends[1] and abs(m.phi) < top]
     layers += [Points(np.array([[m.omega2, m.phi], [m.omega2, m.k]]), "point") for m in marks]
     layers += [
         Points(np.array([[0.0, 0.0]]), "rest"),
@@ -146,7 +146,7 @@ def quotients(
     field: tuple[float, float],
     ends: tuple[float, float],
     free: float,
-    found: dict[Fraction, ElementaryMotion],
+    motions: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
     """Panel (b): phi/k by (86), which is finite at rest, where both vanish; ``free`` is that of the free body."""
@@ -165,17 +165,17 @@ def quotients(
     else:
         layers.append(Curve(view.level(0.0), "main"))
     named = [np.full(2, np.inf)]
-    for r, motion in found.items():
-        at = np.array([motion.omega2, float(r)])
+    for r, motion in motions.items():
+        place = np.array([motion.omega2, float(r)])
         if ends[0] < motion.omega2 < ends[1]:
             x = 1 + motion.omega2 / B2
             scale = np.array([(WIDTH - MARGIN) / (ends[1] - ends[0]), (HEIGHT / 2 - MARGIN) / (2 * top)])  # mm
             across = np.array([scale[1] * free / (x * x * B2), scale[0]])  # upright to the curve, as drawn
             away = across / np.hypot(*across) / scale * BESIDE * np.copysign(1.0, -free)
-            layers.append(Points(at[None], "point"))
-            if min(float(np.hypot(*((at - one) * scale))) for one in named) > APART:
-                named.append(at)
-                layers.append(Label(at - away, f"${r}$"))
+            layers.append(Points(place[None], "point"))
+            if min(float(np.hypot(*((place - other) * scale))) for other in named) > APART:
+                named.append(place)
+                layers.append(Label(place - away, f"${r}$"))
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
     return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

@@ -22,9 +22,9 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the nutation."""
     motion = GeneralMotion(ratio, field, omega)
-    of, words = any_motion.start(omega)
+    moment, words = any_motion.start(omega)
     setting = (
-        f"{tex_setting(ratio, field, first='A')} from {of}: {motion.kind}",
+        f"{tex_setting(ratio, field, first='A')} from {moment}: {motion.kind}",
         f"The motion of {plain_setting(ratio, field)} from {words}",
     )
     return any_motion.picture(title(__doc__), motion, setting, motion.period, periods, elevation=elevation, unit=unit)

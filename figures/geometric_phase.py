@@ -41,7 +41,7 @@ def scene(
     places = z[0] + (z[1] - z[0]) * np.linspace(0.0, 1.0, count) ** 2
     found = np.array([parts(EllipticMotion(inertia, field, one, branch)) for one in places]) / (2 * np.pi)
     one = EllipticMotion(inertia, field, shown, branch)
-    turn, dynamic, area = (part / (2 * np.pi) for part in parts(one))
+    turn, dynamic, area = (share / (2 * np.pi) for share in parts(one))
     return Scene(
         title=title(__doc__),
         caption=(
@@ -81,15 +81,15 @@ def parts(motion: Any) -> tuple[float, float, float]:
     return motion.precession_per_period, float(np.mean(np.vecdot(k, Omega)) * motion.period), float(area)
 
 
-def plane(z: FloatArray, found: FloatArray, one: FloatArray) -> Plane:
+def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
     """Return the plane of z with the turn and its parts, from turn, dynamic part and area (N, 3) in turns.
 
     ``one`` (4,) holds z and the values of the motion shown.
     """
     lines = (("main", "turn", 0, 1), ("reference", "dynamic part", 1, 1), ("limit", "geometric part", 2, -1))
     layers: list[Layer] = [Curve(np.array([[z[0], 0.0], [z[-1], 0.0]]), "guide")]
-    layers += [Curve(np.column_stack([z, sign * found[:, k]]), role, name) for role, name, k, sign in lines]
-    layers.append(Points(np.column_stack([np.full(3, one[0]), one[1:]]), "start"))
+    layers += [Curve(np.column_stack([z, sign * phases[:, k]]), role, name) for role, name, k, sign in lines]
+    layers.append(Points(np.column_stack([np.full(3, chosen[0]), chosen[1:]]), "start"))
     limits = float(z[0]), float(z[-1])
     return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(b) in one period")
 

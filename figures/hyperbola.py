@@ -34,7 +34,7 @@ def scene(
         layers.append(Curve(view.upright(-B2), "pole"))
         layers.append(Curve(asymptote(ratio, field, view), "asymptote"))
     layers += [Curve(piece, "hyperbola") for piece in pieces]
-    layers += [Curve(part, "unstable") for piece in pieces for part in within(piece, bands)]
+    layers += [Curve(stretch, "unstable") for piece in pieces for stretch in within(piece, bands)]
     free = free_spin(ratio, field)
     if free:
         layers.append(Curve(np.array([[-B2, max(-free, view.y[0])], [-B2, min(free, view.y[1])]]), "unstable"))

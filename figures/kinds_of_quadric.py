@@ -113,4 +113,6 @@ def beside(line: FloatArray, place: FloatArray) -> list[FloatArray]:
     """Return the two parts of a level line that leave room for its value at ``place`` (2,)."""
     away = np.hypot(*((line - place) / [2.0, RIGHT]).T) > ROOM
     ends = np.flatnonzero(np.diff(away)) + 1
-    return [piece for piece, kept in zip(np.split(line, ends), away[np.append(0, ends)], strict=True) if kept]
+    return [
+        piece for piece, is_outside in zip(np.split(line, ends), away[np.append(0, ends)], strict=True) if is_outside
+    ]

@@ -91,7 +91,7 @@ def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
     for path, role in zip(paths, ("trace", "thin_trace"), strict=True):
         points = curve(path, 0.0, time, fine, pieces=48)
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-        ends = np.stack([np.interp(HEAD, length, part) for part in points.T], axis=1)
+        ends = np.stack([np.interp(HEAD, length, coordinate) for coordinate in points.T], axis=1)
         tail, tip = ends / np.linalg.norm(ends, axis=1, keepdims=True)
         layers.append(Curve(points, role))
         if length[-1] > HEAD[1]:

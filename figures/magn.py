@@ -49,7 +49,7 @@ def scene(
     if strength > 0.0 and all(E):
         steep = abs(E[0]) < 2.0 * abs(E[1])
         drawn = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), E)
-        tip = 1.1 * reach * in_plane(*(float(part) for part in drawn / np.linalg.norm(drawn)))
+        tip = 1.1 * reach * in_plane(*(float(component) for component in drawn / np.linalg.norm(drawn)))
         flat, tall = tip[1] * E2, tip[2] * E3
         layers += [
             Arrow(O, tip, "electric", r"$\mathbf{E}$"),

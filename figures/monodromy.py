@@ -38,12 +38,12 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         ("disk", Wells(M3, A), {"coupling": disk}),
         ("disk, $M_3=0$", Wells(0.0, A), {"coupling": disk}),
     ]
-    found = []
+    loops = []
     for _, wells, top in cases:
-        found.append(on_loop(ratio, M3=wells.M3, loop=around(wells, wells.M3, points), **top))
-    maps = [values(f"({'abc'[k]}) {cases[k][0]}", cases[k][1], found[k], k == 0, unit) for k in range(3)]
-    lattices = [lattice(f"({'def'[k]}) {words(found[k])}", found[k], k == 0) for k in range(3)]
-    error = max(one.step for one in found)
+        loops.append(on_loop(ratio, M3=wells.M3, loop=around(wells, wells.M3, points), **top))
+    maps = [values(f"({'abc'[k]}) {cases[k][0]}", cases[k][1], loops[k], k == 0, unit) for k in range(3)]
+    lattices = [lattice(f"({'def'[k]}) {words(loops[k])}", loops[k], k == 0) for k in range(3)]
+    error = max(loop.step for loop in loops)
     return Scene(
         title=title(__doc__),
         caption=(
@@ -54,7 +54,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         ),
         alt=(
             "Three diagrams with a loop round one or two isolated critical values, and three lattices of points, in "
-            f"which a line leads from a point to another one: {', '.join(plain_words(one) for one in found)}."
+            f"which a line leads from a point to another one: {', '.join(plain_words(loop) for loop in loops)}."
         ),
         panels=(*maps, *lattices),
         columns=3,
@@ -68,38 +68,38 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     )
 
 
-def words(found: Monodromy) -> str:
+def words(loop: Monodromy) -> str:
     """Return what becomes of g3, for a title."""
     terms = ""
-    for number, name in zip(found.matrix[2], ("g_1", "g_2"), strict=False):
+    for number, name in zip(loop.matrix[2], ("g_1", "g_2"), strict=False):
         if number:
             size = "" if abs(number) == 1 else f"{abs(number)}"
             terms += rf"{'-' if number < 0 else '+'}{size}\mathbf{{{name[0]}}}_{name[2]}"
     return rf"$\mathbf{{g}}_3\to\mathbf{{g}}_3{terms}$"
 
 
-def plain_words(found: Monodromy) -> str:
+def plain_words(loop: Monodromy) -> str:
     """Return what becomes of g3, for a sentence without TeX."""
-    m, n, _ = found.matrix[2]
+    m, n, _ = loop.matrix[2]
     return f"g3 comes back as g3 with {plain(m)} of g1 and {plain(n)} of g2"
 
 
-def values(name: str, wells: Wells, found: Monodromy, first: bool, unit: str) -> Plane:
+def values(name: str, wells: Wells, loop: Monodromy, first: bool, unit: str) -> Plane:
     """Return the critical values at one M3 with the loop."""
     ends = np.array([[p, g] for p, g, D in (wells.spin(end) for end in (1, -1)) if D < 0])
-    far = 1.25 * max(float(np.abs(found.p).max()), float(np.abs(ends[:, 0]).max()))
+    far = 1.25 * max(float(np.abs(loop.p).max()), float(np.abs(ends[:, 0]).max()))
     lines = [
         np.stack([x.p, x.g], axis=1) for x in wells.precessions(4 * far + 4 * np.sqrt(abs(wells.A) + abs(wells.a)))
     ]
     inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines])
-    low, high = float(inside[:, 1].min()), float(found.g.max())
+    low, high = float(inside[:, 1].min()), float(loop.g.max())
     pad = 0.1 * (high - low)
     layers: list[Layer] = [
         *(Curve(line, "main") for line in lines),
-        Curve(smooth(np.stack([found.p, found.g], axis=1)), "trajectory"),
+        Curve(smooth(np.stack([loop.p, loop.g], axis=1)), "trajectory"),
         Points(ends, "unstable_point", "spin" if first else ""),
         *([Label(np.array([0.4 * far, low]), "no motion", "note")] if first else []),
-        Points(np.array([[found.p[0], found.g[0]]]), "start"),
+        Points(np.array([[loop.p[0], loop.g[0]]]), "start"),
     ]
     return Plane(
         tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)" if first else "", (-far, far), (low - pad, high + pad),
@@ -117,9 +117,9 @@ def smooth(points: FloatArray) -> FloatArray:
     return np.concatenate([fine, fine[:1] + points[-1] - points[0]])
 
 
-def lattice(name: str, found: Monodromy, first: bool) -> Plane:
+def lattice(name: str, loop: Monodromy, first: bool) -> Plane:
     """Return the periods with one nutation, in turns, and the course of g3."""
-    track = smooth(-found.turns)
+    track = smooth(-loop.turns)
     start, end = track[0], track[-1]
     middle, half = (track.min(axis=0) + track.max(axis=0)) / 2, 0.5 * float(np.ptp(track, axis=0).max()) + 0.7
     steps = np.arange(-4, 5)

@@ -122,8 +122,8 @@ class Top:
         (low, _), (top, _) = min(values), max(values)
         steps = (np.arange(1, levels + 1) / (levels + 1)) ** 2
         depth = top - low if len(values) > 1 else 0.2 * (abs(top) + self.b**2)
-        inside = [(h + part * (top - h), nu) for h, nu in values if h < top for part in steps]
-        return [*inside, *((top + depth * part, 0.0) for part in steps)]
+        inside = [(h + share * (top - h), nu) for h, nu in values if h < top for share in steps]
+        return [*inside, *((top + depth * share, 0.0) for share in steps)]
 
     def orbits(self, h: float, about: float, view: Window | None = None) -> list[FloatArray]:
         """Return the closed curves (Omega3, its rate), shape (N, 2), of the energy h that go round a cosine, 0 for all.
@@ -134,7 +134,7 @@ class Top:
         Q = across * (h - self.M3**2 / self.I - self.b**2 - self.A * nu**2) - (self.p - self.M3 * nu) ** 2
         roots = Q.roots()
         real = np.sort(roots[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) <= 1)].real)
-        found = []
+        orbits = []
         for low, high in pairwise(real):
             if Q((low + high) / 2) <= 0 or high - low < 1e-9 or (about and not low < about < high):
                 continue
@@ -146,9 +146,9 @@ class Top:
                 return np.stack([self.omega3(nu), -self.b * rate], axis=1)
 
             turn = 2 * np.pi
-            found.append(
+            orbits.append(
                 flat(point, 0.0, turn, view, (WIDTH - MARGIN, HEIGHT - MARGIN), pieces=32)
                 if view
                 else point(np.linspace(0.0, turn, 201))
             )
-        return found
+        return orbits

@@ -124,10 +124,10 @@ def courses(motions: Sequence[Leaving], omega1: Sequence[float], turns: float, u
     limits = (lowest - pad, highest + pad)
     size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
-    for one, value, role in zip(motions, omega1, LINES, strict=False):
-        pieces = max(PIECES, round(PIECES * stop / one.period))
-        line = flat(one.departure, 0.0, stop, ((0.0, stop), limits), size, pieces=pieces)
-        tangent = np.array([[0.0, 0.0], [1.0, one.speed]]) * min(stop, reach / abs(one.speed)) * 0.5
+    for motion, value, role in zip(motions, omega1, LINES, strict=False):
+        pieces = max(PIECES, round(PIECES * stop / motion.period))
+        line = flat(motion.departure, 0.0, stop, ((0.0, stop), limits), size, pieces=pieces)
+        tangent = np.array([[0.0, 0.0], [1.0, motion.speed]]) * min(stop, reach / abs(motion.speed)) * 0.5
         layers += [
             Curve(tangent, "reference"),
             Curve(line, role, rf"$\omega_1={tex(value)}$"),

@@ -48,13 +48,22 @@ def scene(
     ]
     surfaces = [TopQuadric((1.0, ratio), (float(g > 0), ratio * g), direction, a0, A0) for _, g, a0, A0 in tops]
     # two sheets begin at their vertices, which all must lie inside
-    reach = max(REACH, *(1.4 * float(one.semi_axes[quadrics.sheet_axis(one)]) for one in surfaces if one.D > 0), 0.0)
+    reach = max(
+        REACH,
+        *(1.4 * float(surface.semi_axes[quadrics.sheet_axis(surface)]) for surface in surfaces if surface.D > 0),
+        0.0,
+    )
     members = []
     for number, (quadric, (name, *_)) in enumerate(zip(surfaces, tops, strict=True), 1):
         Q = quadrics.top_matrix(ratio, quadric)
         sheets = quadrics.sheets(quadric, Q, reach, tolerance(2 * reach))
         members.append(Member(sheets, Q, np.asarray(quadric.centre), f"{number} {name}"))
-    depth = max(one.centre[2] - grid[..., 2].min() for one in members for sheet in one.surfaces for grid in sheet.grids)
+    depth = max(
+        surface.centre[2] - grid[..., 2].min()
+        for surface in members
+        for sheet in surface.surfaces
+        for grid in sheet.grids
+    )
     cells = quadric_panel.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)
     plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
     return Scene(

@@ -114,8 +114,8 @@ def bands(
                     safe = np.where(radius > 0.0, radius, 1.0)
                     low, high = (np.arccos(np.clip(c / safe, 0.0, 1.0)) for c in (outer, inner))
                     for half in halves:
-                        one, two = (half * low, half * high) if half else (-high, high)
-                        v = one[:, None] + (two - one)[:, None] * np.linspace(0.0, 1.0, ACROSS)
+                        first, two = (half * low, half * high) if half else (-high, high)
+                        v = first[:, None] + (two - first)[:, None] * np.linspace(0.0, 1.0, ACROSS)
                         canonical = np.zeros((*v.shape, 3))
                         canonical[..., 0] = side * radius[:, None] * np.cos(v)
                         canonical[..., j] = stretch * radius[:, None] * np.sin(v)
@@ -139,10 +139,10 @@ def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, ste
     right, up, _ = frame
     layers: list[Layer] = []
     for k, edge in enumerate(edges):
-        at = corner + k * step * up
+        place = corner + k * step * up
         if k < BANDS:
-            layers.append(solids.rectangle(at + step / 2 * up, 0.45 * step * right, step / 2 * up, role=f"rate_{k}"))
-        layers.append(Label(at + 0.6 * step * right, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
+            layers.append(solids.rectangle(place + step / 2 * up, 0.45 * step * right, step / 2 * up, role=f"rate_{k}"))
+        layers.append(Label(place + 0.6 * step * right, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
     top = corner + (len(edges) - 0.2) * step * up
     return [*layers, Label(top, r"$|\omega_1B'_2|$", "label", (0.0, 3.0))]
 

@@ -129,16 +129,16 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
         (axis, angles(motion, axis)[0], "cone", "space"),
         (E3, angles(motion, axis)[1], "body", "body"),
     )
-    for line, angle, part, word in sides:
+    for line, angle, share, word in sides:
         towards = line * np.copysign(1.0, line @ omega)
         cone = solids.cone(O, towards, angle, 1.0, fine)
-        at, offset = beside(cone.rims[0], omega, view, narrow=angle == min(one[1] for one in sides))
+        place, offset = beside(cone.rims[0], omega, view, narrow=angle == min(side[1] for side in sides))
         found: list[Layer] = [
-            replace(cone, role=part),
+            replace(cone, role=share),
             Curve(np.stack([O, 1.12 * np.cos(angle) * towards]), "construction"),
-            Label(at, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset),
+            Label(place, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset),
         ]
-        layers += riding(found, f"body {name}") if part == "body" else found
+        layers += riding(found, f"body {name}") if share == "body" else found
     free = isinstance(motion, FreeMotion)
     role, letter = ("momentum", r"$\mathbf{m}$") if free else ("field", r"$\mathbf{B}$")
     along = axis * (np.sign(axis @ omega) if free else 1.0)  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis

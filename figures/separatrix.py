@@ -75,14 +75,14 @@ def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[Ge
     I, (B2, B3), b = quotient(ratio), field, float(np.hypot(*field))
     omega3, r, z = float(Hyperbola(ratio, field).omega3(omega2)), B3 / b, ((omega2 + B2) / B2) ** 2 / (1 - I)
     c3, momentum = omega3 + B3, (omega2 + B2) * B2 + I * (omega3 + B3) * B3
-    found = []
+    curves = []
     for side in (1.0, -1.0):
         e = -r + side * float(np.sqrt((1 - z) * (z - r * r) / z))
         K2, K3 = b * float(np.sqrt(max(0.0, 1 - e * e))), b * e
         square = omega2 * omega2 + I * (omega3 * omega3 - (c3 - K3) ** 2)
         w2 = float(np.copysign(np.sqrt(max(0.0, square)), momentum - I * c3 * K3 - K2 * K2))
-        found.append(GeneralMotion(ratio, (K2, K3), (0.0, w2, c3 - K3)))
-    return found
+        curves.append(GeneralMotion(ratio, (K2, K3), (0.0, w2, c3 - K3)))
+    return curves
 
 
 def sphere(motion: GeneralMotion, field: tuple[float, float], last: float, view: tuple[float, float]) -> Space:

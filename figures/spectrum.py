@@ -68,10 +68,10 @@ def stems(
     The frequencies go up to ``top``; without a ``unit`` the axis has no name.
     """
     size = np.sqrt(lines.power / lines.mean_square)
-    kept = lines.frequencies >= 0
-    f, size, numbers = lines.frequencies[kept], size[kept], np.zeros((kept.sum(), 2), dtype=int)
+    positive = lines.frequencies >= 0
+    f, size, numbers = lines.frequencies[positive], size[positive], np.zeros((positive.sum(), 2), dtype=int)
     for i, name in enumerate(lines.names):
-        numbers[:, int(name != "nutation")] = lines.combinations[kept, i]
+        numbers[:, int(name != "nutation")] = lines.combinations[positive, i]
     layers: list[Layer] = []
     for turns, (role, kind) in enumerate(zip(("second", "main"), kinds, strict=True)):
         chosen = np.flatnonzero((numbers[:, 1] != 0) == bool(turns))

@@ -23,7 +23,7 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) and Omega(t) of the top, given as to ``TopMotion``, over ``periods`` of the nutation."""
     motion = TopMotion(inertia, coupling, direction, omega, linear, quadratic)
-    of, words = any_motion.start(omega)
+    moment, words = any_motion.start(omega)
     has = [
         text
         for text, there in (
@@ -35,7 +35,7 @@ def scene(
     ]
     ratio = inertia[1] / inertia[0]
     setting = (
-        f"A top with {', '.join([rf'$I={tex(ratio)}$', *has])} from {of}: {motion.kind}",
+        f"A top with {', '.join([rf'$I={tex(ratio)}$', *has])} from {moment}: {motion.kind}",
         f"The motion of a top with I = {plain(ratio)} from {words}",
     )
     return any_motion.picture(title(__doc__), motion, setting, motion.period, periods, elevation=elevation, unit=unit)

@@ -83,8 +83,8 @@ def periods(
             f"figure torus_of_flows needs a motion on a torus, of three different moments, and not {motion.kind!r}."
         )
     W = tuple(w + k for w, k in zip(motion.omega, motion.field, strict=True))
-    found = Torus(motion.inertia, W, motion.field).lattice.real
-    return sorted(((float(H.real.mid()), float(F.real.mid())) for H, F, _ in found), key=lambda pair: abs(pair[0]))
+    lattice = Torus(motion.inertia, W, motion.field).lattice.real
+    return sorted(((float(H.real.mid()), float(F.real.mid())) for H, F, _ in lattice), key=lambda pair: abs(pair[0]))
 
 
 def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:

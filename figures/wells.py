@@ -73,9 +73,12 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
             layers.append(Curve(line, "component"))
             continue
         down = 0.11 if line[1, 1] == reach else 0.25
-        at, gap = down * line[0] + (1 - down) * line[1], GAP * reach * (line[1] - line[0]) / np.ptp(line[:, 1])
-        layers += [Curve(np.stack([line[0], at - gap]), "component"), Curve(np.stack([at + gap, line[1]]), "component")]
-        layers.append(Label(at, f"${tex(nu)}$", "note"))
+        place, gap = down * line[0] + (1 - down) * line[1], GAP * reach * (line[1] - line[0]) / np.ptp(line[:, 1])
+        layers += [
+            Curve(np.stack([line[0], place - gap]), "component"),
+            Curve(np.stack([place + gap, line[1]]), "component"),
+        ]
+        layers.append(Label(place, f"${tex(nu)}$", "note"))
     layers.append(Curve(envelope(M3, reach), "main"))
     if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
         layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))
@@ -128,12 +131,14 @@ def clipped(polygon: FloatArray, reach: float) -> FloatArray:
         if not len(polygon):
             break
         inside = sign * polygon[:, axis] <= reach
-        kept = []
-        for one, other, here, there in zip(polygon, np.roll(polygon, -1, 0), inside, np.roll(inside, -1), strict=True):
+        corners = []
+        for corner, other, here, there in zip(
+            polygon, np.roll(polygon, -1, 0), inside, np.roll(inside, -1), strict=True
+        ):
             if here:
-                kept.append(one)
+                corners.append(corner)
             if here != there:
-                part = (sign * reach - one[axis]) / (other[axis] - one[axis])
-                kept.append(one + part * (other - one))
-        polygon = np.array(kept).reshape(-1, 2)
+                share = (sign * reach - corner[axis]) / (other[axis] - corner[axis])
+                corners.append(corner + share * (other - corner))
+        polygon = np.array(corners).reshape(-1, 2)
     return polygon

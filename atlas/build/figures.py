@@ -245,10 +245,10 @@ def _put(figure: FigureBuild, out: Path) -> Files:
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
     stem = "-".join([name, *figure.targets])
-    made = {"": {f"{stem}.{kind}": figure.contents[kind] for kind in figure.kinds}}
-    paths, edited = tuple(out / path for path in made[""]), ""
+    files = {"": {f"{stem}.{kind}": figure.contents[kind] for kind in figure.kinds}}
+    paths, edited = tuple(out / path for path in files[""]), ""
     try:
-        publish(made, out, stem)
+        publish(files, out, stem)
     except AtlasError as error:
         edited = str(error)
     return Files(name, paths, figure.facts["renderer"], figure.facts["note"], figure.reason, edited=edited)

@@ -15,7 +15,7 @@ UNFINISHED = ".atlas-"
 """How the folder begins that files stand in until all of them are written, on the disk that they are for."""
 
 
-def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str, known: Iterable[str] = ()) -> None:
+def publish(pages: Mapping[str, Mapping[str, bytes]], out: Path, name: str, known: Iterable[str] = ()) -> None:
     """Write the files of each format, all of them before the first takes its place.
 
     Those below `name`/ take theirs at once: they are a folder that is exchanged with the one before, if the system can
@@ -26,7 +26,7 @@ def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str, known
     in `out`, for a folder without one. Raises AtlasError, with all written, where a file was edited: the new one is
     beside it.
     """
-    contents = {path: content for one in made.values() for path, content in one.items()}
+    contents = {path: content for page in pages.values() for path, content in page.items()}
     inner = f"{name}/"
     inside = {path.removeprefix(inner): content for path, content in contents.items() if path.startswith(inner)}
     lone = {path: content for path, content in contents.items() if not path.startswith(inner)}
@@ -50,7 +50,7 @@ def _pages(inside: Mapping[str, bytes], place: Path, known: set[str], work: Path
     beside = {path: new for path, new in places.items() if new != path}
     foreign = _foreign(place, before, {*places.values()})
     lines = {line for line in before if line[66:] in beside}
-    lines |= {f"{digests[path]}  {one}" for path, new in places.items() for one in (path, new)}
+    lines |= {f"{digests[path]}  {path_of_line}" for path, new in places.items() for path_of_line in (path, new)}
     content = {new: inside[path] for path, new in places.items()}
     _write(content | {WRITTEN: files.listed(lines).encode()}, work)
     whole = not place.is_symlink()

@@ -62,14 +62,14 @@ class Frames:
     def _limited(self, i: int, panel: Panel) -> Panel:
         if isinstance(panel, Space):
             return panel
-        ends = np.array([one[i] for one in self.extents])
+        ends = np.array([extent[i] for extent in self.extents])
         x, y = ((float(ends[:, j].min()), float(ends[:, j].max())) for j in (0, 1))
         return replace(panel, x_limits=x, y_limits=y)
 
     def _hold(self, i: int, window: tuple[float, float]) -> Held:
         """Return the view of a panel in space that all frames have."""
         if (i, window) not in self._held:
-            self._held[i, window] = hold([one[i] for one in self.extents], window)
+            self._held[i, window] = hold([extent[i] for extent in self.extents], window)
         return self._held[i, window]
 
 
@@ -100,11 +100,11 @@ def _extents(scene: Scene) -> Iterator[Extent]:
 def _reduced(panel: Space) -> Space:
     """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
     eye = frame(panel)
-    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)])
+    seen = np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
     along = seen @ np.concatenate([np.eye(3), eye[:2]]).T
     far = seen[np.unique(np.concatenate([along.argmin(axis=0), along.argmax(axis=0)]))]
     names = filter(None, (named(layer, eye) for layer in panel.layers))
-    labels = (Label(at, text, role, offset) for text, at, offset, role in names)
+    labels = (Label(place, text, role, offset) for text, place, offset, role in names)
     return replace(panel, layers=(Points(far, "origin"), *labels))
 
 
@@ -186,12 +186,12 @@ def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -
     """
     check(kind, fps)
     writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
-    with files.named(path), files.keeping(path) as part:
+    with files.named(path), files.keeping(path) as unfinished:
         try:
-            moving.save(part, writer=writer, dpi=dpi)
+            moving.save(unfinished, writer=writer, dpi=dpi)
         except CalledProcessError as error:
-            said = next(iter(error.stderr.splitlines()), "it does not say why")
-            raise OSError(f"ffmpeg could not write {path}: {said}") from error
+            complaint = next(iter(error.stderr.splitlines()), "it does not say why")
+            raise OSError(f"ffmpeg could not write {path}: {complaint}") from error
 
 
 def check(kind: str, fps: float) -> None:

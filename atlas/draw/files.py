@@ -92,8 +92,8 @@ def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
 
     plain = subset.load_font
 
-    def lean(*given: Any, **options: Any) -> Any:
-        font = plain(*given, **options)
+    def lean(*arguments: Any, **options: Any) -> Any:
+        font = plain(*arguments, **options)
         for name in _FOR_TYPESETTERS:
             if name in font:
                 del font[name]
@@ -111,17 +111,17 @@ def _short(svg: str) -> str:
     It is a third as long; what is rounded is each place, not each step, so that roundings don't add up.
     """
 
-    def path(found: re.Match[str]) -> str:
-        at = begun = (0, 0)
+    def path(matched: re.Match[str]) -> str:
+        place = begun = (0, 0)
         last, steps = "", list[str]()
-        for letter, numbers in re.findall(r"([MLQCz])([^MLQCz]*)", found[1]):
+        for letter, numbers in re.findall(r"([MLQCz])([^MLQCz]*)", matched[1]):
             to = [round(100 * float(number)) for number in numbers.split()]
-            if letter == "L" and tuple(to) == at:
+            if letter == "L" and tuple(to) == place:
                 continue
-            step = "".join(_hundredths(n - at[k % 2]) for k, n in enumerate(to))
+            step = "".join(_hundredths(n - place[k % 2]) for k, n in enumerate(to))
             steps.append(step if letter == last else letter.lower() + step.lstrip())
-            at = (to[-2], to[-1]) if to else begun
-            begun, last = (at, "L") if letter == "M" else (begun, letter)
+            place = (to[-2], to[-1]) if to else begun
+            begun, last = (place, "L") if letter == "M" else (begun, letter)
         return f' d="{"".join(steps)}"'
 
     return re.sub(r' d="([^"]+)"', path, svg)

@@ -73,10 +73,10 @@ def library() -> str | None:
 
 def prepare() -> str | None:
     """Tell VTK which window to open and return the library's name, or None when nothing can draw."""
-    found = library()
-    if found in WINDOWS:
-        os.environ[VARIABLE] = WINDOWS[found]
-    return found
+    name = library()
+    if name in WINDOWS:
+        os.environ[VARIABLE] = WINDOWS[name]
+    return name
 
 
 def advice() -> str:

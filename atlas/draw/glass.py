@@ -130,7 +130,7 @@ def glass(view: View, pixel: float) -> Triangles:
             parts.append(_painted(pieces, surface, view, wire=wire))
             ranks.append(places(pieces, forms, own, view.towards) + (_ON_TOP if wire else 0.0))
     order = np.argsort(np.concatenate(ranks), kind="stable")
-    points, normals, colours = (np.concatenate([part[k] for part in parts])[order] for k in range(3))
+    points, normals, colours = (np.concatenate([piece[k] for piece in parts])[order] for k in range(3))
     return points.reshape(-1, 3), normals.reshape(-1, 3), colours.reshape(-1, 4)
 
 

@@ -43,7 +43,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
     `figures` are as for `atlas.draw.viewer.data`.
     """
     small = narrowed(scene)
-    deep = {one.rides for panel in scene.panels if isinstance(panel, Space) for one in _riders(panel)}
+    deep = {layer.rides for panel in scene.panels if isinstance(panel, Space) for layer in _riders(panel)}
     paths = {name: path for name, path in scene.paths.items() if name in deep}
     steps = max([_PLAIN, *(_steps(path, scene.lasts) for path in paths.values())])
     with context(style):
@@ -56,7 +56,7 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
 
 def _riders(panel: Any) -> Iterator[Any]:
     """Yield the layers of a panel that ride on a path."""
-    yield from (one for one in panel.layers if getattr(one, "rides", ""))
+    yield from (layer for layer in panel.layers if getattr(layer, "rides", ""))
 
 
 def _steps(path: Path, lasts: float) -> int:
@@ -80,10 +80,10 @@ def _packed(numbers: FloatArray) -> str:
 
 def _quaternions(R: FloatArray) -> FloatArray:
     """Return unit quaternions (N, 4) of matrices (N, 3, 3), each on the side of the one before."""
-    found = np.roll(of_matrix(R), 1, axis=-1)
-    signs = np.sign(np.einsum("ni,ni->n", found[1:], found[:-1]))
-    found[1:] *= np.cumprod(np.where(signs == 0.0, 1.0, signs))[:, None]
-    return found
+    quaternions = np.roll(of_matrix(R), 1, axis=-1)
+    signs = np.sign(np.einsum("ni,ni->n", quaternions[1:], quaternions[:-1]))
+    quaternions[1:] *= np.cumprod(np.where(signs == 0.0, 1.0, signs))[:, None]
+    return quaternions
 
 
 def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
@@ -105,13 +105,13 @@ def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
     """Return centre and size of a panel, and (kind, from, to, path) of what the viewer has of each layer that rides."""
     view = fit(panel, room)
     counts: Counter[str] = Counter()
-    found = []
+    riding = []
     for layer in view.panel.layers:
         own = Counter(_kinds(layer, view))
         if getattr(layer, "rides", ""):
-            found += [[kind, counts[kind], counts[kind] + count, layer.rides] for kind, count in own.items()]
+            riding += [[kind, counts[kind], counts[kind] + count, layer.rides] for kind, count in own.items()]
         counts += own
-    return [[*(float(f"{x:.7g}") for x in (*view.centre, view.size))], found]
+    return [[*(float(f"{x:.7g}") for x in (*view.centre, view.size))], riding]
 
 
 def _kinds(layer: Layer, view: View) -> Iterator[str]:

@@ -31,7 +31,7 @@ def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]
         edge = _joined(edges)
         if len(edge[0]):
             parts.append((bend * sign >= 0.0, sign > 0.0, edge))
-    return sorted(parts, key=lambda part: part[0])
+    return sorted(parts, key=lambda area: area[0])
 
 
 def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:
@@ -55,10 +55,10 @@ def _edge(grid: FloatArray, height: FloatArray) -> Edge:
 
     Where the mesh closes on itself the edge runs along the seam there and back, which fills nothing.
     """
-    (found,), (codes,) = contour_generator(z=height, fill_type="ChunkCombinedCode").filled(0.0, np.inf)
-    if found is None or codes is None:
+    (outlines,), (codes,) = contour_generator(z=height, fill_type="ChunkCombinedCode").filled(0.0, np.inf)
+    if outlines is None or codes is None:
         return np.empty((0, 3)), np.empty(0, dtype=np.uint8)
-    place = found[:, ::-1]  # row and column, one of them a whole number
+    place = outlines[:, ::-1]  # row and column, one of them a whole number
     corner = np.minimum(place.astype(int), np.array(height.shape) - 2)
     (i, j), (u, v) = corner.T, (place - corner).T[..., None]
     rows = [(1.0 - v) * grid[k, j] + v * grid[k, j + 1] for k in (i, i + 1)]

@@ -180,8 +180,8 @@ def write_names(axes: "Axes", panel: Plane) -> None:
     def places(points: FloatArray) -> FloatArray:
         """Return places in points from the lower left corner; not a number where there is none, and never far away."""
         with np.errstate(all="ignore"):
-            found = axes.transData.transform(np.atleast_2d(np.asarray(points, dtype=float)))
-            return np.asarray(np.clip((found - box.p0) * scale, -_FAR, _FAR))
+            pixels = axes.transData.transform(np.atleast_2d(np.asarray(points, dtype=float)))
+            return np.asarray(np.clip((pixels - box.p0) * scale, -_FAR, _FAR))
 
     tags = []
     for owner, layer in enumerate(panel.layers):
@@ -212,8 +212,8 @@ def _requests(
     elif isinstance(layer, Points):
         yield layer.label, places(layer.points)[:1], (4.0, 4.0), layer.role
     elif isinstance(layer, Curve):
-        found = places(layer.points)
-        seen = found[((found >= -_EDGE) & (found <= np.array(size) + _EDGE)).all(axis=1)]
+        pixels = places(layer.points)
+        seen = pixels[((pixels >= -_EDGE) & (pixels <= np.array(size) + _EDGE)).all(axis=1)]
         if len(seen):
             yield (
                 layer.label,

@@ -47,7 +47,9 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
         elif isinstance(layer, Label) and layer.role in nameless:
             nameless.pop(layer.role).set_label(typeset(layer.text))  # where a user asks for a legend
     axes.set(xlabel=typeset(panel.x_label), ylabel=typeset(panel.y_label))
-    axes.set(**{key: at for key, at in (("xlim", panel.x_limits), ("ylim", panel.y_limits)) if at is not None})
+    axes.set(
+        **{key: limits for key, limits in (("xlim", panel.x_limits), ("ylim", panel.y_limits)) if limits is not None}
+    )
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
     _whole(axes)
@@ -113,10 +115,10 @@ def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
     raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
 
 
-def gid(layer: Layer, panel: int, place: int, part: int = 1) -> str:
+def gid(layer: Layer, panel: int, place: int, piece: int = 1) -> str:
     """Return the group id of what is drawn for a layer: ROLE-PANEL-LAYER, and the number of a further part of it."""
     name = f"{getattr(layer, 'role', 'map')}-{panel}-{place}"
-    return name if part == 1 else f"{name}-{part}"
+    return name if piece == 1 else f"{name}-{piece}"
 
 
 def marker(role: str, ring: str = "") -> dict[str, Any]:

@@ -96,8 +96,8 @@ def _tubes(points: FloatArray, look: Style, view: View) -> Iterator[pv.PolyData]
         step = np.diff(fine, axis=0)
         step /= np.linalg.norm(step, axis=1, keepdims=True)
         corners = np.flatnonzero(np.sum(step[1:] * step[:-1], axis=1) < _SHARP) + 1
-        for part in np.split(np.arange(len(fine)), corners):
-            piece = fine[part[0] : part[-1] + 2]
+        for piece_indices in np.split(np.arange(len(fine)), corners):
+            piece = fine[piece_indices[0] : piece_indices[-1] + 2]
             yield pv.lines_from_points(piece).tube(radius=0.5 * look.tube / view.scale, n_sides=_SIDES)
         for corner in fine[corners]:
             yield _ball(corner, look, view)

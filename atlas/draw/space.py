@@ -64,8 +64,8 @@ def window(axes: Axes) -> tuple[float, float]:
 
 def write_names(axes: Axes, view: View, ink: list[tuple[FloatArray, float]]) -> None:
     """Write the names of a panel clear of the ink: points (N, 2) and how much it hurts to cover one of them."""
-    points = np.concatenate([np.empty((0, 2)), *(part for part, _ in ink)])
-    weights = np.concatenate([np.empty(0), *(np.full(len(part), weight) for part, weight in ink)])
+    points = np.concatenate([np.empty((0, 2)), *(points_of_layer for points_of_layer, _ in ink)])
+    weights = np.concatenate([np.empty(0), *(np.full(len(points_of_layer), weight) for points_of_layer, weight in ink)])
     edges = (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0)
     write(axes, view.tags, place(view.tags, points, weights, edges))
 
@@ -83,7 +83,7 @@ class _Drawing:
 
     def begin(self, layer: Layer, panel: int, place: int) -> None:
         """Go on to a layer: its parts are named after it."""
-        self._names = (gid(layer, panel, place, part) for part in count(1))
+        self._names = (gid(layer, panel, place, piece) for piece in count(1))
 
     def finish(self) -> None:
         """Put the lines into the axes, those of one layer and look together."""
@@ -100,7 +100,7 @@ class _Drawing:
         """
         look, view = style_of(surface.role), self.view
         opaque = look.fill == 1.0
-        parts = [part for part in areas(surface, view.towards) if part[0] or not opaque]
+        parts = [area for area in areas(surface, view.towards) if area[0] or not opaque]
         for near, outer, edge in parts:
             colour = look.colour if outer or not look.back else look.back
             self._area(edge, colour, look.fill if near else 0.5 * look.fill, _TINT if outer or not opaque else _INSIDE)

@@ -118,14 +118,14 @@ def dashes(pattern: Sequence[float]) -> Any:
 @contextmanager
 def _complaints() -> Iterator[list[str]]:
     """Collect what Matplotlib says of a style sheet's lines that it leaves out, in place of printing it."""
-    said: list[str] = []
+    messages: list[str] = []
     logger, handler = logging.getLogger("matplotlib"), logging.Handler(logging.WARNING)
-    handler.emit = lambda record: said.append(record.getMessage())  # type: ignore[method-assign]  # the way to a list
+    handler.emit = lambda record: messages.append(record.getMessage())  # type: ignore[method-assign]  # the way to a list
     before = logger.propagate
     logger.propagate = False
     logger.addHandler(handler)
     try:
-        yield said
+        yield messages
     finally:
         logger.removeHandler(handler)
         logger.propagate = before
@@ -139,36 +139,36 @@ def _sheet() -> Any:
     return mpl.rc_params_from_file(SHEET, use_default_template=False)
 
 
-def _apply(one: Any) -> None:
+def _apply(style: Any) -> None:
     """Apply one style of a user."""
     import matplotlib as mpl
     import matplotlib.style
 
-    if isinstance(one, str) and one not in mpl.style.library:
+    if isinstance(style, str) and style not in mpl.style.library:
         with suppress(ImportError):
             import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
-    cannot, unknown = f"the style {str(one)!r} cannot be used", "it is no file, nor a name of Matplotlib's"
-    if isinstance(one, str | Path) and Path(one).exists() and not Path(one).is_file():
+    cannot, unknown = f"the style {str(style)!r} cannot be used", "it is no file, nor a name of Matplotlib's"
+    if isinstance(style, str | Path) and Path(style).exists() and not Path(style).is_file():
         raise AtlasError(f"{cannot}: {unknown}.")
     try:
-        with _complaints() as said:
-            mpl.style.use(one)
+        with _complaints() as messages:
+            mpl.style.use(style)
     except OSError as error:
         raise AtlasError(f"{cannot}: {unknown}.") from error
     except UnicodeDecodeError as error:
         raise AtlasError(f"{cannot}: it is no text in UTF-8.") from error
     except (LookupError, ValueError, TypeError, ImportError) as error:
         raise AtlasError(f"{cannot}: {error}") from error
-    if said:  # without the advice below, which is about Matplotlib's own file
-        raise AtlasError(f"{cannot}: {said[0].strip().splitlines()[0]}")
+    if messages:  # without the advice below, which is about Matplotlib's own file
+        raise AtlasError(f"{cannot}: {messages[0].strip().splitlines()[0]}")
 
 
 def _use(styles: Sequence[Any]) -> None:
     """Apply a user's styles one after the other."""
     import matplotlib as mpl
 
-    for one in styles:
-        _apply(one)
+    for own in styles:
+        _apply(own)
     for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend
         if isinstance(value, float) and not isfinite(value):
             raise AtlasError(f"the style sets {name} to {value}, which is no number to draw with.")
@@ -181,9 +181,9 @@ def style_of(role: str) -> Style:
     import matplotlib as mpl
     from matplotlib.colors import to_hex
 
-    found = style(role)
+    look = style(role)
     if role not in LINES:
-        return found
+        return look
     cycle = list(mpl.rcParams["axes.prop_cycle"])
     line = cycle[LINES.index(role) % len(cycle)]
     width, dashes = line.get("linewidth", mpl.rcParams["lines.linewidth"]), line.get("linestyle", "-")
@@ -191,4 +191,4 @@ def style_of(role: str) -> Style:
         dash = mpl.rcParams.get(f"lines.{_DASHES.get(dashes, dashes)}_pattern", ())
     else:
         dash = dashes[1] or ()
-    return replace(found, colour=to_hex(line.get("color", found.colour)), width=width, dash=tuple(dash))
+    return replace(look, colour=to_hex(line.get("color", look.colour)), width=width, dash=tuple(dash))

@@ -11,8 +11,8 @@ _SET = re.compile(r"\$[^$]*\$|'")
 def typeset(text: str) -> str:
     """Write primes as the character, as mathtext's own superscript stands too far from its letter, and apostrophes."""
 
-    def character(found: re.Match[str]) -> str:
-        math = found[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′")
+    def character(matched: re.Match[str]) -> str:
+        math = matched[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′")
         return "’" if math == "'" else math.replace("'", "′")
 
     return _SET.sub(character, text)

@@ -33,11 +33,11 @@ def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
 
 
 def _scaled(layer: Layer, centre: FloatArray, size: float) -> Layer:
-    found = moved(layer, np.eye(3) / size, -centre / size)
-    if isinstance(found, Surface):
-        forms = [form / np.abs(form).max() for form in (found.quadric, *found.within)]
-        found = replace(found, quadric=forms[0], within=tuple(forms[1:]), clip=found.clip / size)
-    return found
+    layer_scaled = moved(layer, np.eye(3) / size, -centre / size)
+    if isinstance(layer_scaled, Surface):
+        forms = [form / np.abs(form).max() for form in (layer_scaled.quadric, *layer_scaled.within)]
+        layer_scaled = replace(layer_scaled, quadric=forms[0], within=tuple(forms[1:]), clip=layer_scaled.clip / size)
+    return layer_scaled
 
 
 _MARGIN = 4.0
@@ -116,8 +116,8 @@ def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> 
     panel = scaled(panel, held.centre, held.size)
     eye = frame(panel)
 
-    def on_paper(at: tuple[float, float]) -> tuple[float, float]:
-        x, y = held.scale * np.array(at) + held.shift
+    def on_paper(place: tuple[float, float]) -> tuple[float, float]:
+        x, y = held.scale * np.array(place) + held.shift
         return float(x), float(y)
 
     tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
@@ -127,7 +127,7 @@ def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> 
 
 def _seen(panel: Space) -> FloatArray:
     """Return all the points of a panel that must be seen, (N, 3)."""
-    return np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+    return np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in _parts(layer)])
 
 
 def _ends(panel: Space) -> FloatArray:
@@ -148,9 +148,9 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
     """Yield the names that a layer wants written; their anchors are on paper at scale 1."""
     request = named(layer, eye)
     if request is not None:
-        text, at, offset, role = request
+        text, place, offset, role = request
         size = points("axes.labelsize" if role == "note" else "font.size")
-        first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(at) @ eye[:2].T)
+        first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(place) @ eye[:2].T)
         yield Tag(text, first, offset, extent(text, size), readable(style_of(role).colour), size, tuple(elsewhere))
 
 

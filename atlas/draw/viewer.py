@@ -71,14 +71,14 @@ def _laid_out(
         for box, panel in zip(boxes, scene.panels, strict=True)
         if isinstance(panel, Space)
     ]
-    found: dict[str, Any] = {"places": [_place(box, view) for box, view in views]}
-    return found if same else found | {"panels": [_panel(view, texts) for _, view in views]}
+    record: dict[str, Any] = {"places": [_place(box, view) for box, view in views]}
+    return record if same else record | {"panels": [_panel(view, texts) for _, view in views]}
 
 
 def _deep(panel: Space) -> bool:
     """Tell whether a panel is more than a drawing across the direction of view."""
     depth = (
-        np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)])
+        np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
         @ frame(panel)[2]
     )
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
@@ -92,29 +92,29 @@ def _place(box: Bbox, view: View) -> list[float]:
 
 def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
     """Return what is in a panel; its texts are numbers of those that all panels share."""
-    found: dict[str, Any] = {"frame": _list(view.frame)}
+    record: dict[str, Any] = {"frame": _list(view.frame)}
     # a glare would falsify a colour that is a class of a value
-    found["matt"] = int(any(surface.role.startswith("rate_") for surface in view.surfaces))
-    found["surfaces"] = [_surface(surface) for surface in view.surfaces]
-    found |= {kind: [] for kind in ("lines", "wires", "arrows", "dots", "names")}
+    record["matt"] = int(any(surface.role.startswith("rate_") for surface in view.surfaces))
+    record["surfaces"] = [_surface(surface) for surface in view.surfaces]
+    record |= {kind: [] for kind in ("lines", "wires", "arrows", "dots", "names")}
     for layer in view.panel.layers:
         for kind, entry in solids(layer, view):
-            found[kind].append(entry)
+            record[kind].append(entry)
         request = named(layer, view.frame)
         if request:
-            text, at, offset, role = request
+            text, place, offset, role = request
             size = points("axes.labelsize" if role == "note" else "font.size")
             number = texts.setdefault((text, size), len(texts))
             beyond = isinstance(layer, Arrow) and not layer.offset
             stands = _list(layer.tail) if beyond else [*map(_short, offset)]
-            found["names"].append([number, readable(style_of(role).colour), _list(np.atleast_2d(at)), stands])
-    return found
+            record["names"].append([number, readable(style_of(role).colour), _list(np.atleast_2d(place)), stands])
+    return record
 
 
 def _surface(surface: Surface) -> list[Any]:
     """Return quadric, half spaces, quadrics within which it lies, both colours, opacity, and the corners of a box."""
     look = style_of(surface.role)
-    seen = np.concatenate([np.reshape(part, (-1, 3)) for part in (*surface.grids, *surface.rims)])
+    seen = np.concatenate([np.reshape(points, (-1, 3)) for points in (*surface.grids, *surface.rims)])
     box = seen.min(axis=0) - 1e-3, seen.max(axis=0) + 1e-3
     within = [_form(quadric) for quadric in surface.within]
     return [

@@ -84,9 +84,9 @@ def _add_names(plotter: pv.Plotter, view: View) -> None:
     """Add the names as labels that keep their size and stay in front; formulas are set by Matplotlib."""
     import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
 
-    found = [named(layer, view.frame) for layer in view.panel.layers]
-    places = [view.centre + view.size * np.atleast_2d(at)[0] for _, at, _, _ in filter(None, found)]
-    texts = [typeset(text) for text, _, _, _ in filter(None, found)]
+    requests = [named(layer, view.frame) for layer in view.panel.layers]
+    places = [view.centre + view.size * np.atleast_2d(place)[0] for _, place, _, _ in filter(None, requests)]
+    texts = [typeset(text) for text, _, _, _ in filter(None, requests)]
     if texts:
         plotter.add_point_labels(
             places, texts, font_size=_LABEL, show_points=False, shape=None, always_visible=True, reset_camera=False

@@ -13,7 +13,7 @@ __all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled"]
 
 FAMILIES: Mapping[str, Family] = MappingProxyType(
     {
-        one.FAMILY.name: one.FAMILY
-        for one in (elementary, general, top, elliptic, asymmetric, free, hyperbola, quadric, ball, particle)
+        module.FAMILY.name: module.FAMILY
+        for module in (elementary, general, top, elliptic, asymmetric, free, hyperbola, quadric, ball, particle)
     }
 )  # fmt: skip

@@ -18,9 +18,9 @@ def _balls() -> Any:
     return AsymmetricMotion
 
 
-def _proven(made: Any) -> str:
+def _proven(motion: Any) -> str:
     """Return what is known of the digits of balls."""
-    del made
+    del motion
     return "every digit is proven"
 
 

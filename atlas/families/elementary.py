@@ -24,30 +24,30 @@ def _balls() -> Any:
     return ElementaryMotion
 
 
-def _stability(made: Any) -> Any:
+def _stability(motion: Any) -> Any:
     """Return the square of the frequency of small nutations: of the hyperbola, at the motion's omega2."""
     from atlas.core.surfaces.hyperbola import Hyperbola
 
-    return Hyperbola(made.ratio, made.field).stability(made.omega2)
+    return Hyperbola(motion.ratio, motion.field).stability(motion.omega2)
 
 
-def _exact_stability(made: Any) -> Any:
+def _exact_stability(motion: Any) -> Any:
     from atlas.exact.surfaces.hyperbola import Hyperbola
 
-    return Hyperbola(made.I, (made.B2, made.B3)).stability(made.omega2)
+    return Hyperbola(motion.I, (motion.B2, motion.B3)).stability(motion.omega2)
 
 
-def _verdict(made: Any) -> str:
+def _verdict(motion: Any) -> str:
     """Say whether the motion, one alone, is stable against nutation: decided without rounding."""
     from atlas.exact.surfaces.hyperbola import Hyperbola
 
-    return _stable(Hyperbola(made.ratio, made.field), made.omega2)
+    return _stable(Hyperbola(motion.ratio, motion.field), motion.omega2)
 
 
-def _exact_verdict(made: Any) -> str:
+def _exact_verdict(motion: Any) -> str:
     from atlas.exact.surfaces.hyperbola import Hyperbola
 
-    return _stable(Hyperbola(made.I, (made.B2, made.B3)), made.omega2)
+    return _stable(Hyperbola(motion.I, (motion.B2, motion.B3)), motion.omega2)
 
 
 def _stable(curve: Any, omega2: Any) -> str:

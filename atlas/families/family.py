@@ -74,9 +74,9 @@ class Quantity:
     tabled: bool = True
     slow: bool = False
 
-    def value(self, made: Any, *, exact: bool = False) -> Any:
+    def value(self, thing: Any, *, exact: bool = False) -> Any:
         """Return the value of the quantity of an object of kernels or, if `exact`, of balls."""
-        return ((exact and self.exact) or self.get or attrgetter(self.name))(made)
+        return ((exact and self.exact) or self.get or attrgetter(self.name))(thing)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -103,9 +103,9 @@ class Sampled:
     components: tuple[str, ...] = ()
     uncertified: bool = False
 
-    def method_of(self, made: Any) -> Callable[[Any], Any]:
+    def method_of(self, motion: Any) -> Callable[[Any], Any]:
         """Return the function of time."""
-        method: Callable[[Any], Any] = getattr(made, self.method)
+        method: Callable[[Any], Any] = getattr(motion, self.method)
         return method
 
     @property
@@ -124,12 +124,12 @@ class Sampled:
         return {f"{self.name}{x}": partial(_component, self.method, i) for i, x in enumerate(self.components or "123")}
 
 
-def _entry(i: int, j: int, made: Any, t: Any) -> Any:
-    return made.column(j, t)[..., i - 1]
+def _entry(i: int, j: int, motion: Any, t: Any) -> Any:
+    return motion.column(j, t)[..., i - 1]
 
 
-def _component(method: str, i: int, made: Any, t: Any) -> Any:
-    return getattr(made, method)(t)[..., i]
+def _component(method: str, i: int, motion: Any, t: Any) -> Any:
+    return getattr(motion, method)(t)[..., i]
 
 
 @dataclass(frozen=True)

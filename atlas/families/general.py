@@ -36,7 +36,7 @@ FAMILY = Family(
         ),
         Quantity(
             "roots", "of Q(Omega3)", RATE, tabled=False,
-            get=lambda made: [[z.real, z.imag] for z in made.roots if abs(float(z.real)) != float("inf")],
+            get=lambda motion: [[z.real, z.imag] for z in motion.roots if abs(float(z.real)) != float("inf")],
             text=lambda roots: ", ".join(_complex(*z) for z in roots) or "none",
         ),
         Quantity("period", "period of nutation", TIME, certified=True),

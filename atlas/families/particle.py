@@ -61,7 +61,7 @@ FAMILY = Family(
             "(94)",
             text=in_brackets,
             tabled=False,
-            get=lambda made: made.drift if made.cyclotron_frequency != 0 else None,
+            get=lambda motion: motion.drift if motion.cyclotron_frequency != 0 else None,
         ),
     ),
     (

@@ -60,8 +60,8 @@ def rates(axis: str) -> tuple[Quantity, ...]:
     )
 
 
-def _mean(name: str, made: Any) -> Any:
-    return getattr(made, name) / made.period
+def _mean(name: str, motion: Any) -> Any:
+    return getattr(motion, name) / motion.period
 
 
 def in_brackets(parts: Any) -> str:
@@ -87,9 +87,9 @@ def integrals(letter: str) -> tuple[Quantity, ...]:
     )  # fmt: skip
 
 
-def _integral(key: str, made: Any) -> Any:
-    return made.invariants()[key]
+def _integral(key: str, motion: Any) -> Any:
+    return motion.invariants()[key]
 
 
-def _constant(key: str, made: Any) -> Any:
-    return made.invariants[key]
+def _constant(key: str, motion: Any) -> Any:
+    return motion.invariants[key]

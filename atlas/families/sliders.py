@@ -28,12 +28,12 @@ TIME = Slider("t", "time", 0.0, 60.0, 0.05, 0.0)
 
 def sliders_of(family: Family) -> list[Slider]:
     """Return the sliders of all parameters that have a start in the register, and of the time, if it has any."""
-    found = [
+    sliders = [
         Slider(name, p.says, *p.range, step_of(*p.range), start, letters(name))
         for p in family.parameters
         for name, start in zip(p.names, p.default, strict=bool(p.default))
     ]
-    return [*found, *([TIME] if any(one.name == "R" for one in family.sampled) else [])]
+    return [*sliders, *([TIME] if any(sampled.name == "R" for sampled in family.sampled) else [])]
 
 
 def step_of(low: float, high: float) -> float:

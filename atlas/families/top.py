@@ -18,14 +18,14 @@ def _balls() -> Any:
     return TopMotion
 
 
-def _rates(made: Any) -> Any:
+def _rates(motion: Any) -> Any:
     """Return the rates of the steady precessions, of which there are two at most."""
-    return [one.rate for one in made.steady_precessions] or "none"
+    return [precession.rate for precession in motion.steady_precessions] or "none"
 
 
-def _stability(made: Any) -> str:
+def _stability(motion: Any) -> str:
     """Return "stable" or "unstable"."""
-    return {True: "stable", False: "unstable", None: "not steady"}[made.stable]
+    return {True: "stable", False: "unstable", None: "not steady"}[motion.stable]
 
 
 FAMILY = Family(

@@ -62,8 +62,8 @@ def check_ratio(I: Number) -> None:
 
 def check_moments(I2: Number, I3: Number) -> None:
     """Raise DomainError for moments of inertia that no symmetric top has."""
-    wrong = (I2 <= 0) | (I3 <= 0) | (I3 > 2 * I2)
-    refuse(wrong, "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2.", I2, I3)
+    impossible = (I2 <= 0) | (I3 <= 0) | (I3 > 2 * I2)
+    refuse(impossible, "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2.", I2, I3)
 
 
 def check_direction(n2: Number, n3: Number) -> None:
@@ -81,8 +81,8 @@ def check_shape(name: str, shapes: Any, names: Any, dimensions: Any) -> None:
     if name not in shapes:
         raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(shapes)}.")
     if set(dimensions) != set(names(name)):
-        given = ", ".join(dimensions) or "nothing"
-        raise AtlasError(f"The shape {name} is given by {', '.join(names(name))}, not by {given}.")
+        dimensions_given = ", ".join(dimensions) or "nothing"
+        raise AtlasError(f"The shape {name} is given by {', '.join(names(name))}, not by {dimensions_given}.")
 
 
 def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> str:
@@ -102,15 +102,15 @@ def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> s
     return "ball, free spin"
 
 
-def check_omega3(case: str, given: Number | None, curve: Number) -> None:
+def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
     """Raise DomainError if omega3 is not given where it is free, or is where it follows from (71)."""
     if case in CASES[:FREE]:
-        refuse(given is None, f"In the case {case!r} omega3 is free: give it.")
-    elif given is not None and written(given) != written(curve):
+        refuse(omega3 is None, f"In the case {case!r} omega3 is free: give it.")
+    elif omega3 is not None and written(omega3) != written(curve):
         refuse(
             True,
             f"omega3 follows from omega2 by (71) and is {written(curve)}, not {{}}: leave it out.",
-            given,
+            omega3,
         )
 
 

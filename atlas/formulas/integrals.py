@@ -40,12 +40,12 @@ def constants(I2: Number, I3: Number, *state: Number) -> tuple[Number, ...]:
     return *integrals(I, Omega, K, factors), along_field(I, [w + k for w, k in zip(Omega, K, strict=True)], K)
 
 
-def clebsch(*given: Number) -> tuple[Number, ...]:
+def clebsch(*numbers: Number) -> tuple[Number, ...]:
     """Return 2 H, F, (M, K), K^2 and twice the kinetic energy, theorem-clebsch.
 
     Of nine entries of the inertia tensor J, three components of Omega and three of K; M = J (Omega + K).
     """
-    J, Omega, K = (given[0:3], given[3:6], given[6:9]), given[9:12], given[12:15]
+    J, Omega, K = (numbers[0:3], numbers[3:6], numbers[6:9]), numbers[9:12], numbers[12:15]
     W = [w + k for w, k in zip(Omega, K, strict=True)]
     M, cofactors = _times(J, W), (cross(J[1], J[2]), cross(J[2], J[0]), cross(J[0], J[1]))
     F = dot(M, M) - dot(K, _times(cofactors, K))

@@ -52,8 +52,8 @@ Value = TypeVar("Value")
 class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
     """A property that is kept for the precision of the moment."""
 
-    def __init__(self, of: Callable[[Any], Value]) -> None:
-        self._of, self.__doc__ = of, of.__doc__
+    def __init__(self, function: Callable[[Any], Value]) -> None:
+        self._of, self.__doc__ = function, function.__doc__
 
     def __set_name__(self, _: type, name: str) -> None:
         self._place = f"{name} by precision"
@@ -136,8 +136,8 @@ def unit(vector: Vector) -> list[Number]:
 def alone(formula: Callable[..., Any], *inputs: float) -> Any:
     """Evaluate a formula on floats, which are taken as exact; each result is rounded once."""
     with workprec():
-        found = formula(*map(rational, inputs))
-        return [nearest(x) for x in found] if isinstance(found, tuple | list) else nearest(found)
+        values = formula(*map(rational, inputs))
+        return [nearest(x) for x in values] if isinstance(values, tuple | list) else nearest(values)
 
 
 def nearest(x: fmpq | arb) -> float:

@@ -111,5 +111,5 @@ def velocity(v: Any, a: Any, t: Number, cos: Number, sin: Number, s: Number, g: 
 
 def _split(mu: Number, B: Vector, v: Vector) -> Vector:
     b2, side = dot(B, B), cross(B, v)
-    part, b = dot(B, v) / b2, length(*B)
-    return [*(part * x for x in B), *(x / b2 for x in cross(side, B)), *(select(mu, -x, x) / b for x in side)]
+    share, b = dot(B, v) / b2, length(*B)
+    return [*(share * x for x in B), *(x / b2 for x in cross(side, B)), *(select(mu, -x, x) / b for x in side)]

@@ -13,8 +13,8 @@ from atlas.formulas.numbers import Number, length, root
 def of_given(formula: Callable[..., Any]) -> Callable[..., Any]:
     """Return a formula of I2, I3, k2, k3, n2, n3, a0, A0 as they are given, n of any length, and of what follows."""
 
-    def of(*given: Number) -> Any:
-        I2, I3, k2, k3, n2, n3, a0, A0, *more = given
+    def of(*numbers: Number) -> Any:
+        I2, I3, k2, k3, n2, n3, a0, A0, *more = numbers
         size = length(n2, n3)
         return formula(I3 / I2, k2 / I2, k3 / I2, n2 / size, n3 / size, a0 / I2, A0 / I2, *more)
 
@@ -46,15 +46,15 @@ def excess(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number
     return n3 * (turn * (k3 + turn - (k2 + k2)) + A0) + a0
 
 
-def D(*given: Number) -> Number:
+def D(*numbers: Number) -> Number:
     """Return D, for n3 not zero."""
-    return excess(*given) / given[4]
+    return excess(*numbers) / numbers[4]
 
 
-def semi_axes(*given: Number) -> tuple[Number, Number, Number]:
+def semi_axes(*numbers: Number) -> tuple[Number, Number, Number]:
     """Return the roots of |D| n2^2 (1, |a2|, |a3|)."""
-    I, _, _, n2, n3, *_ = given
-    square, body = abs(D(*given)) * n2 * n2, (n2 / n2, I, n2, n3)
+    I, _, _, n2, n3, *_ = numbers
+    square, body = abs(D(*numbers)) * n2 * n2, (n2 / n2, I, n2, n3)
     return root(square), root(square * abs(quadric.a2(*body))), root(square * abs(quadric.a3(*body)))
 
 

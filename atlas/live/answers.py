@@ -81,14 +81,14 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
     for q in family.quantities:
         try:
             if balls is None and q.slow:
-                text, sure = "", "when the sliders rest"
+                text, certain = "", "when the sliders rest"
             elif balls is not None and _has(balls, q):
-                text, sure = _certified(q, balls)
+                text, certain = _certified(q, balls)
             else:
-                text, sure = _double(q, kernels, family.promises.get(q.checked, 0.0))
+                text, certain = _double(q, kernels, family.promises.get(q.checked, 0.0))
         except DomainError as reason:
-            text, sure = "none", str(reason)
-        yield {"name": letters(q.symbol or q.name), "says": q.says, "value": text, "sure": sure, "unit": q.unit}
+            text, certain = "none", str(reason)
+        yield {"name": letters(q.symbol or q.name), "says": q.says, "value": text, "sure": certain, "unit": q.unit}
 
 
 def _has(balls: Any, q: Quantity) -> bool:
@@ -124,5 +124,5 @@ def _written(value: Any) -> Any:
     if isinstance(value, complex):
         return [_written(value.real), _written(value.imag)]
     if isinstance(value, tuple | list) or np.ndim(value):
-        return [_written(one) for one in value]
+        return [_written(item) for item in value]
     return value if isinstance(value, str | None) else f"{float(value):.6g}"

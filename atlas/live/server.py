@@ -142,8 +142,8 @@ def _subjects(server: Explorer, _query: dict[str, str]) -> Content:
 
 
 def _sliders(_server: Explorer, query: dict[str, str]) -> Content:
-    one = subject(query.get("subject", ""))
-    return json.dumps({"title": one.title, "sliders": [asdict(slider) for slider in one.sliders]}).encode(), JSON
+    chosen = subject(query.get("subject", ""))
+    return json.dumps({"title": chosen.title, "sliders": [asdict(slider) for slider in chosen.sliders]}).encode(), JSON
 
 
 def _state(_server: Explorer, query: dict[str, str]) -> Content:

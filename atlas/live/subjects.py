@@ -35,7 +35,7 @@ class OfFamily:
     @property
     def moves(self) -> bool:
         """Whether it has a rotation matrix, so that a body can be shown at a time."""
-        return any(one.name == "R" for one in self.family.sampled)
+        return any(sampled.name == "R" for sampled in self.family.sampled)
 
     @cached_property
     def sliders(self) -> list[Slider]:
@@ -51,8 +51,8 @@ class OfFamily:
             if not p.default:
                 yield p.name, (p.omitted,) * len(p.names) if p.columns else p.omitted
             else:
-                given = tuple(values[name] for name in p.names)
-                yield p.name, given if p.columns else given[0]
+                components = tuple(values[name] for name in p.names)
+                yield p.name, components if p.columns else components[0]
 
     def kernels(self, values: Mapping[str, float]) -> Any:
         """Return what the kernels make of it, for picture and numbers, and for the next time t."""
@@ -73,8 +73,8 @@ class OfFamily:
         """Return the command line that gives the same numbers, or the line of Python where there is none."""
         arguments = self.arguments(values)
         if self.family.command is None:
-            made = ", ".join(f"{key}={value!r}" for key, value in arguments.items() if value is not None)
-            return f"atlas.{self.family.kernels().__name__}({made})"
+            call = ", ".join(f"{key}={value!r}" for key, value in arguments.items() if value is not None)
+            return f"atlas.{self.family.kernels().__name__}({call})"
         words = ["atlas", self.family.command.name]
         for p in self.family.parameters:
             value = arguments[p.name]
@@ -102,7 +102,7 @@ class OfRecipe:
     @cached_property
     def sliders(self) -> list[Slider]:
         """The sliders of all numbers and lists of numbers that have a default."""
-        return [one for key, default in self.recipe.parameters.items() for one in self._slider(key, default)]
+        return [slider for key, default in self.recipe.parameters.items() for slider in self._slider(key, default)]
 
     def _slider(self, key: str, default: Any) -> Iterator[Slider]:
         parts = default if isinstance(default, tuple) else (default,)
@@ -119,14 +119,14 @@ class OfRecipe:
 
     def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
         """Return the parameters of the recipe."""
-        found: dict[str, Any] = {}
+        parameters: dict[str, Any] = {}
         for key, default in self.recipe.parameters.items():
             parts = default if isinstance(default, tuple) else (default,)
-            names = [one.name for one in self._slider(key, default)]
+            names = [slider.name for slider in self._slider(key, default)]
             if names:
-                given = tuple(type(x)(values[name]) for name, x in zip(names, parts, strict=True))
-                found[key] = given if isinstance(default, tuple) else given[0]
-        return found
+                components = tuple(type(x)(values[name]) for name, x in zip(names, parts, strict=True))
+                parameters[key] = components if isinstance(default, tuple) else components[0]
+        return parameters
 
     def scene(self, values: Mapping[str, float]) -> Scene:
         """Return the scene of the figure."""
@@ -172,6 +172,6 @@ def subject(name: str) -> Subject:
 def everything() -> dict[str, list[tuple[str, str]]]:
     """Return name and title of all families and all figures."""
     return {
-        "families": [(one.name, one.says) for one in FAMILIES.values()],
+        "families": [(family.name, family.says) for family in FAMILIES.values()],
         "figures": [(FIGURE * (name in FAMILIES) + name, recipes.title(name)) for name in recipes.names()],
     }

@@ -34,8 +34,8 @@ def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iter
         for p, value in zip(swept.family.parameters, shown.arguments.values(), strict=True):
             if value is not None:
                 parts = np.moveaxis(np.asarray(value), -1, 0) if p.last else value if p.columns else [value]
-                for name, part in zip(p.names, parts, strict=True):
-                    yield name, np.broadcast_to(getattr(part, "ratio", part), shape).ravel()
+                for name, component in zip(p.names, parts, strict=True):
+                    yield name, np.broadcast_to(getattr(component, "ratio", component), shape).ravel()
     for name in known if names is None else names:
         if name not in known:
             raise unknown("quantity", name, known, f"of a {type(shown).__name__}")
@@ -57,11 +57,11 @@ def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) 
         if name not in known:
             raise unknown("quantity", name, known, f"at a time of a {type(shown).__name__}")
     wanted = tuple(known if names is None else names)
-    found = {
+    columns = {
         s.name: s.method_of(shown)(t).reshape(t.size, len(s.columns))
         for s in swept.family.sampled
         if {*s.columns} & {*wanted}
     }
     yield "t", t
     for name in wanted:
-        yield name, found[known[name].name][:, [*known[name].columns].index(name)]
+        yield name, columns[known[name].name][:, [*known[name].columns].index(name)]

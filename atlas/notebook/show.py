@@ -31,9 +31,9 @@ Row = tuple[str, str, str | Number, str, str, str]
 
 def html(shown: Shown) -> str:
     """Return what makes an object, the picture, and the table; arrays and what has no family have no table."""
-    found = rows(shown)
-    heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in found)])
-    table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if found else ""
+    lines = rows(shown)
+    heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in lines)])
+    table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if lines else ""
     beside = f"{table}{picture(shown)}"
     head = f'<pre style="word-break:normal">{escape(repr(shown))}</pre>'
     return f"{head}{f'{FLOW}{beside}</div>' if beside else ''}"
@@ -98,9 +98,9 @@ def _line(tag: str, cells: Sequence[str]) -> str:
 
 
 def _cells(row: Row) -> list[str]:
-    says, name, value, unit, equation, sure = row
+    says, name, value, unit, equation, certain = row
     number = value.words() if isinstance(value, Number) else value
-    return [_html(part) for part in (says, name, number, "" if unit == "1" else unit, equation, sure)]
+    return [_html(cell) for cell in (says, name, number, "" if unit == "1" else unit, equation, certain)]
 
 
 def _html(markdown: str) -> str:

@@ -40,17 +40,21 @@ def read(path: Path) -> Bibliography:
     if not keys:
         raise AtlasError(f"the bibliography {path} has no entry.")
     cited = [{"t": "Cite", "c": [[_citation(key, mode)], []]} for mode in _MODES for key in keys]
-    document = {"pandoc-api-version": pandoc.api(), "meta": {}, "blocks": [{"t": "Plain", "c": [one]} for one in cited]}
+    document = {
+        "pandoc-api-version": pandoc.api(),
+        "meta": {},
+        "blocks": [{"t": "Plain", "c": [citation]} for citation in cited],
+    }
     arguments = ["-f", "json", "-t", "json", "--citeproc", f"--bibliography={path}"]
     *plain, listed = json.loads(pandoc.run(arguments, json.dumps(document)))["blocks"]
-    words = [_words(one["c"][0]["c"][1]) for one in plain]
-    entries = {one["c"][0][0].removeprefix("ref-"): one["c"][1] for one in listed["c"][1]}
-    made = pandoc.write([(tree, False) for tree in entries.values()], "html")
+    words = [_words(citation["c"][0]["c"][1]) for citation in plain]
+    entries = {citation["c"][0][0].removeprefix("ref-"): citation["c"][1] for citation in listed["c"][1]}
+    html = pandoc.write([(tree, False) for tree in entries.values()], "html")
     return Bibliography(
         source,
         dict(zip(keys, words, strict=False)),
-        {key: one[1:-1] for key, one in zip(keys, words[len(keys) :], strict=True)},  # without its brackets
-        dict(zip(entries, made, strict=True)),
+        {key: citation[1:-1] for key, citation in zip(keys, words[len(keys) :], strict=True)},  # without its brackets
+        dict(zip(entries, html, strict=True)),
     )
 
 
@@ -62,5 +66,5 @@ def _citation(key: str, mode: str) -> dict[str, Any]:
 
 def _words(nodes: list[Any]) -> str:
     """Return the words of inlines; what is nested in them comes last in each."""
-    inner = (one.get("c", " ") for one in nodes)
-    return "".join(part if isinstance(part, str) else _words(part[-1]) for part in inner)
+    inner = (node.get("c", " ") for node in nodes)
+    return "".join(words if isinstance(words, str) else _words(words[-1]) for words in inner)

@@ -96,10 +96,10 @@ class BodyAndField:
 
 def body(record: Body) -> SymmetricBody:
     """Return the body of a record: by its ratio, its moments, or its shape and dimensions."""
-    given = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
-    if len(given) != 1:
+    keys = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
+    if len(keys) != 1:
         raise AtlasError(
-            f"the body {record.title!r} must have exactly one of ratio, inertia and shape, not {given or 'none'}."
+            f"the body {record.title!r} must have exactly one of ratio, inertia and shape, not {keys or 'none'}."
         )
     sizes = dimensions(record)
     if record.shape is None:
@@ -114,8 +114,8 @@ def body(record: Body) -> SymmetricBody:
             f"the body {record.title!r}: the shape {record.shape!r} takes {', '.join(needed)}, "
             f"not {', '.join(sizes) or 'nothing'}."
         )
-    made: SymmetricBody = make(**sizes)
-    return made
+    made_body: SymmetricBody = make(**sizes)
+    return made_body
 
 
 def dimensions(record: Body) -> dict[str, float]:
@@ -133,9 +133,9 @@ def chosen(block: Any, known: BodiesAndFields) -> tuple[BodyAndField, ...]:
 
 def body_and_field(body_record: Body | None, field_record: Field | None) -> BodyAndField:
     """Return a body in a field; either may be missing."""
-    made = body(body_record) if body_record else None
+    symmetric_body = body(body_record) if body_record else None
     if field_record is None:
-        return BodyAndField(made, body_record)
+        return BodyAndField(symmetric_body, body_record)
     if (field_record.prime is None) == (field_record.B is None):
         raise AtlasError(f"the field {field_record.title!r} must have exactly one of prime and B.")
     if field_record.prime is not None:
@@ -143,12 +143,12 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
             raise AtlasError(
                 f"the field {field_record.title!r} is given by B', which has the charge-to-mass ratio in it."
             )
-        return BodyAndField(made, body_record, field_record.prime, field_record)
+        return BodyAndField(symmetric_body, body_record, field_record.prime, field_record)
     units = system(field_record.system)
     mu = _charge_to_mass(body_record, field_record)
     physical = PhysicalField(np.array(field_record.B), np.array(field_record.E), mu, units.c)
     frame = physical.frame(field_record.axis)
-    return BodyAndField(made, body_record, frame.field, field_record, physical, frame, units)
+    return BodyAndField(symmetric_body, body_record, frame.field, field_record, physical, frame, units)
 
 
 def _charge_to_mass(body_record: Body | None, field_record: Field) -> float:

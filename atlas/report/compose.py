@@ -71,7 +71,7 @@ def compose(
 
 def _pages_of(report: Report) -> dict[str, str]:
     """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
-    found: dict[str, str] = {}
+    pages: dict[str, str] = {}
     for page in report.pages:
         for block in page.blocks:
             if isinstance(block, Ledger):
@@ -79,8 +79,8 @@ def _pages_of(report: Report) -> dict[str, str]:
                     raise AtlasError(
                         f"page {page.slug!r}: {unknown('section', block.section, SECTIONS, 'in the ledger')}"
                     )
-                found |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
-    return found
+                pages |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
+    return pages
 
 
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:

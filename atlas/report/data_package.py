@@ -54,21 +54,21 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
 
     Raises AtlasError where pyarrow, which writes Parquet, is wanted and missing.
     """
-    made, resources = dict[str, bytes](), []
-    for one in (*_tables(document), *_figures(document, drawn)):
+    files, resources = dict[str, bytes](), []
+    for resource in (*_tables(document), *_figures(document, drawn)):
         for kind, write in {"csv": _csv, **({"parquet": _parquet} if parquet else {})}.items():
-            content = write(one)
-            path = f"{one.name}.{kind}"
-            made[path] = content
+            content = write(resource)
+            path = f"{resource.name}.{kind}"
+            files[path] = content
             resources.append(
                 {
-                    "name": one.name.replace("/", "-") + ("" if kind == "csv" else "-parquet"),
+                    "name": resource.name.replace("/", "-") + ("" if kind == "csv" else "-parquet"),
                     "path": path,
                     "format": kind,
                     "mediatype": "text/csv" if kind == "csv" else "application/vnd.apache.parquet",
                     **({"profile": "tabular-data-resource", "encoding": "utf-8"} if kind == "csv" else {}),
-                    **one.facts,
-                    "schema": {"fields": one.fields, "missingValues": [""]},
+                    **resource.facts,
+                    "schema": {"fields": resource.fields, "missingValues": [""]},
                     "bytes": len(content),
                     "hash": f"sha256:{hashlib.sha256(content).hexdigest()}",
                 }
@@ -83,8 +83,8 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
         "software": versions(),
         "resources": resources,
     }
-    made[DESCRIPTION] = msgspec.json.format(msgspec.json.encode(described), indent=1) + b"\n"
-    return made
+    files[DESCRIPTION] = msgspec.json.format(msgspec.json.encode(described), indent=1) + b"\n"
+    return files
 
 
 def _tables(document: Document) -> Iterator[Resource]:
@@ -158,16 +158,16 @@ def _figures(document: Document, drawn: Mapping[str, str]) -> Iterator[Resource]
         yield Resource(f"figures/{figure.id.removeprefix('fig-')}", facts, fields, rows)
 
 
-def _csv(one: Resource) -> bytes:
+def _csv(resource: Resource) -> bytes:
     """Write a table as CSV, with all digits as they are printed."""
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([field["name"] for field in one.fields])
-    writer.writerows(one.rows)
+    writer.writerow([field["name"] for field in resource.fields])
+    writer.writerows(resource.rows)
     return out.getvalue().encode()
 
 
-def _parquet(one: Resource) -> bytes:
+def _parquet(resource: Resource) -> bytes:
     """Write a table as Parquet, numbers as the doubles nearest to what is printed."""
     pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     convert: dict[str, Callable[[str], Any]] = {
@@ -178,8 +178,8 @@ def _parquet(one: Resource) -> bytes:
     }
     types = {"number": pa.float64(), "integer": pa.int64(), "boolean": pa.bool_(), "string": pa.string()}
     arrays, fields = [], []
-    for place, field in enumerate(one.fields):
-        cells = [row[place] for row in one.rows]
+    for place, field in enumerate(resource.fields):
+        cells = [row[place] for row in resource.rows]
         kind, text = field["type"], field["type"] == "string"
         arrays.append(pa.array([convert[kind](x) if x or text else None for x in cells], types[kind]))
         more = {key: str(value) for key, value in field.items() if key in {"title", "unit"}}
@@ -207,10 +207,10 @@ def ascii_name(head: str) -> str:
     """Return the head of a column as a name: Greek letters spelt out, indices on the line, all else a low line."""
     letters = []
     for letter in unicodedata.normalize("NFKC", head).replace("′", "_prime").replace("'", "_prime"):
-        found = _LETTER.match(unicodedata.name(letter, ""))
-        if found:
-            name = (found[2] or found[3]).lower()
-            letters.append(name.capitalize() if found[1] == "CAPITAL" else name)
+        matched = _LETTER.match(unicodedata.name(letter, ""))
+        if matched:
+            name = (matched[2] or matched[3]).lower()
+            letters.append(name.capitalize() if matched[1] == "CAPITAL" else name)
         else:
             letters.append(letter)
     joined = re.sub(r"_(?=\d)", "", "".join(letters)).encode("ascii", "ignore").decode()
@@ -219,8 +219,8 @@ def ascii_name(head: str) -> str:
 
 def unique(names: Iterable[str]) -> list[str]:
     """Return names with a number behind those that were there before."""
-    seen, found = Counter[str](), []
+    seen, names_seen = Counter[str](), []
     for name in names:
         seen[name] += 1
-        found.append(f"{name}_{seen[name]}" if seen[name] > 1 else name)
-    return found
+        names_seen.append(f"{name}_{seen[name]}" if seen[name] > 1 else name)
+    return names_seen

@@ -63,7 +63,7 @@ def plain(value: float) -> str:
 def shown(value: Any) -> str:
     """Write an input for a line of small print, in Markdown: with a true minus sign, and a power of ten as such."""
     if isinstance(value, tuple | list):
-        return f"({', '.join(shown(part) for part in value)})"
+        return f"({', '.join(shown(component) for component in value)})"
     if isinstance(value, bool) or not isinstance(value, float | int):
         return str(value)
     mantissa, _, power = plain(value).partition("e")

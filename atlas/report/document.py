@@ -52,18 +52,20 @@ class PageView:
     @property
     def floated(self) -> list[tuple[str, Any]]:
         """Template and view of each block, a figure before the prose that speaks of it: so it floats to that page."""
-        found: list[tuple[str, Any]] = []
+        floated: list[tuple[str, Any]] = []
         for template, view in zip(self.templates, self.blocks, strict=True):
-            place = len(found)
+            place = len(floated)
             if template == "figure":
-                while place and found[place - 1][0] in {"figure", "table"}:
+                while place and floated[place - 1][0] in {"figure", "table"}:
                     place -= 1
-                if place and found[place - 1][0] == "prose":
+                if place and floated[place - 1][0] == "prose":
                     place -= 1
                 else:
-                    place = len(found)
-            found.insert(place if place == len(found) or found[place][0] == "prose" else len(found), (template, view))
-        return found
+                    place = len(floated)
+            floated.insert(
+                place if place == len(floated) or floated[place][0] == "prose" else len(floated), (template, view)
+            )
+        return floated
 
 
 @dataclass
@@ -100,8 +102,8 @@ class Document:
         """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
         self.texts.read()
         with ThreadPoolExecutor(len(targets)) as threads:
-            made = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
-            self.written = dict(zip(targets, made, strict=True))
+            texts = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
+            self.written = dict(zip(targets, texts, strict=True))
 
     def cite(self, target: Target) -> Callable[[str, str], Link]:
         """Return the function that finds what a citation says and where it leads, given its name and place."""
@@ -114,7 +116,7 @@ class Document:
             if name in self.targets:
                 file, anchor, words = self.targets[name]
                 return Link(words, file if target == "html" else "", anchor, says)
-            beside = next(filter(None, (one.from_beside(name) for one in self.related.values())), None)
+            beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
             if beside:
                 return beside._replace(says=says) if target == "html" else Link(beside.words)
             if name in EQUATIONS:
@@ -143,7 +145,7 @@ class Document:
 
     def entry(self, name: str) -> str:
         """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
-        beside = ((folder, one.ledger) for folder, one in self.related.items())
+        beside = ((folder, related.ledger) for folder, related in self.related.items())
         there = next((f"../{folder}/{ledger[name]}" for folder, ledger in beside if name in ledger), "")
         return self.ledger.get(name, there)
 

@@ -103,7 +103,7 @@ def _with_sections(page: str) -> str:
     sections = re.findall(r'<h2 id="([^"]+)">(.*?) <a class="anchor"', page)
     items = "\n".join(f'<li><span></span><a href="#{anchor}">{words}</a></li>' for anchor, words in sections)
     return re.sub(
-        r'(<li class="here">.*?</li>\n)', lambda found: f"{found[1]}{items}\n", page, count=1, flags=re.DOTALL
+        r'(<li class="here">.*?</li>\n)', lambda matched: f"{matched[1]}{items}\n", page, count=1, flags=re.DOTALL
     )
 
 
@@ -114,7 +114,7 @@ def _figures(document: Document) -> list[Card]:
 
 def cards(document: Document) -> list[Card]:
     """Return the cards of the pages: of the figures `pictures.on_cards`, those that are drawn."""
-    figures, found = _figures(document), []
+    figures, cards_seen = _figures(document), []
     cuts = {one.slug: one.thumbnail for one in document.report.pages}
     for page in document.pages:
         wanted = cuts.get(page.slug, Thumbnail())
@@ -123,10 +123,10 @@ def cards(document: Document) -> list[Card]:
         )
         chosen = next(fits, None)
         if chosen and not chosen.figure.failure:
-            found.append(Card(page, chosen.figure, wanted))
+            cards_seen.append(Card(page, chosen.figure, wanted))
         elif wanted.figure:
             raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn in this report.")
-    return found
+    return cards_seen
 
 
 def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
@@ -136,7 +136,7 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
     with Image.open(BytesIO(png)) as picture:
         scale = cut.zoom * max(want / size for want, size in zip(CARD, picture.size, strict=True))
         seen = [want / scale for want in CARD]
-        left, top = (at * (size - part) for at, size, part in zip(cut.at, picture.size, seen, strict=True))
+        left, top = (place * (size - share) for place, size, share in zip(cut.at, picture.size, seen, strict=True))
         white = Image.new("RGBA", picture.size, "white")
         white.alpha_composite(picture.convert("RGBA"))
         box = (left, top, left + seen[0], top + seen[1])
@@ -205,20 +205,20 @@ def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, s
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
     """Return the formulas by the names in their anchors: of the ledger, of the displays, and others that are cited."""
-    found = {slug(name): texts[number] for name, number in document.formulas.items()}
+    equations = {slug(name): texts[number] for name, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
             if isinstance(block, EquationView):
-                found[slug(block.name)] = texts[block.text]
+                equations[slug(block.name)] = texts[block.text]
             elif isinstance(block, LedgerView):
-                found |= {slug(entry.name): texts[entry.formula] for entry in block.entries}
-    return found
+                equations |= {slug(entry.name): texts[entry.formula] for entry in block.entries}
+    return equations
 
 
 def _words(html: str) -> str:
     """Return the words of a piece of HTML, its formulas on one line."""
     html = re.sub(r'<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
-    html = re.sub(r"<math.*?</math>", lambda found: escaped(linear(found[0])), html, flags=re.DOTALL)
+    html = re.sub(r"<math.*?</math>", lambda matched: escaped(linear(matched[0])), html, flags=re.DOTALL)
     return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))
 
 
@@ -235,7 +235,7 @@ def _line(node: ET.Element) -> str:
     parts = [_line(child) for child in node]
     text = "".join(_ACCENTS.get(letter, letter) for letter in normalize("NFKC", node.text or ""))
     if tag == "mfrac":
-        return "/".join(part if part.isalnum() else f"({part})" for part in parts)
+        return "/".join(factor if factor.isalnum() else f"({factor})" for factor in parts)
     if tag in {"msup", "mover"}:
         base, above = parts
         return base + above if above in {"'", "''", "˙", "^", "¨", "~", "¯", ""} else f"{base}^{above}"

@@ -54,39 +54,39 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
     environment = typesetting("latex")
     common = {"report": document.report, "versions": versions()}
     computed = [table for table in document.listed("table") if table.name]
-    numbers = [one for table in computed for one in _numbers(table, markdown)]
-    keys = {one.cell: one.key for one in numbers}
+    numbers = [number for table in computed for number in _numbers(table, markdown)]
+    keys = {number.cell: number.key for number in numbers}
     # what has no key stays as it is printed
     by_key = partial(_CELL.sub, lambda cell: rf"\atlas{{{keys[cell[1]]}}}" if cell[1] in keys else cell[2])
     texts = [by_key(text) for text in document.written["latex"]]
-    made = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
+    files = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
     for table in document.listed("table"):
-        made[f"tables/{table.id.removeprefix('tab-')}.tex"] = table_of(table, markdown, texts)
+        files[f"tables/{table.id.removeprefix('tab-')}.tex"] = table_of(table, markdown, texts)
     for figure in document.listed("figure"):
-        made[f"figures/{figure.id.removeprefix('fig-')}.tex"] = _figure(figure, texts, pictures)
-    made[REFERENCES] = _references(document)
-    made[PAPER] = environment.get_template("paper.tex").render(
+        files[f"figures/{figure.id.removeprefix('fig-')}.tex"] = _figure(figure, texts, pictures)
+    files[REFERENCES] = _references(document)
+    files[PAPER] = environment.get_template("paper.tex").render(
         title=_escaped(document.report.title),
         authors=[_escaped(author) for author in document.report.authors],
         abstract=texts[document.abstract],
-        body="\n\n".join(_body(document, texts, {name for name, text in made.items() if "*}" in text[:20]})),
+        body="\n\n".join(_body(document, texts, {name for name, text in files.items() if "*}" in text[:20]})),
         **common,
     )
-    return {name: text.encode() for name, text in made.items()} | dict(pictures)
+    return {name: text.encode() for name, text in files.items()} | dict(pictures)
 
 
 def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
     """Yield the numbers of a computed table: keyed by table, row and, where there are several, column."""
     heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
     numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]
-    at = {name: place for place, name in enumerate(heads)}
+    places = {name: place for place, name in enumerate(heads)}
     rows = [[value(cell, markdown) for cell in row] for row in table.rows]
-    names = unique(_row_name(row, at, numeric, number) for number, row in enumerate(rows, 1))
+    names = unique(_row_name(row, places, numeric, number) for number, row in enumerate(rows, 1))
     for number, (name, row, cells) in enumerate(zip(names, rows, table.rows, strict=True), 1):
         for place in numeric:
             if cells[place].text is None and row[place] and cells[place].proven:
                 column = table.columns[place]
-                of_row = cells[at["Unit"]].text if "Unit" in at else None
+                of_row = cells[places["Unit"]].text if "Unit" in places else None
                 said = column.unit if column.unit is not None else of_row
                 last = [heads[place] or str(place)] if len(numeric) > 1 else []
                 key = "/".join([table.id.removeprefix("tab-"), name, *last])
@@ -95,11 +95,11 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
                 yield Numeral(key, cell, digits(row[place]) or ANY, *_with_unit(row[place], unit))
 
 
-def _row_name(row: Sequence[str], at: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
+def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
     """Return the name of a row: its symbol, else its name in Python, else its first words, else its number."""
     for head in ("Symbol", "Name"):
-        if head in at and row[at[head]]:
-            return ascii_name(row[at[head]].partition("=")[0])
+        if head in places and row[places[head]]:
+            return ascii_name(row[places[head]].partition("=")[0])
     return (ascii_name(row[0]) if 0 not in numeric else "") or str(number)
 
 
@@ -116,7 +116,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
     """Return a figure as an environment of its own, of the width that it was made for: a column or both."""
     name = figure.id.removeprefix("fig-")
     files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
-    kind = "figure*" if any(one.size[0] > TARGETS["aps"].width for one in figure.pictures) else "figure"
+    kind = "figure*" if any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures) else "figure"
     graphics = "\n".join(rf"\includegraphics{{{file}}}" for file in files)
     return (
         f"\\begin{{{kind}}}[{'tb' if kind == 'figure*' else '!htb'}]\n\\centering\n{graphics}\n"
@@ -132,8 +132,10 @@ def _references(document: Document) -> str:
   version = {{{atlas.__version__}}},
 }}
 """
-    kept = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
-    return "\n".join(filter(None, [kept.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), own]))
+    protected = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
+    return "\n".join(
+        filter(None, [protected.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), own])
+    )
 
 
 def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
@@ -144,24 +146,26 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
     columns, come last, so that the others fill the columns before them.
     """
     for page in document.pages:
-        made = rf"\section{{{_escaped(page.title)}}}" + "\n"
+        text = rf"\section{{{_escaped(page.title)}}}" + "\n"
         displayed = False
         pairs = zip(page.templates, page.blocks, strict=True)
         for equations, run in groupby(pairs, lambda pair: isinstance(pair[1], EquationView)):
             parts = [_block(name, block, texts) for name, block in run]
-            floats = groupby(parts, lambda part: part.startswith(r"\input{"))
+            floats = groupby(parts, lambda piece: piece.startswith(r"\input{"))
             parts = [
-                part
+                piece
                 for floating, some in floats
-                for part in (sorted(some, key=lambda one: f"{one[7:-1]}.tex" in wide) if floating else some)
+                for piece in (
+                    sorted(some, key=lambda piece_of_page: f"{piece_of_page[7:-1]}.tex" in wide) if floating else some
+                )
             ]
             if equations:
-                made += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
+                text += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
             else:
                 goes_on = displayed and re.match(r"(\\emph\{)?[a-z]", parts[0]) is not None
-                made += ("\n" if goes_on else "\n\n") + "\n\n".join(parts)
+                text += ("\n" if goes_on else "\n\n") + "\n\n".join(parts)
             displayed = equations
-        yield made
+        yield text
 
 
 def _block(name: str, block: Any, texts: Sequence[str]) -> str:
@@ -246,11 +250,11 @@ def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
     if not numbers:
         return "l"
     parts = [re.fullmatch(r"(-?)(\d*)(?:\.(\d*))?(?:e(-?)(\d+))?", number) for number in numbers]
-    found = [part.groups(default="") for part in parts if part]
-    sign = "-" if any(part[0] for part in found) else ""
-    whole, fraction = (max(len(part[place]) for part in found) for place in (1, 2))
-    power = max(len(part[4]) for part in found)
-    exponent = f"e{'-' if any(part[3] for part in found) else ''}{power}" if power else ""
+    groups = [field.groups(default="") for field in parts if field]
+    sign = "-" if any(field[0] for field in groups) else ""
+    whole, fraction = (max(len(field[place]) for field in groups) for place in (1, 2))
+    power = max(len(field[4]) for field in groups)
+    exponent = f"e{'-' if any(field[3] for field in groups) else ''}{power}" if power else ""
     return f"S[table-format={sign}{whole or 1}.{fraction}{exponent}]"
 
 

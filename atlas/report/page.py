@@ -108,8 +108,8 @@ def headed(asked: Any, content: str) -> str:
 def edited(file: str) -> bool:
     """Whether a file of a page is no longer as it was made."""
     head, _, content = file.partition("\n\n")
-    found = re.search(r"digest (\w+)\.", head)
-    return found is None or sha256(content.encode()).hexdigest()[:12] != found[1]
+    matched = re.search(r"digest (\w+)\.", head)
+    return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
 
 
 def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
@@ -117,15 +117,17 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     family, left_out = asked.family, list[str]()
     thing = Thing.of(Request([_case(asked)], {"family": family.name, **asked.values}, asked.digits))
     thing.kernels(), thing.balls()
-    given = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
+    parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
     figures = list(figures_of(asked, left_out))
     left_out += _too_slow(thing.kernels(), asked.time)
-    beside = [one for one in FAMILIES.values() if one is not family and one.name != "free" and _holds(family, one)]
+    beside = [
+        other for other in FAMILIES.values() if other is not family and other.name != "free" and _holds(family, other)
+    ]
     blocks = [
         _table(asked, "properties", family.name, asked.values),
         *figures[:1],
         *([_setting()] if asked.field and "B" in asked.field else []),
-        *(_table(asked, "properties", one.name, {"given": False}) for one in beside),
+        *(_table(asked, "properties", other.name, {"given": False}) for other in beside),
         *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
         *_closed(asked, left_out),
         *_neighbours(asked, there),
@@ -137,7 +139,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     return {
         "name": asked.name,
         "title": asked.title or case,
-        "subtitle": given,
+        "subtitle": parameters,
         "abstract": f"{asked.note} All digits of the tables are proven unless they say otherwise; figures are drawn to "
         "a fraction of a pixel. The report file beside this page can be changed and built again.".lstrip(),
         "parameters": {kind: {name: record} for kind, name, record in records if record},
@@ -145,10 +147,10 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _holds(family: Family, one: Family) -> bool:
+def _holds(family: Family, other: Family) -> bool:
     """Whether an object of a family has one of another: what that is given is among what it is given."""
     names = {p.name for p in family.parameters}
-    return "ratio" in names and {p.name for p in one.parameters} <= names
+    return "ratio" in names and {p.name for p in other.parameters} <= names
 
 
 def _calls(asked: Asked, family: Family) -> dict[str, str]:
@@ -168,17 +170,17 @@ def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> 
     }  # fmt: skip
 
 
-def _too_slow(made: Any, time: str) -> Iterator[str]:
+def _too_slow(motion: Any, time: str) -> Iterator[str]:
     """Yield what is too slow to be seen in a figure of some periods of nutation, or too small to be seen in others."""
     from atlas.scene.any_motion import slow_turn
 
     unit = "s" if time in {"s", "1/s"} else time
     try:
-        period, angle, rate = float(made.period), float(made.precession_per_period), float(made.precession_rate)
+        period, angle, rate = float(motion.period), float(motion.precession_per_period), float(motion.precession_rate)
     except (AttributeError, AtlasError):
         return
     turn = f"a whole turn takes {2 * pi / abs(rate):.3g} {unit}" if rate else ""
-    if angle and slow_turn(made, 5 * period):
+    if angle and slow_turn(motion, 5 * period):
         yield (
             f"The nutation, of the period {period:.3g} {unit}, which is too small to be seen: the axis is followed for "
             f"the precession, by {angle:.3g} rad in that time; {turn}."
@@ -204,9 +206,9 @@ def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
         values = {key: value for key, value in asked.values.items() if key in recipe.parameters}
         if recipe.parameters.get("unit") == "time":
             values["unit"] = asked.time
-        at = {"ratio": case.ratio, "field": case.components} if asked.body else {}
+        parameters = {"ratio": case.ratio, "field": case.components} if asked.body else {}
         try:
-            recipe.scene(**{key: value for key, value in at.items() if key in recipe.parameters} | values)
+            recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
         except AtlasError as reason:
             left_out.append(f"The figure `{name}`: {reason}")
         else:
@@ -236,8 +238,15 @@ def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
 def _neighbours(asked: Asked, there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
     """Yield the table of objects near by, each with the command that makes its page, or a link to it."""
     rows = []
-    for words, one in near(asked):
-        rows.append([words, f"[`{one.command}`]({one.name}.html)" if there(one.name) else f"`{one.command}`"])
+    for words, neighbour in near(asked):
+        rows.append(
+            [
+                words,
+                f"[`{neighbour.command}`]({neighbour.name}.html)"
+                if there(neighbour.name)
+                else f"`{neighbour.command}`",
+            ]
+        )
     if rows:
         yield {"kind": "prose", "text": "## Neighbours"}
         yield {
@@ -294,10 +303,10 @@ def _reproduce(asked: Asked) -> str:
     """Say how to get the same numbers from the command line and from Python."""
     family = asked.family
     name = family.kernels().__name__
-    made = ", ".join(f"{p.name}={_python(asked, p.name)}" for p in family.parameters if _python(asked, p.name))
+    arguments = ", ".join(f"{p.name}={_python(asked, p.name)}" for p in family.parameters if _python(asked, p.name))
     shown = [q for q in family.quantities if not q.get and (q.certified or q.printed)]
     digits = ["--digits", str(asked.digits)]
-    lines = ["import atlas", "", f"it = atlas.{name}({made})", *(f"print(it.{q.name})" for q in shown)]
+    lines = ["import atlas", "", f"it = atlas.{name}({arguments})", *(f"print(it.{q.name})" for q in shown)]
     return "\n".join(
         [
             "## The same numbers elsewhere", "", "On the command line, with the same digits:", "", "```console",

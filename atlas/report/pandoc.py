@@ -84,8 +84,8 @@ def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
 @cache
 def api() -> list[int]:
     """Return the version of pandoc's trees."""
-    found: list[int] = json.loads(run(["-f", "markdown", "-t", "json"], ""))["pandoc-api-version"]
-    return found
+    version: list[int] = json.loads(run(["-f", "markdown", "-t", "json"], ""))["pandoc-api-version"]
+    return version
 
 
 def run(arguments: Sequence[str], source: str) -> str:
@@ -114,21 +114,21 @@ def _program() -> str:
     """Return the path of the program that its package carries, without loading the package, which takes longer."""
     spec = find_spec("pypandoc")
     place = next(iter(spec.submodule_search_locations or ()), None) if spec else None
-    found = next(Path(place or "").glob("files/pandoc*"), None)
-    if place is None or found is None:
+    program = next(Path(place or "").glob("files/pandoc*"), None)
+    if place is None or program is None:
         raise AtlasError("the package pypandoc_binary with its pandoc is not there: install the locked dependencies.")
-    return str(found)
+    return str(program)
 
 
 def _reason(message: str) -> str:
     """Return what pandoc did not expect; the long list of what it did is left out."""
-    found = re.search(r"^(.*)\n( *)\^\nunexpected (.+)$", message, re.MULTILINE)
-    if found is None:
+    matched = re.search(r"^(.*)\n( *)\^\nunexpected (.+)$", message, re.MULTILINE)
+    if matched is None:
         return "it is no TeX"
-    if found[3].startswith("eof"):
+    if matched[3].startswith("eof"):
         return "it breaks off"
-    rest = "" if found[3].startswith("control") else found[1][len(found[2]) :]
-    return f"unexpected {found[3][:SHOWN]}" + (f" at {rest[:NEAR]}" if rest else "")
+    rest = "" if matched[3].startswith("control") else matched[1][len(matched[2]) :]
+    return f"unexpected {matched[3][:SHOWN]}" + (f" at {rest[:NEAR]}" if rest else "")
 
 
 PARAGRAPHS = {"Para", "Plain"}

@@ -18,19 +18,19 @@ def pictures(report: Report) -> dict[str, Picture]:
     Nothing is drawn. A recipe that can't be loaded leaves the reason in its pictures; a misspelt recipe or parameter
     raises AtlasError.
     """
-    found: dict[str, Picture] = {}
+    drawn: dict[str, Picture] = {}
     for page in report.pages:
         for place, block in enumerate(page.blocks, 1):
             if not isinstance(block, Figure):
                 continue
             try:
                 for name, picture in _wanted(block, report):
-                    if name not in found:
-                        picture.stem = f"{len(found) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
-                        found[name] = picture
+                    if name not in drawn:
+                        picture.stem = f"{len(drawn) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
+                        drawn[name] = picture
             except AtlasError as error:
                 raise AtlasError(f"page {page.slug!r}, block {place} (figure): {error}") from error
-    return found
+    return drawn
 
 
 def keys(block: Figure, report: Report) -> list[str]:
@@ -69,7 +69,7 @@ def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]
     if block.body:
         offered["ratio"] = cases[0].ratio
     if block.bodies:
-        offered["ratios"] = tuple(one.ratio for one in cases)
+        offered["ratios"] = tuple(case.ratio for case in cases)
     takes = recipe.parameters if recipe else offered
     for name in offered:
         if name not in takes:

@@ -75,9 +75,13 @@ def _check_finite(raw: Any, where: str, key: str) -> None:
 
 def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> None:
     """Check a value that may be of several types: a block of some kind, or a value that may be left out."""
-    kinds = {str(one.tag): one for one in union.types if isinstance(one, inspect.StructType)}
+    kinds = {
+        str(kind_of_record.tag): kind_of_record
+        for kind_of_record in union.types
+        if isinstance(kind_of_record, inspect.StructType)
+    }
     if not kinds:
-        (kind,) = (one for one in union.types if not isinstance(one, inspect.NoneType))
+        (kind,) = (kind_of_record for kind_of_record in union.types if not isinstance(kind_of_record, inspect.NoneType))
         return _check(raw, kind, where, key)
     if not isinstance(raw, dict):
         raise SchemaError(where, f"must be a table, not {_shown(raw)}", key)
@@ -130,7 +134,7 @@ def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
     """Say what a value of a type is."""
     match kind:
         case inspect.UnionType():
-            return _words(next(one for one in kind.types if not isinstance(one, inspect.NoneType)))
+            return _words(next(inner for inner in kind.types if not isinstance(inner, inspect.NoneType)))
         case inspect.VarTupleType():
             return f"a list, each item {_words(kind.item_type)}"
         case inspect.TupleType():

@@ -40,7 +40,7 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
         return f"data:{kind};base64,{b64encode(files[place]).decode()}"
 
     page = files[INDEX].decode()
-    style = re.sub(r'url\("?([^")]+)"?\)', lambda found: f'url("{data(found[1])}")', files["style.css"].decode())
+    style = re.sub(r'url\("?([^")]+)"?\)', lambda matched: f'url("{data(matched[1])}")', files["style.css"].decode())
     first = _SCRIPT.findall(page)
     later = [file for file in files if file.endswith(".js") and file not in first]
     scripts = {file: _inline(files[file].decode()) for file in (*later, *first)}
@@ -52,7 +52,7 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
     page = re.sub(r'(<figure id="([^"]+)">\s*<div class="pictures">\s*<a href=")[^"]+', r"\1#\2", page)
     page = re.sub(r'<a href="(figures/([^"]+))"', lambda x: f'<a download="{x[2]}" href="{data(x[1])}"', page)
     page = re.sub(r'(src|srcset)="(figures/[^"]+\.(?:svg|png))"', lambda x: f'{x[1]}="{data(x[2])}"', page)
-    page = re.sub(rf'href="{INDEX}(#[^"]*)?"', lambda found: f'href="{found[1] or "#page-index"}"', page)
+    page = re.sub(rf'href="{INDEX}(#[^"]*)?"', lambda matched: f'href="{matched[1] or "#page-index"}"', page)
     page = page.replace(f'href="../{name}.pdf"', f'href="{name}.pdf"')
     run = [HANDED_OVER, *(scripts[file] for file in first)]
     blocks = [f'<script type="text/plain" data-file="{file}">{scripts[file]}</script>' for file in later]

@@ -144,7 +144,9 @@ def citations(markdown: str) -> list[str]:
 
 def _braced(markdown: str) -> str:
     """Write ``@(72)`` as pandoc reads it, with braces about a name that is no word."""
-    return _CITED.sub(lambda found: f"@{{{found[1]}}}" if (found[1] or "").startswith("(") else found[0], markdown)
+    return _CITED.sub(
+        lambda matched: f"@{{{matched[1]}}}" if (matched[1] or "").startswith("(") else matched[0], markdown
+    )
 
 
 class _Checked:
@@ -182,7 +184,7 @@ class _Checked:
         if kind == "Link":
             return [_link(self.tree(content[1]), self.address(content[2][0]))]
         if kind in _ATTRIBUTES:
-            content = [["", [], []] if place == _ATTRIBUTES[kind] else part for place, part in enumerate(content)]
+            content = [["", [], []] if place == _ATTRIBUTES[kind] else piece for place, piece in enumerate(content)]
         if kind == "Header":
             content[0] = max(content[0], 2)  # the first level is that of the page
         if content is None:
@@ -191,31 +193,31 @@ class _Checked:
 
     def citation(self, parts: Any) -> Tree:
         """Return the links of a citation, in brackets with the words around them if it was written so."""
-        links = [self.cite(part["citationId"], self.text.where) for part in parts]
+        links = [self.cite(work["citationId"], self.text.where) for work in parts]
         works = self.are_works(parts, links)
         if works and self.target != "html":  # Typst and BibTeX set their own bibliography
-            return [{"t": "Cite", "c": [[part | self.around(part) for part in parts], []]}]
+            return [{"t": "Cite", "c": [[work | self.around(work) for work in parts], []]}]
         bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
-        found: Tree = []
-        for part, link in zip(parts, links, strict=True):
-            prefix, suffix = self.around(part).values()
+        nodes: Tree = []
+        for work, link in zip(parts, links, strict=True):
+            prefix, suffix = self.around(work).values()
             space = [{"t": "Space"}] if prefix else []
-            found += [*(_words("; ") if found else ()), *prefix, *space, *self.cited(part, link, bracketed), *suffix]
+            nodes += [*(_words("; ") if nodes else ()), *prefix, *space, *self.cited(work, link, bracketed), *suffix]
         first, last = "()" if works else "[]"
-        return [*_words(first), *found, *_words(last)] if bracketed else found
+        return [*_words(first), *nodes, *_words(last)] if bracketed else nodes
 
     def are_works(self, parts: Any, links: Sequence[Link]) -> bool:
         """Return whether a citation is of works, not of equations; it can't be of both."""
         works = {bool(link.bracketed) for link in links}
         if len(works) > 1:
             raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
-        if works == {True} and any(part["citationPrefix"] for part in parts):
+        if works == {True} and any(work["citationPrefix"] for work in parts):
             raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
         return works == {True}
 
-    def cited(self, part: Any, link: Link, bracketed: bool) -> Tree:
+    def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
         """Return one link of a citation, at its anchor where it is the first to the name."""
-        name, words = part["citationId"], _words(link.bracketed if bracketed and link.bracketed else link.words)
+        name, words = work["citationId"], _words(link.bracketed if bracketed and link.bracketed else link.words)
         if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
             if name.startswith("cell:"):  # a number of a table is written by its key
                 return [{"t": "RawInline", "c": ["latex", rf"\atlascell{{{name[5:]}}}{{{link.words}}}"]}]
@@ -226,9 +228,9 @@ class _Checked:
         anchor = self.anchors.pop(name, None)
         return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
 
-    def around(self, part: Any) -> dict[str, Tree]:
+    def around(self, work: Any) -> dict[str, Tree]:
         """Return the words before and after a name in brackets."""
-        return {key: self.tree(part[key]) for key in ("citationPrefix", "citationSuffix")}
+        return {key: self.tree(work[key]) for key in ("citationPrefix", "citationSuffix")}
 
     def address(self, url: str) -> str:
         """Return the address that a link may lead to."""
@@ -274,10 +276,10 @@ def _words(text: str) -> Tree:
     """Return plain words as nodes, a number tied to its word; what stands between two carets is raised."""
     text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
     low, *raised = re.split(r"\^([^^]+)\^", text)
-    found: Tree = [{"t": "Str", "c": low}]
+    nodes: Tree = [{"t": "Str", "c": low}]
     for up, after in zip(raised[::2], raised[1::2], strict=True):
-        found += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
-    return found
+        nodes += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
+    return nodes
 
 
 def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:

@@ -31,18 +31,18 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
             yield f"{key} = {written(value)}\n"
     for key, several in tables.items():
         name = f"{place}.{key}".lstrip(".")
-        for one in several:
+        for item in several:
             if isinstance(values[key], list):
                 yield f"\n[[{name}]]\n"
-            elif not all(isinstance(value, dict) for value in one.values()):
+            elif not all(isinstance(value, dict) for value in item.values()):
                 yield f"\n[{name}]\n"
-            yield from lines(one, name)
+            yield from lines(item, name)
 
 
 def written(value: Any) -> str:
     """Write a value; strings of JSON are strings of TOML."""
     if isinstance(value, dict):
-        return f"{{ {', '.join(f'{key} = {written(one)}' for key, one in value.items() if one is not None)} }}"
+        return f"{{ {', '.join(f'{key} = {written(item)}' for key, item in value.items() if item is not None)} }}"
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(written, value))}]"
     if isinstance(value, bool):

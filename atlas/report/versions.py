@@ -13,8 +13,8 @@ def versions() -> dict[str, str]:
 
 def parameters(known: BodiesAndFields) -> list[str]:
     """Return each body and field in a line of Markdown."""
-    given: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
-    return [f"{record.title}: {_written_out(record)}" for record in given]
+    records: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
+    return [f"{record.title}: {_written_out(record)}" for record in records]
 
 
 _UNITS = {

@@ -51,9 +51,9 @@ def course(
         layers.append(Label(np.array([0.3 * stop, level]), level_name, "reference", (0.0, 3.0)))
     for i, (name, role) in enumerate(zip(names, ("main", "second", "third"), strict=True), 1):
         line = path[:, [0, i]]
-        at = line[0.86 * stop <= line[:, 0]][0]
-        below = level is not None and 0.0 <= level - at[1] < 3.0 * pad
-        layers += [Curve(line, role), Label(at, name, role, (0.0, -4.0 if below else 4.0))]
+        point = line[0.86 * stop <= line[:, 0]][0]
+        below = level is not None and 0.0 <= level - point[1] < 3.0 * pad
+        layers += [Curve(line, role), Label(point, name, role, (0.0, -4.0 if below else 4.0))]
     return Plane(tuple(layers), x_label, y_label, (0.0, stop), limits, title=heading)
 
 
@@ -202,9 +202,9 @@ def period(motion: Any) -> float:
     """
     if motion.shape:
         raise AtlasError(f"one motion can be drawn at a time, not an array of the shape {motion.shape}.")
-    found = float(getattr(motion, "period", 0.0)) or 2 * pi / max(abs(float(getattr(motion, "k", 0.0))), 1e-300)
+    own = float(getattr(motion, "period", 0.0)) or 2 * pi / max(abs(float(getattr(motion, "k", 0.0))), 1e-300)
     first = turns(motion, 0.0)
-    return found if found < _LONG else 1 / first if first else 1.0
+    return own if own < _LONG else 1 / first if first else 1.0
 
 
 def start(omega: Sequence[float]) -> tuple[str, str]:

@@ -54,8 +54,8 @@ def arranged(scene: Scene, target: Target) -> Scene:
     if best.scale < _SMALLEST:
         tall = max(one.scale for one in _arrangements(scene, width, len(scene.panels) * _TALL * width))
         side = f"height of {target.height:g}" if tall >= _SMALLEST else f"width of {target.width:g}"
-        part = f"its panels would have only {best.scale:.2f} of their size"
-        raise AtlasError(f"{scene.title}: it can't be read at a {side} mm; {part}.")
+        complaint = f"its panels would have only {best.scale:.2f} of their size"
+        raise AtlasError(f"{scene.title}: it can't be read at a {side} mm; {complaint}.")
     size = (target.width, target.zoom * sum(best.rows))
     return replace(scene, panels=best.panels, columns=best.columns, rows=best.rows, size=size)
 
@@ -97,12 +97,17 @@ def _fitted(
 ) -> Arrangement:
     """Return an arrangement in so many columns, in a room (width, height)."""
     wide = room[0] / columns
-    rows = [max(_high(one, wide, before) for one in panels[k : k + columns]) for k in range(0, len(panels), columns)]
-    words = [max(_words(one)[1] for one in panels[k : k + columns]) for k in range(0, len(panels), columns)]
-    part = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
-    rows = [word + part * (row - word) for row, word in zip(rows, words, strict=True)]
-    scale = min(_scale(one, (wide, rows[k // columns]), before) for k, one in enumerate(panels))
-    shown = [replace(one, legend=False) if isinstance(one, Plane) and one.legend == "beside" else one for one in panels]
+    rows = [
+        max(_high(panel, wide, before) for panel in panels[k : k + columns]) for k in range(0, len(panels), columns)
+    ]
+    words = [max(_words(panel)[1] for panel in panels[k : k + columns]) for k in range(0, len(panels), columns)]
+    share = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
+    rows = [word + share * (row - word) for row, word in zip(rows, words, strict=True)]
+    scale = min(_scale(panel, (wide, rows[k // columns]), before) for k, panel in enumerate(panels))
+    shown = [
+        replace(panel, legend=False) if isinstance(panel, Plane) and panel.legend == "beside" else panel
+        for panel in panels
+    ]
     return Arrangement(tuple(panels if wide >= before[0] else shown), columns, tuple(rows), scale)
 
 
@@ -145,7 +150,7 @@ def narrowed(scene: Scene) -> Scene | None:
     if scene.narrow:
         high = height / rows * len(scene.narrow)
         return replace(scene, panels=scene.narrow, columns=1, size=(WIDTH, high))
-    curves = all(isinstance(one, Plane) and not one.equal for one in scene.panels)
+    curves = all(isinstance(panel, Plane) and not panel.equal for panel in scene.panels)
     if scene.columns == 1 and width > WIDTH and curves:
         return replace(scene, size=(WIDTH, height))
     columns = max(1, int(WIDTH * scene.columns // width))
@@ -176,5 +181,5 @@ def lettered(panels: Sequence[Space], title: str) -> tuple[Space, ...]:
 
 def extent(panel: Space) -> FloatArray:
     """Return how much of the plane of view (right, up) the layers of a panel cover."""
-    points = [np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)]
+    points = [np.reshape(points_of_layer, (-1, 3)) for layer in panel.layers for points_of_layer in points_of(layer)]
     return np.asarray(np.ptp(np.concatenate(points) @ frame(panel)[:2].T, axis=0))

@@ -87,7 +87,7 @@ def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, to
         solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role="opening")
         for sign in (-1.0, 1.0)
     ]
-    u, v = (radius * one for one in solids.across(axis))
+    u, v = (radius * direction for direction in solids.across(axis))
     angles = sample.knots(solids.ellipse(centre, u, v), 0.0, solids.TURN, tolerance)
     coils = [Curve(solids.ellipse(centre + h * height * axis, u, v)(angles), "coil") for h in places]
     return [side, *ends, *coils, _seam(side, centre, (first, second, axis), radius, height)]

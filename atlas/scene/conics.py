@@ -32,8 +32,8 @@ def section(
     Without half spaces they reach at least as far as the ball (centre, radius). All kinds are met: ellipse, hyperbola,
     parabola, two lines, one line; a single point or nothing gives an empty list.
     """
-    found = arcs(quadric, normal, distance, half_spaces, ball)
-    return [sample.curve(point, start, stop, tolerance) for point, start, stop in found]
+    arcs_of_section = arcs(quadric, normal, distance, half_spaces, ball)
+    return [sample.curve(point, start, stop, tolerance) for point, start, stop in arcs_of_section]
 
 
 def arcs(
@@ -52,7 +52,7 @@ def arcs(
     l1, l2 = (float(v) for v in lengths[order])
     m1, m2 = (float(v) for v in (form[2, :2] @ turn)[order])
     axes = (turn.T @ across)[order]
-    found: list[Arc] = []
+    arcs_seen: list[Arc] = []
     for arc, start, stop in _arcs(l1, l2, m1, m2, float(form[2, 2]), radius):
 
         def point(s: FloatArray, arc: _Flat = arc) -> FloatArray:
@@ -60,8 +60,8 @@ def arcs(
             points: FloatArray = foot + x[:, None] * axes[0] + y[:, None] * axes[1]
             return points
 
-        found += [(point, a, b) for a, b in spans(point, start, stop, half_spaces)]
-    return found
+        arcs_seen += [(point, a, b) for a, b in spans(point, start, stop, half_spaces)]
+    return arcs_seen
 
 
 def spans(
@@ -83,7 +83,7 @@ def spans(
     stretches = [(a, b) for a, b in pairwise(ends) if b - a > _FLAT * (stop - start)]
     middles = point(np.array([0.5 * (a + b) for a, b in stretches]))
     inside = [all(x @ np.array(n) <= d for *n, d in half_spaces) for x in middles]
-    return [stretch for stretch, kept in zip(stretches, inside, strict=True) if kept]
+    return [stretch for stretch, is_inside in zip(stretches, inside, strict=True) if is_inside]
 
 
 def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> list[_Arc]:

@@ -54,7 +54,7 @@ class Window:
 
 def components(field: Any) -> tuple[float, float]:
     """Return B2 and B3 of B', of which one at least must not vanish."""
-    B2, B3 = (number(part, name) for part, name in zip(parts(field, NAMES, "The field"), NAMES, strict=True))
+    B2, B3 = (number(component, name) for component, name in zip(parts(field, NAMES, "The field"), NAMES, strict=True))
     if B2 == 0 and B3 == 0:
         raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
     return B2, B3
@@ -112,8 +112,8 @@ def graph(
             x = side * np.exp(s)
             return np.stack([B2 * (x - 1), function(x)], axis=1)
 
-        found = flat(points, float(np.log(near)), float(np.log(far)), (view.x, view.y), millimetres, pieces=16)
-        pieces.append(found[seen(found, view)])
+        curve = flat(points, float(np.log(near)), float(np.log(far)), (view.x, view.y), millimetres, pieces=16)
+        pieces.append(curve[seen(curve, view)])
     return tuple(piece for piece in pieces if len(piece))
 
 
@@ -169,11 +169,11 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     """
     B2, B3 = components(field)
     special = Hyperbola(ratio, field).special
-    found = [
+    labels = [
         Place("rest", "the state of rest at 0", special["omega2 = 0"], "rest"),
         Place(r"$-2\mathbf{B}'$", "the point \N{MINUS SIGN}2B'", special["omega2 = -2 B2"], "special"),
     ]
     zero = special["omega2 = -(2-I) B2"]
     if B2 and B3 and zero[0] not in {0.0, -B2}:
-        found.append(Place(r"$\omega_3=0$", "the second point with omega 3 = 0", zero, "point"))
-    return tuple(found)
+        labels.append(Place(r"$\omega_3=0$", "the second point with omega 3 = 0", zero, "point"))
+    return tuple(labels)

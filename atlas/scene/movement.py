@@ -9,13 +9,16 @@ from atlas.scene.layers import FloatArray, Layer, Scene, moved
 
 def scene_at(scene: Scene, t: float) -> Scene:
     """Return a scene at the time t; at t = 0 it is the scene itself."""
-    moves = {name: tuple(part[0] for part in path(np.array([t]))) for name, path in scene.paths.items()}
+    moves = {name: tuple(values[0] for values in path(np.array([t]))) for name, path in scene.paths.items()}
 
     def carried(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
-        return tuple(moved(one, *moves[rides]) if (rides := getattr(one, "rides", "")) else one for one in layers)
+        return tuple(
+            moved(layer, *moves[rides]) if (rides := getattr(layer, "rides", "")) else layer for layer in layers
+        )
 
     wide, small = (
-        tuple(replace(one, layers=carried(one.layers)) for one in panels) for panels in (scene.panels, scene.narrow)
+        tuple(replace(panel, layers=carried(panel.layers)) for panel in panels)
+        for panels in (scene.panels, scene.narrow)
     )
     return replace(scene, panels=wide, narrow=small)
 

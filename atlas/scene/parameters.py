@@ -88,7 +88,7 @@ def described(hint: Any, default: Any) -> str:
 def typed(value: Any) -> str:
     """Write a value as it is typed after ``--set``, lists of lists apart, which can't be: they stand in brackets."""
     if isinstance(value, tuple | list):
-        parts = [f"({typed(one)})" if isinstance(one, tuple | list) else typed(one) for one in value]
+        parts = [f"({typed(item)})" if isinstance(item, tuple | list) else typed(item) for item in value]
         return ",".join(parts) + ("," if len(value) == 1 else "")
     if isinstance(value, bool):
         return str(value).lower()
@@ -113,7 +113,11 @@ def _fit(value: Any, kind: Any) -> Any:
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
         missing = value is None and NoneType in inner
-        return None if missing else _fit(value, next(one for one in inner if one is not NoneType))
+        return (
+            None
+            if missing
+            else _fit(value, next(kind_of_inner for kind_of_inner in inner if kind_of_inner is not NoneType))
+        )
     if origin is Literal and value not in inner:
         raise _Unfit(" or ".join(map(str, inner)))
     if origin is tuple:

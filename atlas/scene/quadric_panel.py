@@ -39,7 +39,7 @@ def figure_size(panel: Space) -> tuple[float, float]:
 
     It is at most 120 x 98, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
-    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)])
+    seen = np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
     flat = seen / np.abs(seen).max() @ frame(panel)[:2].T
     span = np.ptp(flat, axis=0)
     filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
@@ -170,7 +170,7 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
 def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[Layer]:
     """Return the arc of an angle (radians, from e2 towards e3) in the plane omega_1 = 0, with its name."""
     arc = solids.arc(centre, radius * E2, radius * E3, 0.0, value, tolerance(2.0 * radius))
-    along = [in_plane(float(np.cos(part * value)), float(np.sin(part * value))) for part in (0.5, 0.25, 0.0)]
+    along = [in_plane(float(np.cos(share * value)), float(np.sin(share * value))) for share in (0.5, 0.25, 0.0)]
     offset = (4.0 * float(along[0][1]), 4.0 * float(along[0][2]))
     label = Label(centre + radius * np.array(along), name, offset=offset)
     return [Curve(arc, "angle"), label]
@@ -215,19 +215,19 @@ def cells(members: Sequence[Member], scale: float, azimuth: float, below: float 
 
     Gaps and that length are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
     """
-    right, found, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
-    least = PITCH * max(float(np.ptp(solids.extent(one.surfaces, E3))) for one in members)
-    for one in members:
-        level = members[0].centre - one.centre
-        left, end = (x + level @ right for x in solids.extent(one.surfaces, right))
+    right, cells_seen, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
+    least = PITCH * max(float(np.ptp(solids.extent(body.surfaces, E3))) for body in members)
+    for body in members:
+        level = members[0].centre - body.centre
+        left, end = (x + level @ right for x in solids.extent(body.surfaces, right))
         shift = (place - left) * right + level
         place += max(end - left + 0.35 * scale, least)
         layers: list[Layer] = []
-        for surface in one.surfaces:
+        for surface in body.surfaces:
             layers.append(solids.moved(surface, shift))
-            curve = quadrics.hyperbola(one.matrix, surface, tolerance(3 * scale))
+            curve = quadrics.hyperbola(body.matrix, surface, tolerance(3 * scale))
             layers += [Curve(points + shift, "hyperbola") for points in curve]
-        low = one.centre + shift - below * scale * E3
-        layers.append(Label(np.asarray(low), one.name, one.role))
-        found.append(layers)
-    return found
+        low = body.centre + shift - below * scale * E3
+        layers.append(Label(np.asarray(low), body.name, body.role))
+        cells_seen.append(layers)
+    return cells_seen

@@ -70,7 +70,7 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
     meridians = [sample.curve(meridian(float(t)), a, b, tolerance) for t in angles]
     parallels = [_round(ring(float(s)), tolerance) for s in np.linspace(a, b, _PARALLELS + 2)[1:-1]]
-    edges = [h for h, at in ((low, a), (high, b)) if at != 0.0]
+    edges = [h for h, rim in ((low, a), (high, b)) if rim != 0.0]
     rims = [_round(ring(parameter(h)), tolerance) for h in edges]
     n, middle = axes[w], float(axes[w] @ centre)
     # a plane that touched the sheet in its vertex would cut, or not, as it is rounded: one through the centre keeps off

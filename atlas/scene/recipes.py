@@ -108,12 +108,12 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
     make = next((node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "scene"), None)
     if make is None:
         raise AtlasError(f"{_short(source)} has no function scene(); a recipe is one that returns a Scene")
-    given = make.args
-    places = [*given.posonlyargs, *given.args, *given.kwonlyargs]
+    arguments = make.args
+    places = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]
     values = [
-        *[None] * (len(places) - len(given.kwonlyargs) - len(given.defaults)),
-        *given.defaults,
-        *given.kw_defaults,
+        *[None] * (len(places) - len(arguments.kwonlyargs) - len(arguments.defaults)),
+        *arguments.defaults,
+        *arguments.kw_defaults,
     ]
     parameters = {place.arg: _default(source, place.arg, value) for place, value in zip(places, values, strict=True)}
     records = tuple(map(str, _declared("RECORDS", source, tree, ())))

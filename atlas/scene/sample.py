@@ -99,23 +99,23 @@ def _cut(
             corners = np.concatenate([x[None, i], inner, x[None, i + 1]])
             out = np.all(corners < box[0], axis=0) | np.all(corners > box[1], axis=0)
             seen = ~np.any(out, axis=1)
-        bent = seen & ~(sag <= _LEAVE * tolerance)
+        curved = seen & ~(sag <= _LEAVE * tolerance)
         wanted = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
-        if not wanted[bent & plain].sum() + _FEW * bent.sum() + len(s) < MOST or not np.isfinite(sag[seen]).all():
+        if not wanted[curved & plain].sum() + _FEW * curved.sum() + len(s) < MOST or not np.isfinite(sag[seen]).all():
             raise DomainError(
                 f"A curve needs more than {MOST} points to be drawn to {tolerance:g}: its sizes or its turns are too "
                 "far from what is shown; choose parameters nearer to one another."
             )
         parts = np.ones(len(open_), dtype=int)
-        parts[i[bent]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[bent], 2)
+        parts[i[curved]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[curved], 2)
         owner = np.repeat(np.arange(len(parts)), parts)
-        part = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
-        fresh = np.flatnonzero(part)
-        at = s[owner] + part / parts[owner] * (s[owner + 1] - s[owner])
+        number = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
+        fresh = np.flatnonzero(number)
+        places = s[owner] + number / parts[owner] * (s[owner + 1] - s[owner])
         points = np.concatenate([x[owner], x[-1:]])
         if fresh.size:
-            points[fresh] = function(at[fresh])
-        s, x, open_ = np.append(at, s[-1]), points, parts[owner] > 1
+            points[fresh] = function(places[fresh])
+        s, x, open_ = np.append(places, s[-1]), points, parts[owner] > 1
     return s, x
 
 

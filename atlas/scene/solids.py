@@ -146,5 +146,5 @@ def moved(surface: Surface, shift: FloatArray) -> Surface:
 
 def extent(surfaces: Sequence[Surface], along: FloatArray) -> tuple[float, float]:
     """Return the least and the largest coordinate of surfaces along the unit vector ``along`` (3,)."""
-    found = np.concatenate([np.ravel(grid @ along) for surface in surfaces for grid in surface.grids])
-    return float(found.min()), float(found.max())
+    heights = np.concatenate([np.ravel(grid @ along) for surface in surfaces for grid in surface.grids])
+    return float(heights.min()), float(heights.max())

@@ -148,7 +148,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
 def contrast(colour: str) -> float:
     """Return the contrast of a colour with white, (1 + 0.05)/(Y + 0.05) with its relative luminance Y (WCAG 2)."""
     parts = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
-    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    linear = [channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4 for channel in parts]
     return 1.05 / (0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] + 0.05)
 
 

@@ -47,11 +47,11 @@ class Drifts:
         for name, says, label, deviations in self._deviations(block):
             size = np.abs(deviations)
             i = int(np.argmax(size))
-            worst, at = float(size[i]), float(block["t"][i])
+            worst, time = float(size[i]), float(block["t"][i])
             known = self._found.get(name)
             if known is not None and known.worst >= worst:
-                worst, at = known.worst, known.worst_time
-            self._found[name] = Drift(name, says, label, worst, at, float(size[-1]))
+                worst, time = known.worst, known.worst_time
+            self._found[name] = Drift(name, says, label, worst, time, float(size[-1]))
 
     def drifts(self) -> tuple[Drift, ...]:
         """Return the drifts: orthogonality, the norm, and the integrals of motion."""

@@ -220,8 +220,8 @@ class Averages:
 def _turning_points(Q: FloatArray, near: float, lacking: float) -> tuple[float, float]:
     """Return the two roots of Q between -1 and 1 that enclose a nu or are next to it; of a steady motion one twice."""
     roots = np.roots(Q)
-    kept = np.sort(roots.real[(abs(roots.imag) < NARROW) & (abs(roots.real) < 1 + NARROW)].clip(-1.0, 1.0))
-    pairs = [(float(x), float(y)) for x, y in pairwise(kept) if np.polyval(Q, (x + y) / 2) > 0 or y - x < NARROW]
+    inside = np.sort(roots.real[(abs(roots.imag) < NARROW) & (abs(roots.real) < 1 + NARROW)].clip(-1.0, 1.0))
+    pairs = [(float(x), float(y)) for x, y in pairwise(inside) if np.polyval(Q, (x + y) / 2) > 0 or y - x < NARROW]
     if not pairs:  # a step may leave a steady motion less energy than the least
         extremes = np.roots(np.polyder(Q))
         tops = [x.real for x in extremes if abs(x.imag) < NARROW and abs(x) < 1 and np.polyval(np.polyder(Q, 2), x) < 0]

@@ -143,10 +143,10 @@ class Grade:
         values = np.array(sorted(self._thousandths))
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
-        sure = self._worst > self._errors.floor
-        worst = self._errors.certified(self._worst_row, 0)[self.name] if sure else self._errors.floor
-        at = float(self._worst_row["t"][0])
-        return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), at, self._fails_at)
+        certain = self._worst > self._errors.floor
+        worst = self._errors.certified(self._worst_row, 0)[self.name] if certain else self._errors.floor
+        time = float(self._worst_row["t"][0])
+        return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), time, self._fails_at)
 
 
 def inverse_fits(errors: Errors, block: Block, values: Block, limit: float) -> bool:

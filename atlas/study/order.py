@@ -82,16 +82,16 @@ def convergence(checks: Sequence[Any]) -> Convergence:
     runs = sorted(checks, key=lambda run: -run.step)
     steps = tuple(run.step for run in runs)
     if len(set(steps)) < max(2, len(steps)) or min(steps) <= 0:
-        said = ", ".join(f"{step:g}" for step in steps)
-        raise AtlasError(f"The order needs two runs or more, each with another step; the steps are {said}.")
+        steps_in_words = ", ".join(f"{step:g}" for step in steps)
+        raise AtlasError(f"The order needs two runs or more, each with another step; the steps are {steps_in_words}.")
     if not runs[0].errors or any(set(run.errors) != set(runs[0].errors) for run in runs):
         raise AtlasError("The order needs runs with the same kinds of columns, of a body with a certified motion.")
     if any(run.parameters != runs[0].parameters for run in runs):
         raise AtlasError(f"{runs[0].file} and another run are of different motions: there is no common order.")
     ends = [run.end for run in runs]
     if max(ends) - min(ends) > 1.5 * steps[0]:
-        said = " and at ".join(f"{end:g}" for end in (min(ends), max(ends)))
-        raise AtlasError(f"The runs end at t = {said}: only errors over the same time have an order.")
+        steps_in_words = " and at ".join(f"{end:g}" for end in (min(ends), max(ends)))
+        raise AtlasError(f"The runs end at t = {steps_in_words}: only errors over the same time have an order.")
     errors = {name: tuple(max(run.errors[name]) for run in runs) for name in runs[0].errors}
     orders = {
         name: tuple(_slope(steps[i : i + 2], values[i : i + 2]) for i, _ in enumerate(pairwise(values)))

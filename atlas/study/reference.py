@@ -93,22 +93,22 @@ def _in_given_axes(motion: Turned) -> Reference:
 
 def _any_body(known: Given, start: Given, file: str) -> Reference:
     """Return the motion of a body of any inertia tensor: certified where its moments and its start are given."""
-    given, B = known["inertia"], np.array(_needed(known, "field", file), dtype=float)
-    a, b, c, ab, ac, bc = (*given, 0.0, 0.0, 0.0)[:6]
+    inertia, B = known["inertia"], np.array(_needed(known, "field", file), dtype=float)
+    a, b, c, ab, ac, bc = (*inertia, 0.0, 0.0, 0.0)[:6]
     tensor, field = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]]), B if B.size == 3 else np.array([0.0, *B])
-    shown = {"inertia": [*map(float, given)], "field": field.tolist()}
+    shown = {"inertia": [*map(float, inertia)], "field": field.tolist()}
     if start.keys() & {"omega2", "omega3"}:
         raise AtlasError(
             f"{file}: omega2 and omega3 start an elementary motion of a symmetric body; one with three moments of "
             "inertia is started by omega, three components."
         )
-    if start and (len(given) > 3 or "attitude" in known):
+    if start and (len(inertia) > 3 or "attitude" in known):
         R = rotation_of(known["attitude"], f"{file}: attitude") if "attitude" in known else None
         return _in_given_axes(motion(tensor, field, start["omega"], R))
     if not start:
         return Reference("any inertia tensor", shown, AnyBody(tensor, field))
     omega = np.array(start["omega"], dtype=float)
-    asymmetric = AsymmetricMotion(given, field.tolist(), omega.tolist())
+    asymmetric = AsymmetricMotion(inertia, field.tolist(), omega.tolist())
     unit = float(np.abs([*field, *omega]).max()) or 1.0
     return Reference(
         asymmetric.kind, shown | {"omega": omega.tolist()}, AnyBody(tensor, field, (omega, field)), asymmetric, unit

@@ -129,10 +129,10 @@ class DoubleDouble:
 
     def select(self, positive: "DoubleDouble", other: "DoubleDouble") -> "DoubleDouble":
         """Return `positive` where this number is, `other` elsewhere."""
-        found = chosen(self.hi > 0, positive, other)
+        selected = chosen(self.hi > 0, positive, other)
         if np.ndim(self.rel):
-            found.rel = np.where(self.rel < 0.5, found.rel, np.inf)
-        return found
+            selected.rel = np.where(self.rel < 0.5, selected.rel, np.inf)
+        return selected
 
     @property
     def low(self) -> Any:
@@ -158,9 +158,9 @@ ONE = DoubleDouble(np.float64(1.0))
 
 def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
-    one = not (np.ndim(x.rel) or np.ndim(y.rel))
+    is_one_bound = not (np.ndim(x.rel) or np.ndim(y.rel))
     hi, low = np.where(where, x.hi, y.hi), np.where(where, x.low, y.low)
-    return DoubleDouble(hi, low, max(x.rel, y.rel) if one else np.where(where, x.rel, y.rel))
+    return DoubleDouble(hi, low, max(x.rel, y.rel) if is_one_bound else np.where(where, x.rel, y.rel))
 
 
 def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
@@ -224,19 +224,21 @@ def over(
     shape = common_shape(*(np.shape(x) for x in inputs))
     degrees = (degree,) if isinstance(degree, int) else degree
     out = np.empty((len(degrees), int(np.prod(shape))))
-    for part, row, exponents, results in blocks(formula, inputs, shape, unit):
-        sure = np.ones(part.stop - part.start, dtype=bool)
-        for values, n, result in zip(out[:, part], degrees, results, strict=True):
-            found, certain = result.nearest()
+    for rows, row, exponents, results in blocks(formula, inputs, shape, unit):
+        known = np.ones(rows.stop - rows.start, dtype=bool)
+        for values, n, result in zip(out[:, rows], degrees, results, strict=True):
+            values_of_rows, certain = result.nearest()
             if exponents is not None:
-                found = np.ldexp(found, n * exponents[0])
-                certain &= exponents[1] & ((found == 0) | ((abs(found) > 2.0**-1000) & (abs(found) < np.inf)))
-            values[:] = found
-            sure &= certain
-        for i in np.flatnonzero(~sure).tolist():
-            out[:, part.start + i] = alone(*row(i))
-    found = [values.reshape(shape) for values in out]
-    return found[0] if isinstance(degree, int) else found
+                values_of_rows = np.ldexp(values_of_rows, n * exponents[0])
+                certain &= exponents[1] & (
+                    (values_of_rows == 0) | ((abs(values_of_rows) > 2.0**-1000) & (abs(values_of_rows) < np.inf))
+                )
+            values[:] = values_of_rows
+            known &= certain
+        for i in np.flatnonzero(~known).tolist():
+            out[:, rows.start + i] = alone(*row(i))
+    values_of_rows = [values.reshape(shape) for values in out]
+    return values_of_rows[0] if isinstance(degree, int) else values_of_rows
 
 
 def blocks(
@@ -251,15 +253,15 @@ def blocks(
     columns = [np.float64(x) if np.ndim(x) == 0 else _flat(np.asarray(x), shape) for x in inputs]
     keep()
     for start in range(0, size, BLOCK):
-        part = slice(start, min(start + BLOCK, size))
-        given = [x if isinstance(x, np.float64) else x[part] for x in columns]
-        used, exponents = given, None
-        plain = _ordinary(given, part.stop - part.start, bound)
+        rows = slice(start, min(start + BLOCK, size))
+        columns_of_block = [x if isinstance(x, np.float64) else x[rows] for x in columns]
+        used, exponents = columns_of_block, None
+        plain = _ordinary(columns_of_block, rows.stop - rows.start, bound)
         if not plain.all():
-            used, exponents = _scaled(given, unit, plain)
+            used, exponents = _scaled(columns_of_block, unit, plain)
         with np.errstate(all="ignore"):
             results = formula(*(DoubleDouble(x) for x in used))
-            yield part, _row(given), exponents, results if isinstance(results, tuple) else (results,)
+            yield rows, _row(columns_of_block), exponents, results if isinstance(results, tuple) else (results,)
 
 
 def _row(columns: Sequence[Any]) -> Callable[[int], list[float]]:
@@ -273,25 +275,25 @@ def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
 
 def _ordinary(columns: Sequence[Any], rows: int, bound: float = ORDINARY) -> Any:
     """Return in which rows all numbers are zero or far from what products of a few could not hold."""
-    found = np.ones(rows, dtype=bool)
+    ordinary = np.ones(rows, dtype=bool)
     for size in map(abs, columns):
-        found &= (size == 0) | ((size >= 1 / bound) & (size <= bound))
-    return found
+        ordinary &= (size == 0) | ((size >= 1 / bound) & (size <= bound))
+    return ordinary
 
 
-def _scaled(given: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
+def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
     """Return the inputs with those in `unit` over a power of two, its exponents, and which rows are ordinary then.
 
     Rows that are `plain` stay as they are.
     """
     rows = plain.size
-    largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in given[unit])), axis=0)
+    largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in columns[unit])), axis=0)
     exponents = np.where(plain, 0, np.frexp(largest)[1])
-    used = list(given)
-    used[unit] = [np.ldexp(x, -exponents) for x in given[unit]]
+    used = list(columns)
+    used[unit] = [np.ldexp(x, -exponents) for x in columns[unit]]
     ordinary = _ordinary(used, rows)
     # a number that the scaling made zero is none
-    lost = [(x != 0) & (y == 0) for x, y in zip(given[unit], used[unit], strict=True)]
+    lost = [(x != 0) & (y == 0) for x, y in zip(columns[unit], used[unit], strict=True)]
     return used, (exponents, ordinary & ~np.logical_or.reduce(np.broadcast_arrays(np.zeros(rows, dtype=bool), *lost)))
 
 

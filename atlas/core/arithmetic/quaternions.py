@@ -20,8 +20,8 @@ def of_matrix(R: Any) -> FloatArray:
     rows = quaternion_products(entries)
     table = np.array([np.stack(row, -1) for row in rows])
     largest = np.argmax([table[i, ..., i] for i in range(4)], axis=0)
-    found = np.take_along_axis(table, largest[None, ..., None], axis=0)[0]
-    return np.asarray(found / np.sqrt((found * found).sum(-1))[..., None])
+    quaternions = np.take_along_axis(table, largest[None, ..., None], axis=0)[0]
+    return np.asarray(quaternions / np.sqrt((quaternions * quaternions).sum(-1))[..., None])
 
 
 def product(p: FloatArray, q: FloatArray) -> FloatArray:

@@ -110,10 +110,10 @@ def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], F
     the price of two functions more: that is the third column of the transposed matrix.
     """
     along, rest, across, dyad = parts
-    one = np.eye(3)
-    upper = E if third_row else one
-    C, aC = upper @ along, upper @ rest + (one - upper)
-    pairs = [(one, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
+    identity = np.eye(3)
+    upper = E if third_row else identity
+    C, aC = upper @ along, upper @ rest + (identity - upper)
+    pairs = [(identity, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
     if third_row:
         pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
     return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
@@ -236,9 +236,9 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
         basis = Basis(phases, min(high - low, BLOCK), len(weights))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
-            functions, part = basis.at(flat[i:j]), rows[i:j]
+            functions, rows_of_block = basis.at(flat[i:j]), rows[i:j]
             for k in range(0, j - i, PART):
-                np.matmul(functions[:, k : k + PART].T, weights, out=part[k : k + PART])
+                np.matmul(functions[:, k : k + PART].T, weights, out=rows_of_block[k : k + PART])
 
     shared(fill, times.size, BLOCK)
     return out

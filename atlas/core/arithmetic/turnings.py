@@ -79,10 +79,10 @@ def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) ->
     """Return the frequencies that a formula gives for inputs that broadcast: `words` and `lack` of `Frequencies`."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
     words, lack = list[Any](), list[Any]()
-    for part, _, exponents, found in blocks(formula, inputs, shape, unit):
-        turns = [frequency * PER_RADIAN for frequency in found]
-        both = np.array([[np.broadcast_to(x, part.stop - part.start) for x in (f.hi, f.low)] for f in turns])
-        error = np.array([np.broadcast_to(f.rel * abs(f.hi), part.stop - part.start) for f in turns])
+    for rows, _, exponents, results in blocks(formula, inputs, shape, unit):
+        turns = [frequency * PER_RADIAN for frequency in results]
+        both = np.array([[np.broadcast_to(x, rows.stop - rows.start) for x in (f.hi, f.low)] for f in turns])
+        error = np.array([np.broadcast_to(f.rel * abs(f.hi), rows.stop - rows.start) for f in turns])
         if exponents is not None:
             both, error = np.ldexp(both, exponents[0]), np.ldexp(error, exponents[0])
             error[:, ~exponents[1]] = np.nan

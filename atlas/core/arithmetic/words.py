@@ -36,17 +36,17 @@ def magnitude(x: arb) -> int:
 
 def words(x: Number, count: int) -> list[float]:
     """Split a number into doubles, each the nearest to what the ones before it leave."""
-    found, rest = [], middle(x)
+    parts, rest = [], middle(x)
     with workprec(2 * BITS):
         for _ in range(count):
-            found.append(nearest(rest))
-            rest -= found[-1]
-    return found
+            parts.append(nearest(rest))
+            rest -= parts[-1]
+    return parts
 
 
 def turn_of(x: Number) -> arb:
     """Return what is left of a number beyond the nearest whole one."""
-    m, e = (int(part) for part in middle(x).man_exp())
+    m, e = (int(number) for number in middle(x).man_exp())
     if e >= 0:
         return arb(0)
     one = 1 << -e

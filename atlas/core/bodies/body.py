@@ -81,8 +81,8 @@ class SymmetricBody:
 
     def _repr_html_(self) -> str:
         """Return the moments of the body and a small picture, for a notebook."""
-        found: str = notebook("show").body(self)
-        return found
+        html: str = notebook("show").body(self)
+        return html
 
     @property
     def ratio(self) -> Any:
@@ -246,12 +246,12 @@ FLAT = ("The height", "The polar radius")
 def _sizes(mass: Any, *lengths: tuple[str, Any]) -> list[Any]:
     """Return a mass and the squares of lengths, numbers or arrays. Raises AtlasError unless they are positive."""
     named = [("The mass", mass, MASS), *((name, length, LENGTH) for name, length in lengths)]
-    given = [real(value, name, unit) for name, value, unit in named]
-    for (name, _, _), value in zip(named, given, strict=True):
-        for wrong in value[(value < 0) if name in FLAT else (value <= 0)].flat[:1]:
-            raise DomainError(f"{name} must be positive, not {wrong}.")
-    common_shape(*(value.shape for value in given))
-    m, *rest = map(plain, given)
+    sizes = [real(value, name, unit) for name, value, unit in named]
+    for (name, _, _), value in zip(named, sizes, strict=True):
+        for impossible in value[(value < 0) if name in FLAT else (value <= 0)].flat[:1]:
+            raise DomainError(f"{name} must be positive, not {impossible}.")
+    common_shape(*(value.shape for value in sizes))
+    m, *rest = map(plain, sizes)
     with np.errstate(over="ignore"):  # what is too large is refused as a moment
         return [m, *(length * length for length in rest)]
 

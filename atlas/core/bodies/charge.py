@@ -49,8 +49,10 @@ class ChargeMoments:
         if "mass" in dimensions:
             raise AtlasError("Moments of a charge take no mass: give the charge and the dimensions of the shape.")
         if name in SHAPES and {*dimensions, "mass"} != {*SHAPES[name][1]}:
-            sizes, given = (", ".join(size for size in x if size != "mass") for x in (SHAPES[name][1], dimensions))
-            raise AtlasError(f"The moments of a charged {name} take {sizes}, not {given or 'nothing'}.")
+            sizes, given_sizes = (
+                ", ".join(size for size in x if size != "mass") for x in (SHAPES[name][1], dimensions)
+            )
+            raise AtlasError(f"The moments of a charged {name} take {sizes}, not {given_sizes or 'nothing'}.")
         charge = number(charge, "The charge", CHARGE)
         whole = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
         sign = float(np.sign(charge))

@@ -53,8 +53,8 @@ class Field:
         object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c).view(Prime)))
 
     def __repr__(self) -> str:
-        made = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
-        return f"{made}  # B' = {self.prime.tolist()}"
+        text = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
+        return f"{text}  # B' = {self.prime.tolist()}"
 
     @classmethod
     def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
@@ -133,8 +133,8 @@ class LaboratoryFrame:
         object.__setattr__(self, "matrix", frozen(matrix))
 
     def __repr__(self) -> str:
-        made = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
-        return f"{made}  # {self.alignment}, (B2, B3) = {self.field}"
+        text = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
+        return f"{text}  # {self.alignment}, (B2, B3) = {self.field}"
 
     def to_laboratory(self, v: Any) -> FloatArray:
         """Components (..., 3) in the laboratory of vectors given in the user's frame.

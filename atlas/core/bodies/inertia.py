@@ -87,6 +87,6 @@ def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]
     size = np.abs(tensor).max(axis=(-2, -1))
     if (np.abs(tensor - tensor.swapaxes(-2, -1)).max(axis=(-2, -1)) > ROUNDING * size).any():
         i, j = np.unravel_index(np.argmax(np.abs(tensor - tensor.swapaxes(-2, -1)).reshape(-1, 9).max(axis=0)), (3, 3))
-        one, other = tensor.reshape(-1, 3, 3)[0][[i, j], [j, i]]
-        raise AtlasError(f"{name} must be symmetric, but has {one:.6g} and {other:.6g} across its diagonal.")
+        element, other = tensor.reshape(-1, 3, 3)[0][[i, j], [j, i]]
+        raise AtlasError(f"{name} must be symmetric, but has {element:.6g} and {other:.6g} across its diagonal.")
     return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]

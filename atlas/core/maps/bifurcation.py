@@ -54,10 +54,12 @@ def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
     """Return (M3, p, h) of states, theorem-top; `Omega`, `K` (..., 3) in the body, 1/time, K not 0."""
     I = _ratio(ratio)
     spin, field = vectors(Omega, "Omega"), vectors(K, "K")
-    found, b = clebsch(I, spin, field), np.linalg.norm(field, axis=-1)
+    invariants, b = clebsch(I, spin, field), np.linalg.norm(field, axis=-1)
     if not np.all(b):
         raise DomainError("The momentum along the field needs a field that is not zero.")
-    return Conserved(plain(I * (spin[..., 2] + field[..., 2])), plain(found.MK / b), plain(2 * np.asarray(found.H)))
+    return Conserved(
+        plain(I * (spin[..., 2] + field[..., 2])), plain(invariants.MK / b), plain(2 * np.asarray(invariants.H))
+    )
 
 
 def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
@@ -148,14 +150,14 @@ class Bifurcation:
     @cached_property
     def spins(self) -> tuple[Spin, ...]:
         """The spins about the three axes."""
-        found = []
+        spins = []
         for axis, (I, own) in enumerate(zip(self.inertia, self.a, strict=True)):
             roots, turn = self._roots(axis), self.c / self.b
             F, H = turn * turn - self.b**2 * own, (turn * turn / I + I * self.b**2) / 2
             real = bool(np.isreal(roots).all())
             kind = "focus-focus" if not real else "stable" if (roots.real > -own).all() else "saddle"
-            found.append(Spin(axis, float(F), float(H), kind))  # type: ignore[arg-type]  # one of the three
-        return tuple(found)
+            spins.append(Spin(axis, float(F), float(H), kind))  # type: ignore[arg-type]  # one of the three
+        return tuple(spins)
 
     def stretches(self) -> Iterator[Stretch]:
         """Yield the parts of both ovals on which K is real."""
@@ -176,9 +178,9 @@ class Bifurcation:
                 s = -self.c / (branch * float(np.sqrt(P)) * self.b**2)
                 if start < stop and (1 / x).min() <= s <= (1 / x).max():
                     borders = [float(start), *self._borders(start, stop, branch), float(stop)]
-                    for one, other in pairwise(borders):
-                        stable = bool(self.splitting(np.array((one + other) / 2), branch) > 0)
-                        yield Stretch(oval, branch, one, other, stable)
+                    for border, other in pairwise(borders):
+                        stable = bool(self.splitting(np.array((border + other) / 2), branch) > 0)
+                        yield Stretch(oval, branch, border, other, stable)
 
     def rays(self) -> Iterator[tuple[int, float, float, bool]]:
         """Yield axis, first and last F, and stability of the plane pendulums about the three axes, for c = 0.
@@ -198,7 +200,7 @@ class Bifurcation:
         """Return the places between two others where stability changes: the cusps of the curve."""
         z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, LOOKS + 2)[1:-1]) ** 2
         stable = self.splitting(z, branch) > 0
-        found = []
+        borders = []
         for k in np.flatnonzero(stable[1:] != stable[:-1]):
             low, high = z[k], z[k + 1]
             for _ in range(ROUNDS):
@@ -207,8 +209,8 @@ class Bifurcation:
                     low = middle
                 else:
                     high = middle
-            found.append(float(high))
-        return found
+            borders.append(float(high))
+        return borders
 
     @property
     def rest(self) -> FloatArray | None:
@@ -216,5 +218,5 @@ class Bifurcation:
         moment = abs(self.c) / self.b**2
         if not self.inertia.min() <= moment <= self.inertia.max():
             return None
-        (found,) = self.values(np.zeros(1), int(-np.sign(self.c)))
-        return np.asarray(found)
+        (value,) = self.values(np.zeros(1), int(-np.sign(self.c)))
+        return np.asarray(value)

@@ -92,8 +92,8 @@ def monodromy(
     if size and not LEAST < max(size, abs(middle)) < math.inf:
         raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
     whole(points, "The number of points", 3)
-    found = on_loop(I, twist, along, around(wells, middle, points), weight, lean)
-    return replace(found, p=found.p * unit, g=found.g * unit)
+    loop = on_loop(I, twist, along, around(wells, middle, points), weight, lean)
+    return replace(loop, p=loop.p * unit, g=loop.g * unit)
 
 
 def on_loop(
@@ -186,7 +186,7 @@ def around(wells: Wells, p: float, points: int = 48) -> FloatArray:
     return np.stack([p + min(widths) / 2 * np.cos(t), g + room(p) / 2 * np.sin(t)], axis=-1)
 
 
-def carried(one: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
+def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
     """Carry two periods of the tori of a body round a `loop` (N, 2) of values (F, H), closed by its first point.
 
     The tori are those next to the spin about an `axis`, 0 to 2. Their periods, pairs of times (T_H, T_F), are proved in
@@ -195,29 +195,32 @@ def carried(one: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[
     for a coarser loop, NotCertifiedError where no periods are found.
     """
     state = np.zeros(6)
-    state[[axis, axis + 3]] = one.c / one.b, one.b
-    state += 0.1 * one.b * np.array([0.5, 0.8, -0.3, 1.0, 0.5, -0.1])
-    found: list[FloatArray] = []
+    state[[axis, axis + 3]] = bifurcation.c / bifurcation.b, bifurcation.b
+    state += 0.1 * bifurcation.b * np.array([0.5, 0.8, -0.3, 1.0, 0.5, -0.1])
+    bases: list[FloatArray] = []
     step = 0.0
     for F, H in [*loop.tolist(), loop[0].tolist()]:
-        state = _with_values(one, state, np.array([H, F, one.b * one.b, one.c]))
-        W, K = ([fmpq(*x.as_integer_ratio()) for x in half.tolist()] for half in (state[:3] / one.inertia, state[3:]))
-        torus = Torus(tuple(fmpq(*I.as_integer_ratio()) for I in one.inertia.tolist()), tuple(W), tuple(K))
+        state = _with_values(bifurcation, state, np.array([H, F, bifurcation.b * bifurcation.b, bifurcation.c]))
+        W, K = (
+            [fmpq(*x.as_integer_ratio()) for x in half.tolist()]
+            for half in (state[:3] / bifurcation.inertia, state[3:])
+        )
+        torus = Torus(tuple(fmpq(*I.as_integer_ratio()) for I in bifurcation.inertia.tolist()), tuple(W), tuple(K))
         basis = np.array([[float(period.H), float(period.F)] for period in torus.periods(64)])
-        if found:
-            part = found[-1] @ np.linalg.inv(basis)
+        if bases:
+            part = bases[-1] @ np.linalg.inv(basis)
             step = max(step, float(np.abs(part - np.rint(part)).max()))
             basis = np.rint(part) @ basis
-        found.append(basis)
+        bases.append(basis)
     if not step < 1 / 4:
         raise DomainError(f"A period changes by {step:.3g} of itself from one point of the loop to the next.")
-    turned = np.rint(found[-1] @ np.linalg.inv(found[0])).astype(int).tolist()
+    turned = np.rint(bases[-1] @ np.linalg.inv(bases[0])).astype(int).tolist()
     return tuple(tuple(row) for row in turned), step
 
 
-def _with_values(one: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:
+def _with_values(bifurcation: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:
     """Return (M, K) near a state with the values (H, F, K^2, (M, K)), by Newton's method to the nearest."""
-    I, a = one.inertia, one.a
+    I, a = bifurcation.inertia, bifurcation.a
     for _ in range(NEWTON):
         M, K = state[:3], state[3:]
         values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])

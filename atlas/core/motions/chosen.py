@@ -227,12 +227,12 @@ def in_laboratory(family: type[Any], body: Any, field: Any, attitude: Any, omega
         axes = known.axes
         own = family(_parts(known.moments), _parts(np.matvec(axes, K)), **parameters)
     else:
-        motion_of_class: Turned = motion(body, B, w, R)
-        if not issubclass(type(motion_of_class), family):
+        moving: Turned = motion(body, B, w, R)
+        if not issubclass(type(moving), family):
             raise DomainError(
-                f"So no {family.__name__} starts, but one of the family {motion_of_class.family}: atlas.motion finds the class."
+                f"So no {family.__name__} starts, but one of the family {moving.family}: atlas.motion finds the class."
             )
-        return motion_of_class
+        return moving
     arguments = {"body": body, "field": B, "attitude": R, "angular_velocity": omega, **parameters}
     w = np.asarray(own.angular_velocity(0.0)) @ axes if omega is None else w
     left, made_by = R @ np.swapaxes(axes, -1, -2), f"{family.__name__}.in_laboratory"

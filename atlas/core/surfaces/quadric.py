@@ -135,10 +135,10 @@ class Quadric(Shown):
         omega = vectors(omega, "omega", RATE)
         common_shape(self.shape, omega.shape[:-1])
         # the difference and its turn may be larger than the coordinates: a quarter of each is not
-        part = -2 if max(np.abs(omega).max(initial=0.0), np.abs(self.centre).max(initial=0.0)) > 1.0 else 0
-        turned = np.matvec(self.axes, np.ldexp(omega, part) - np.ldexp(self.centre, part))
+        power = -2 if max(np.abs(omega).max(initial=0.0), np.abs(self.centre).max(initial=0.0)) > 1.0 else 0
+        turned = np.matvec(self.axes, np.ldexp(omega, power) - np.ldexp(self.centre, power))
         with np.errstate(over="ignore"):
-            return np.asarray(np.ldexp(turned, -part))
+            return np.asarray(np.ldexp(turned, -power))
 
     def residual(self, omega: Any) -> Any:
         """Left-hand side of (50) at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
@@ -234,8 +234,8 @@ class TopQuadric(Quadric):
 
         def alone(*row: float) -> Any:
             with workprec():
-                found = [nearest(x) for x in exact(_exactly(row[:8]), *row[8:])]
-            return found if isinstance(degree, tuple) else found[0]
+                values = [nearest(x) for x in exact(_exactly(row[:8]), *row[8:])]
+            return values if isinstance(degree, tuple) else values[0]
 
         inputs = list(self._top)
         if along:

@@ -88,8 +88,8 @@ class TopHyperbola(Shown):
         DomainError at the pole; AtlasError for what is no number.
         """
         values = real(omega2, "omega2", RATE)
-        found = np.array([self._exact.stable(float(x)) for x in values.flat], dtype=bool).reshape(values.shape)
-        return found if found.ndim else bool(found)
+        stable = np.array([self._exact.stable(float(x)) for x in values.flat], dtype=bool).reshape(values.shape)
+        return stable if stable.ndim else bool(stable)
 
     @property
     def unstable_bands(self) -> list[tuple[float, float]]:
@@ -97,8 +97,8 @@ class TopHyperbola(Shown):
 
         They are real roots of a quartic whose coefficients are exact; `atlas.exact` has them as balls.
         """
-        found = enclosed(lambda: self._exact.unstable_bands, BITS)
-        return [(nearest(low), nearest(high)) for low, high in found]
+        ends = enclosed(lambda: self._exact.unstable_bands, BITS)
+        return [(nearest(low), nearest(high)) for low, high in ends]
 
     def motion(self, omega2: float, omega1: float = 0.0) -> TopMotion:
         """Return the motion at omega2, with `omega1` to push it; omega3 is that of the curve, rounded once.
@@ -144,8 +144,8 @@ class TopHyperbola(Shown):
 
         def alone(*row: float) -> Any:
             with workprec():
-                found = [nearest(x) for x in exact(row[8])]
-            return found if isinstance(degree, tuple) else found[0]
+                values = [nearest(x) for x in exact(row[8])]
+            return values if isinstance(degree, tuple) else values[0]
 
         values = real(omega2, "omega2", RATE)
         return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=alone)

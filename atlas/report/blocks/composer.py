@@ -76,8 +76,8 @@ class Composer:
     def anchors(self, names: Iterable[str]) -> list[str]:
         """Return where names lead in the PDF, but for what stands beside this report. Raises for an unknown one."""
         find, targets = self.document.cite("typst"), self.document.targets
-        found = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
-        return [anchor for anchor in found if anchor]
+        anchors = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
+        return [anchor for anchor in anchors if anchor]
 
     def use(self, name: str, anchor: str, words: str) -> None:
         """Note that a place of this page uses an equation, once."""
@@ -92,9 +92,9 @@ class Composer:
             self.document.targets[name] = (f"{self.slug}.html", anchor, words)
         return first
 
-    def anchor(self, kind: str, given: str | None, word: str, number: int) -> str:
+    def anchor(self, kind: str, own: str | None, word: str, number: int) -> str:
         """Return the anchor of a figure or table, by its id or else its number, and let citations lead there."""
-        name = given or f"{number}"
+        name = own or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"
 

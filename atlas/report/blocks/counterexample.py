@@ -33,22 +33,24 @@ _CALLS = {
 }
 
 
-def written(found: Mapping[str, str], section: str) -> str:
+def written(values_by_name: Mapping[str, str], section: str) -> str:
     """Return a counterexample in Markdown with TeX: values of the letters, and what they break or why nothing is said.
 
     `section` is that of the paper, on which the meaning of a letter depends.
     """
-    values = {name: value for name, value in found.items() if name not in {"relation", "left", "right", "reason"}}
+    values = {
+        name: value for name, value in values_by_name.items() if name not in {"relation", "left", "right", "reason"}
+    }
     vectors = {name.partition("[")[0] for name, value in values.items() if re.match(r"\[[^\[]", value)}
     letters = _Letters(vectors, primed=section in {"IV", "V"})
-    given = ", ".join(letters.value(name, value) for name, value in values.items())
-    if "relation" not in found:
-        sides = ", ".join(letters.told(found[side]) for side in ("left", "right") if side in found)
-        return ": ".join(filter(None, (found["reason"], given, sides))) + "."
-    relation, _, place = found["relation"].partition(" (component ")
+    values_in_words = ", ".join(letters.value(name, value) for name, value in values.items())
+    if "relation" not in values_by_name:
+        sides = ", ".join(letters.told(values_by_name[side]) for side in ("left", "right") if side in values_by_name)
+        return ": ".join(filter(None, (values_by_name["reason"], values_in_words, sides))) + "."
+    relation, _, place = values_by_name["relation"].partition(" (component ")
     where = f" in the {_PLACES.get(place[:-1], f'{place[:-1]}th')} component" if place else ""
-    sides = ", ".join(f"{side} {letters.told(found[side])}" for side in ("left", "right"))
-    return f"{given} break ${letters.formula(relation)}${where}: {sides}."
+    sides = ", ".join(f"{side} {letters.told(values_by_name[side])}" for side in ("left", "right"))
+    return f"{values_in_words} break ${letters.formula(relation)}${where}: {sides}."
 
 
 class _Letters:
@@ -130,7 +132,9 @@ class _Letters:
         """Return the TeX of a letter with indices; the first one of x is a particle's, a second one stands above."""
         first, *others = map(self.tex, indices)
         if name == "x":
-            return f"{self.letter(name, bold=not others)}_{{{first}}}" + "".join(f"^{{{at}}}" for at in others)
+            return f"{self.letter(name, bold=not others)}_{{{first}}}" + "".join(
+                f"^{{{exponent}}}" for exponent in others
+            )
         return f"{self.letter(name, bold=False)}_{{{' '.join([first, *others])}}}"
 
     def factor(self, node: ast.expr) -> str:

@@ -55,7 +55,7 @@ class ExplorerView:
     @property
     def described(self) -> str:
         """The sliders for the script."""
-        return json.dumps([asdict(one) for one in self.sliders], ensure_ascii=False)
+        return json.dumps([asdict(slider) for slider in self.sliders], ensure_ascii=False)
 
     @property
     def in_space(self) -> bool:
@@ -68,7 +68,10 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
     Raises AtlasError for a slider that there is not.
     """
-    B2, B3 = block.at or next(one for one in FAMILIES["elementary"].parameters if one.name == "field").default
+    B2, B3 = (
+        block.at
+        or next(parameter for parameter in FAMILIES["elementary"].parameters if parameter.name == "field").default
+    )
     known = _sliders(B2, B3)
     for name in (*block.sliders, *block.start):
         if name not in known:
@@ -83,10 +86,10 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
 def _sliders(B2: float, B3: float) -> dict[str, Slider]:
     """Return all sliders by name."""
-    known = {one.name: one for name in ("general", "elementary") for one in sliders_of(FAMILIES[name])}
+    known = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
     (low2, high2), (low3, high3) = _PLANE
     turned = "angle of the field with e2, in degrees"
-    found: list[Any] = [
+    sliders_here: list[Any] = [
         replace(known["ratio"], name="I", symbol="I"),
         Slider("angle", turned, *_OBLIQUE, _STEP, round(degrees(atan2(B3, B2)), 2), "∠(e₂, B)"),
         replace(known["omega1"], symbol="ω₁", start=0.0),
@@ -95,4 +98,4 @@ def _sliders(B2: float, B3: float) -> dict[str, Slider]:
         Slider("p", "turns of the body about its axis", -7.0, 7.0, 1.0, 1.0),
         Slider("q", "turns of the axis about the field", 1.0, 9.0, 1.0, 2.0),
     ]
-    return {one.name: one for one in found}
+    return {slider.name: slider for slider in sliders_here}

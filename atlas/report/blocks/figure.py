@@ -43,12 +43,12 @@ class FigureView:
     @property
     def failure(self) -> str:
         """Why there is no picture, or nothing."""
-        return next((one.failure for one in self.pictures if one.failure), "")
+        return next((picture.failure for picture in self.pictures if picture.failure), "")
 
     @property
     def remark(self) -> str:
         """What the reader should know of how it was drawn, or nothing."""
-        return next((one.remark for one in self.pictures if one.remark), "")
+        return next((picture.remark for picture in self.pictures if picture.remark), "")
 
 
 def view(block: Figure, composer: Composer) -> FigureView:
@@ -60,7 +60,7 @@ def view(block: Figure, composer: Composer) -> FigureView:
     width, height = first.size
     shown = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
-    given = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
+    parameters = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
     return FigureView(
         composer.figures,
         anchor,
@@ -69,5 +69,5 @@ def view(block: Figure, composer: Composer) -> FigureView:
         first.alt or first.failure,
         shown,
         height * shown / width,
-        composer.text(given, inline=True),
+        composer.text(parameters, inline=True),
     )

@@ -75,35 +75,35 @@ def entries(
     """
     nothing = Finding("undecided", "not tried", "")
     pairs = ((entry, findings.get(name, nothing)) for name, entry in EQUATIONS.items())
-    return tuple(_entry(entry, found, keep, uses[entry.name]) for entry, found in pairs if wanted(entry, found))
+    return tuple(_entry(entry, finding, keep, uses[entry.name]) for entry, finding in pairs if wanted(entry, finding))
 
 
-def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
+def _entry(entry: Equation, finding: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
     def words(markdown: str) -> int | None:
         return keep(markdown, inline=True) if markdown else None
 
-    how = found.method if not found.follows else f"{found.method}, from {found.follows}"
+    how = finding.method if not finding.follows else f"{finding.method}, from {finding.follows}"
     return EntryView(
         name=entry.name,
         number=entry.name if entry.number is not None else "",
         kind=entry.kind,
-        verdict=found.verdict,
+        verdict=finding.verdict,
         says=keep(entry.says, inline=True),
         formula=keep(_display(entry.tex)),
         assumptions=words("; ".join(entry.assumptions)),
         how=keep(how, inline=True),
-        corrected=keep(_display(found.corrected)) if found.corrected else None,
-        corrected_verdict=found.corrected_verdict,
-        note=words(found.note),
-        counterexample=words(written(found.counterexample, entry.section) if found.counterexample else ""),
-        modules=found.modules,
+        corrected=keep(_display(finding.corrected)) if finding.corrected else None,
+        corrected_verdict=finding.corrected_verdict,
+        note=words(finding.note),
+        counterexample=words(written(finding.counterexample, entry.section) if finding.counterexample else ""),
+        modules=finding.modules,
         uses=uses,
-        grade=found.grade,
-        slip=found.slip,
+        grade=finding.grade,
+        slip=finding.slip,
         quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
-        false=keep(f"“{found.false}.”", inline=True) if found.false else None,
-        script=found.script,
-        said=words("; ".join(_reading(*pair) for pair in found.said.items())),
+        false=keep(f"“{finding.false}.”", inline=True) if finding.false else None,
+        script=finding.script,
+        said=words("; ".join(_reading(*pair) for pair in finding.said.items())),
     )
 
 
@@ -111,15 +111,15 @@ def _reading(phrase: str, line: str) -> str:
     return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is supposed, or tried in a further line"
 
 
-def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:
+def by_grade(entries_seen: Sequence[EntryView]) -> tuple[EntryView, ...]:
     """Return entries with a slip, the grave ones first; those that share a slip stand together, its own one first."""
-    place = {entry.name: number for number, entry in enumerate(found)}
+    place = {entry.name: number for number, entry in enumerate(entries_seen)}
 
     def order(entry: EntryView) -> tuple[int, int, bool, int]:
         own = place[entry.name]
         return GRADES.index(entry.grade), place.get(entry.slip, own), bool(entry.slip), own
 
-    return tuple(sorted(found, key=order))
+    return tuple(sorted(entries_seen, key=order))
 
 
 def _display(tex: str) -> str:
@@ -167,7 +167,7 @@ def view_errata(_block: Errata, composer: Composer) -> ErrataView:
     """Set out the entries with a slip, the grave ones first; a note that several share is said once."""
     composer.document.errata = composer.slug
     findings = composer.recorded.findings
-    ordered = by_grade(entries(lambda _, one: bool(one.grade), findings, composer.text, composer.uses))
+    ordered = by_grade(entries(lambda _, finding: bool(finding.grade), findings, composer.text, composer.uses))
     first = {findings[entry.name].note: entry.name for entry in reversed(ordered)}
     once = (entry if first[findings[entry.name].note] == entry.name else replace(entry, note=None) for entry in ordered)
     return ErrataView(tuple(once), composer.ledger)

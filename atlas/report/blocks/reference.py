@@ -52,16 +52,16 @@ class ReferenceView:
     @property
     def texts(self) -> list[int]:
         """The numbers of all texts."""
-        return [one.text for entry in self.entries for one in (entry, *entry.members)]
+        return [member.text for entry in self.entries for member in (entry, *entry.members)]
 
 
 def view_reference(block: Reference, composer: Composer) -> ReferenceView:
     """Take in the docstrings of the names that a block lists."""
     known = composer.recorded.reference
 
-    def described(name: str, one: Described) -> DescribedView:
-        members = tuple(described(inner, what) for inner, what in one.members.items())
-        return DescribedView(name, one.arguments, composer.text(markdown(_ONCE.sub("", one.docstring))), members)
+    def described(name: str, thing: Described) -> DescribedView:
+        members = tuple(described(inner, what) for inner, what in thing.members.items())
+        return DescribedView(name, thing.arguments, composer.text(markdown(_ONCE.sub("", thing.docstring))), members)
 
     for name in block.names:
         if name not in known:
@@ -82,8 +82,8 @@ def markdown(docstring: str) -> str:
             continue
         parts = _CODE.split(paragraph)  # text, backticks, code, text, ...
         words = "".join(
-            f"`{part}`" if place % 3 == 2 else _SIGN.sub(r"\\\1", part)
-            for place, part in enumerate(parts)
+            f"`{piece}`" if place % 3 == 2 else _SIGN.sub(r"\\\1", piece)
+            for place, piece in enumerate(parts)
             if place % 3 != 1
         )
         paragraphs.append(re.sub(r"^\\- ", "- ", words, flags=re.MULTILINE))

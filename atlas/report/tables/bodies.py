@@ -128,11 +128,11 @@ def charges(request: Request) -> Data:
     """Mass m0, radius r, charge e = mu m0 and the field e/(4 pi eps0 r^2) of several bodies with mass and radius."""
     request.take(StrictStruct)
     rows: list[tuple[str | Number, ...]] = []
-    for one in request.cases:
-        body = one.body_record
-        if body is None or one.physical is None or body.mass is None or body.radius is None:
+    for case in request.cases:
+        body = case.body_record
+        if body is None or case.physical is None or body.mass is None or body.radius is None:
             raise AtlasError("this table needs bodies with mass and radius, and a field with a charge-to-mass ratio.")
-        charge = float(one.physical.mu) * body.mass
+        charge = float(case.physical.mu) * body.mass
         area = 4 * pi * ELECTRIC_CONSTANT * body.radius**2
         field = charge / area if area else inf
         if not isfinite(field):
@@ -172,9 +172,9 @@ def diamagnetism(request: Request) -> Data:
     if asked.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []
-    for one in request.cases:
-        title, body, own = magnetised(one, asked)
-        by_charge = (body.I3 - body.I2) * hypot(*one.components) ** 2 / 2
+    for case in request.cases:
+        title, body, own = magnetised(case, asked)
+        by_charge = (body.I3 - body.I2) * hypot(*case.components) ** 2 / 2
         rows.append((title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
     return Data(
         heads(
@@ -209,13 +209,13 @@ class CoatParameters(StrictStruct, frozen=True):
 def coats(request: Request) -> Data:
     """Return what it changes that the charge is spread otherwise than the mass, in units of the body's e/m."""
     rows: list[tuple[str | Number, ...]] = []
-    for one in request.take(CoatParameters).coats:
-        body = from_shape(one.mass, mass=1.0, **one.dimensions)
-        charges = ChargeMoments.shape(one.charge, 1.0, **(one.charge_dimensions or one.dimensions))
+    for coat in request.take(CoatParameters).coats:
+        body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
+        charges = ChargeMoments.shape(coat.charge, 1.0, **(coat.charge_dimensions or coat.dimensions))
         across, along = charges.J2 / body.I2, charges.J3 / body.I3
         A = (along * charges.J3 - across * charges.J2) / body.I2
         values = (body.I3 / body.I2, across, along, across - along, A)
-        rows.append((one.name, *(Number(f"{value + 0.0:.3f}") for value in values)))
+        rows.append((coat.name, *(Number(f"{value + 0.0:.3f}") for value in values)))
     return Data(
         heads("Body", "$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$"),
         tuple(rows),
@@ -232,9 +232,9 @@ def swings(request: Request) -> Data:
 
     asked = request.take(DiamagnetismParameters)
     rows: list[tuple[str | Number, ...]] = []
-    for one in request.cases:
-        title, body, own = magnetised(one, asked)
-        I2, I3, (B2, B3) = body.I2, body.I3, one.components
+    for case in request.cases:
+        title, body, own = magnetised(case, asked)
+        I2, I3, (B2, B3) = body.I2, body.I3, case.components
         b = hypot(B2, B3)
         periods, rates = [], []
         for quadratic in (0.0, 2 * own):

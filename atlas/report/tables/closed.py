@@ -23,15 +23,15 @@ def closed(request: Request) -> Data:
     """
     thing = Thing.of(request)
     elementary = thing.family is FAMILIES["elementary"]
-    made = thing.balls()
-    if elementary and made.k == 0:
+    exact = thing.balls()
+    if elementary and exact.k == 0:
         raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
-    value = certified(lambda: _turns(made, elementary=elementary), request.digits)
+    value = certified(lambda: _turns(exact, elementary=elementary), request.digits)
     fractions = list(convergents(value))
     misses = [quantity(value - _ratio(p, q), 2) for p, q in fractions]
     if elementary:
         return _elementary(thing, value, fractions, misses, request.digits)
-    period = certified(lambda: made.period, request.digits)
+    period = certified(lambda: exact.period, request.digits)
     times = column([q * period for _, q in fractions], request.digits)
     return Data(
         heads("Turns", "Nutations", ("Time", thing.unit("time")), "Turns a nutation, less the fraction"),
@@ -52,10 +52,12 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
     rows = []
     for (p, q), miss in zip(fractions, misses, strict=True):
         try:
-            one = ClosedMotion(ratio, field, p, q)
+            motion = ClosedMotion(ratio, field, p, q)
         except DomainError:
             continue  # no motion has this phi/k
-        shown = [Number(f"{x:.{min(digits, PRINTED)}g}") for x in (one.omega2, one.omega2 - omega2, one.period)]
+        shown = [
+            Number(f"{x:.{min(digits, PRINTED)}g}") for x in (motion.omega2, motion.omega2 - omega2, motion.period)
+        ]
         rows.append((f"${p}/{q}$", *shown, miss))
     if not rows:
         raise DomainError("No closed motion of the hyperbola (67) lies near.")
@@ -73,10 +75,10 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
     )  # fmt: skip
 
 
-def _turns(made: Any, *, elementary: bool) -> Any:
+def _turns(motion: Any, *, elementary: bool) -> Any:
     from flint import arb
 
-    return arb(made.phi) / arb(made.k) if elementary else made.precession_per_period / (2 * arb.pi())
+    return arb(motion.phi) / arb(motion.k) if elementary else motion.precession_per_period / (2 * arb.pi())
 
 
 def convergents(value: Any) -> Iterator[tuple[int, int]]:
@@ -115,8 +117,8 @@ class CompanionParameters(StrictStruct, frozen=True):
 def companions(request: Request) -> Data:
     """Return the angles between axis and field of the steady precessions and where their companions turn back."""
     asked = request.take(CompanionParameters)
-    found = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
-    columns = [column(values, request.digits) for values in zip(*found, strict=True)]
+    angles_of_each = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
+    columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
     given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in asked.motions]
     return Data(
         heads(

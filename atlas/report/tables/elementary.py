@@ -30,13 +30,13 @@ def side_by_side(
 
     The numbers of a row have as many decimals as give the largest of them the digits that are asked for.
     """
-    titles = [one.body_record.title if one.body_record else "body" for one in request.cases]
+    titles = [case.body_record.title if case.body_record else "body" for case in request.cases]
     values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
     columns = heads("Quantity", "Symbol", *values_of, "Unit")
     rows = []
     for same in zip(*bodies, strict=True):
         name, symbol, _, unit = same[0]
-        values = [one.value for one in same]
+        values = [case.value for case in same]
         numbers = iter(column([value for value in values if not isinstance(value, str)], request.digits))
         cells = [value if isinstance(value, str) else next(numbers) for value in values]
         rows.append((name, symbol, *cells, unit or "1" * bool(symbol)))
@@ -54,7 +54,7 @@ def titled(request: Request) -> str:
 def quadric(request: Request) -> Data:
     """Ratio I, kind, angle beta, coefficients a2, a3, semi-axes and centre of the quadric, (51) to (57)."""
     request.take(StrictStruct)
-    columns, rows = side_by_side(request, [of_quadric(one, request.digits) for one in request.cases])
+    columns, rows = side_by_side(request, [of_quadric(case, request.digits) for case in request.cases])
     return Data(columns, rows, f"The quadric of initial data of {titled(request)}, @(51), in canonical form.")
 
 
@@ -115,7 +115,7 @@ def points(request: Request) -> Data:
         lambda: [(_exact(x), h.omega3(_exact(x)), *h.frequencies(_exact(x)), h.stability(_exact(x))) for x in order],
         request.digits,
     )
-    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     columns[0] = column(
         [Number.as_given(float(x)) if Fraction(float(x)) == x else _exact(x) for x in order], request.digits
     )
@@ -168,7 +168,7 @@ class Samples(StrictStruct, frozen=True):
 def motion(request: Request) -> Data:
     """List initial data, frequencies, stability and integrals of the motion that starts with `omega2`."""
     asked = request.take(Motion)
-    columns, rows = side_by_side(request, [of_motion(one, asked, request.digits) for one in request.cases])
+    columns, rows = side_by_side(request, [of_motion(case, asked, request.digits) for case in request.cases])
     return Data(
         columns,
         rows,
@@ -181,20 +181,20 @@ def of_motion(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
     from atlas.exact.motions.elementary import ElementaryMotion
     from atlas.exact.surfaces.hyperbola import Hyperbola
 
-    made = ElementaryMotion(case.exact, case.components, asked.omega2, asked.omega3)
-    k, invariants = certified(lambda: (made.k, made.invariants), digits)
+    motion = ElementaryMotion(case.exact, case.components, asked.omega2, asked.omega3)
+    k, invariants = certified(lambda: (motion.k, motion.invariants), digits)
     squared, nutation = r"s$^{-2}$", []
-    if made.case in {"precession", "at rest"}:
+    if motion.case in {"precession", "at rest"}:
         h = Hyperbola(case.exact, case.components)
         nutation = [
-            Quantity("square of the frequency of nutation", r"$\nu_n^2$", h.stability(made.omega2), squared),
-            Quantity("nutation @theorem-stability", "", "stable" if h.stable(made.omega2) else "unstable"),
+            Quantity("square of the frequency of nutation", r"$\nu_n^2$", h.stability(motion.omega2), squared),
+            Quantity("nutation @theorem-stability", "", "stable" if h.stable(motion.omega2) else "unstable"),
         ]
     return [
-        Quantity("initial angular velocity", r"$\omega_2$", made.omega2, RATE),
-        Quantity("initial spin", r"$\omega_3$", made.omega3, RATE),
+        Quantity("initial angular velocity", r"$\omega_2$", motion.omega2, RATE),
+        Quantity("initial spin", r"$\omega_3$", motion.omega3, RATE),
         Quantity("frequency of precession", "$k$", k, RATE),
-        Quantity("frequency of proper rotation", r"$\phi$", made.phi, RATE),
+        Quantity("frequency of proper rotation", r"$\phi$", motion.phi, RATE),
         *nutation,
         Quantity("energy @(36)", "$E'=2E/I_2$", invariants["E'"], squared),
         Quantity("field in the body @(37)", r"$\mathbf{K}^2$", invariants["K^2"], squared),
@@ -209,9 +209,11 @@ def samples(request: Request) -> Data:
     from atlas.exact.motions.elementary import ElementaryMotion
 
     asked = request.take(Samples)
-    made = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
-    values = certified(lambda: [(*made.angular_velocity(t), *made.third_axis(t)) for t in asked.times], request.digits)
-    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    motion_exact = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
+    values = certified(
+        lambda: [(*motion_exact.angular_velocity(t), *motion_exact.third_axis(t)) for t in asked.times], request.digits
+    )
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads(
             ("$t$", "s"), *((rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)), *((rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3))
@@ -227,7 +229,7 @@ def sheet(request: Request) -> Data:
     asked = request.take(Motion)
     columns, rows = side_by_side(
         request,
-        [[*of_quadric(one, request.digits), *of_motion(one, asked, request.digits)] for one in request.cases],
+        [[*of_quadric(case, request.digits), *of_motion(case, asked, request.digits)] for case in request.cases],
     )
     return Data(
         columns,

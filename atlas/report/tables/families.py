@@ -23,9 +23,9 @@ def quantities(request: Request) -> Data:
     """List parameters and quantities of all families, with their units, equations and promised errors."""
     request.take(StrictStruct)
     rows = []
-    for one in FAMILIES.values():
-        for place, row in enumerate(_rows(one)):
-            rows.append((f"`{one.name}`" if place == 0 else "", *row))
+    for family in FAMILIES.values():
+        for place, row in enumerate(_rows(family)):
+            rows.append((f"`{family.name}`" if place == 0 else "", *row))
     return Data(
         heads("Family", "Name", "What it is", "Unit", "Equation", "Error"),
         tuple(rows),
@@ -40,23 +40,23 @@ def quantities(request: Request) -> Data:
     )
 
 
-def _rows(one: Family) -> Iterator[Row]:
+def _rows(family: Family) -> Iterator[Row]:
     """Go through parameters, quantities, and what there is at a time."""
-    for p in one.parameters:
+    for p in family.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
-    for q in one.quantities:
-        yield _names(q.names or (q.name,)), q.says, q.unit, cited(q.equation), _promise(one, q.checked)
-    for s in one.sampled:
+    for q in family.quantities:
+        yield _names(q.names or (q.name,)), q.says, q.unit, cited(q.equation), _promise(family, q.checked)
+    for s in family.sampled:
         first, *_, last = s.columns
-        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, cited(s.equation), _promise(one, s.checked)
+        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, cited(s.equation), _promise(family, s.checked)
 
 
 def _names(names: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
-def _promise(one: Family, checked: str) -> str | Number:
-    return Number(f"{one.promises[checked]:g}") if checked in one.promises else ""
+def _promise(family: Family, checked: str) -> str | Number:
+    return Number(f"{family.promises[checked]:g}") if checked in family.promises else ""
 
 
 def targets(request: Request) -> Data:
@@ -65,18 +65,18 @@ def targets(request: Request) -> Data:
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),
-        tuple((f"`{name}`", *_sizes(one)) for name, one in TARGETS.items()),
+        tuple((f"`{name}`", *_sizes(target)) for name, target in TARGETS.items()),
         "What `atlas figure NAME --for TARGET` makes: width and greatest height, size of all type, least and "
         "greatest width of lines, resolution of pictures.",
-        tuple(f"{name}: {one.asks}{f' ({one.source})' if one.source else ''}." for name, one in firsts),
+        tuple(f"{name}: {target.asks}{f' ({target.source})' if target.source else ''}." for name, target in firsts),
     )
 
 
-def _sizes(one: Target) -> tuple[str, ...]:
+def _sizes(target: Target) -> tuple[str, ...]:
     """Return the sizes of a target in words."""
-    least, greatest = one.lines
+    least, greatest = target.lines
     lines = f"{least:g}" if greatest == ANY else f"{least:g} to {greatest:g}"
-    return f"{one.width:g}", f"{one.height:g}", f"{one.type:g}", lines, f"{one.dpi:g}"
+    return f"{target.width:g}", f"{target.height:g}", f"{target.type:g}", lines, f"{target.dpi:g}"
 
 
 def roles(request: Request) -> Data:
@@ -85,12 +85,12 @@ def roles(request: Request) -> Data:
 
     request.take(StrictStruct)
     looks: dict[tuple[str, ...], list[str]] = {}
-    for name, one in STYLES.items():
+    for name, style in STYLES.items():
         if name in LINES:
             look = ("`axes.prop_cycle`", "`lines.linewidth`", "", "")
         else:
-            dash = " ".join(f"{x:g}" for x in one.dash)
-            look = (f"`{one.colour}`", f"{one.width:g}", dash, one.marker and f"`{one.marker}` {one.size:g}")
+            dash = " ".join(f"{x:g}" for x in style.dash)
+            look = (f"`{style.colour}`", f"{style.width:g}", dash, style.marker and f"`{style.marker}` {style.size:g}")
         looks.setdefault(look, []).append(name)
     columns = heads("Role", "Colour", ("Width", "pt"), ("Dashes", "pt"), ("Marker", "pt"))
     return Data(
@@ -160,7 +160,7 @@ def _keys(kind: Any) -> Iterator[str]:
         for field in fields(kind):
             yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"
         return
-    for one in msgspec.structs.fields(kind):
-        plain = isinstance(one.default, str | int | float | bool) and one.default != ""
-        left_out = f"`{one.name}` = {toml.written(one.default)}" if plain else f"`{one.name}`"
-        yield f"**`{one.name}`**" if one.required else left_out
+    for key in msgspec.structs.fields(kind):
+        plain = isinstance(key.default, str | int | float | bool) and key.default != ""
+        left_out = f"`{key.name}` = {toml.written(key.default)}" if plain else f"`{key.name}`"
+        yield f"**`{key.name}`**" if key.required else left_out

@@ -53,11 +53,11 @@ def levitated(request: Request) -> Data:
     asked = request.take(Dipole)
     rows: list[tuple[str | Number, ...]] = []
     for spin in asked.spins:
-        made = asked.motion(spin)
-        I = made.inertia[0]
+        motion = asked.motion(spin)
+        I = motion.inertia[0]
         small, slow = sqrt(asked.energy / I) / (2 * pi), asked.energy / (I * 4 * pi**2 * spin) if spin else 0.0
-        found = 1 / made.period, made.precession_rate / (2 * pi) if spin else 0.0
-        rows.append((Number(f"{spin:g}"), *map(_three, (found[0], small, found[1], slow))))
+        frequencies = 1 / motion.period, motion.precession_rate / (2 * pi) if spin else 0.0
+        rows.append((Number(f"{spin:g}"), *map(_three, (frequencies[0], small, frequencies[1], slow))))
     return Data(
         heads(
             ("Spin", "Hz"), ("Nutation", "Hz"), (r"$\sqrt{dE/I}/2\pi$", "Hz"),
@@ -87,13 +87,13 @@ def lines(request: Request) -> Data:
     asked = request.take(Lines)
     rows: list[tuple[str | Number, ...]] = []
     for spin in asked.spins:
-        found = asked.motion(spin).spectrum("axis", least=asked.least)
-        for f, amplitude, whole in zip(found.frequencies, found.amplitudes, found.combinations, strict=True):
+        spectrum = asked.motion(spin).spectrum("axis", least=asked.least)
+        for f, amplitude, whole in zip(spectrum.frequencies, spectrum.amplitudes, spectrum.combinations, strict=True):
             if f < 0:
                 continue
-            parts = [f"{n:+d} {name}" for name, n in zip(found.names, whole.tolist(), strict=True) if n]
+            parts = [f"{n:+d} {name}" for name, n in zip(spectrum.names, whole.tolist(), strict=True) if n]
             n = np.array([0.0, np.sin(asked.inclination), np.cos(asked.inclination)])
-            sizes = [float(np.linalg.norm(part)) for part in (amplitude - (amplitude @ n) * n, amplitude @ n)]
+            sizes = [float(np.linalg.norm(component)) for component in (amplitude - (amplitude @ n) * n, amplitude @ n)]
             seen = [_three(x if x > SMALL * asked.least else 0.0) for x in sizes]
             rows.append(
                 (
@@ -125,15 +125,15 @@ def inferred(request: Request) -> Data:
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []
     for spin in asked.spins:
-        made = asked.motion(spin)
+        motion = asked.motion(spin)
         t = np.sort(np.random.default_rng(1).uniform(0.0, asked.seconds, asked.samples))
-        v = made.sensitivity(t, ["linear", "I3", "n2", "n3", "omega3", "omega1", "omega2"])
-        n2, n3 = made.direction
+        v = motion.sensitivity(t, ["linear", "I3", "n2", "n3", "omega3", "omega1", "omega2"])
+        n2, n3 = motion.direction
         turned = np.broadcast_to(np.eye(3), (t.size, 3, 3))
-        unit = sqrt(asked.energy / made.inertia[0])
-        scaled = [made.linear * v[:, 0], n3 * v[:, 2] - n2 * v[:, 3], made.inertia[0] * v[:, 1], 2 * pi * v[:, 4]]
+        unit = sqrt(asked.energy / motion.inertia[0])
+        scaled = [motion.linear * v[:, 0], n3 * v[:, 2] - n2 * v[:, 3], motion.inertia[0] * v[:, 1], 2 * pi * v[:, 4]]
         scaled += [unit * v[:, 5], unit * v[:, 6], *np.moveaxis(turned, 1, 0)]
-        J = np.stack([np.cross(one, made.column(3, t)).ravel() for one in scaled], -1) / asked.noise
+        J = np.stack([np.cross(derivative, motion.column(3, t)).ravel() for derivative in scaled], -1) / asked.noise
         columns.append([*_deviations(J)[:4], _deviations(np.delete(J, 2, axis=1))[2]])
     return Data(
         heads("What", *(f"spin {spin:g} Hz" for spin in asked.spins)),

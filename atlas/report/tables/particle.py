@@ -34,10 +34,10 @@ class ParticleParameters(StrictStruct, frozen=True):
 def particle(request: Request) -> Data:
     """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
     asked, case = request.take(ParticleParameters), request.case
-    made = exact_particle(case, asked.position, asked.velocity)
+    motion = exact_particle(case, asked.position, asked.velocity)
     unit = speed = case.units.length_unit if case.units else ""
-    values = certified(lambda: [made.position(t) for t in asked.times], request.digits)
-    omega, drift = certified(lambda: (made.cyclotron_frequency, list(made.drift)), request.digits)
+    values = certified(lambda: [motion.position(t) for t in asked.times], request.digits)
+    omega, drift = certified(lambda: (motion.cyclotron_frequency, list(motion.drift)), request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     frequency = column([omega], request.digits)[0].tex().strip("$")
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
@@ -69,12 +69,12 @@ def ball(request: Request) -> Data:
     asked = request.take(BallParameters)
     if asked.larmor == 0:
         raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
-    made = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
-    gamma, k_hat = certified(lambda: (made.gamma, made.k_hat), request.digits)
+    motion = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
+    gamma, k_hat = certified(lambda: (motion.gamma, motion.k_hat), request.digits)
     rows = (
-        ("initial angular velocity", r"$m_2/I_0$", made.m2, RATE),
-        ("", r"$m_3/I_0$", made.m3, RATE),
-        ("Larmor's frequency @(27)", r"$\alpha$", made.larmor, RATE),
+        ("initial angular velocity", r"$m_2/I_0$", motion.m2, RATE),
+        ("", r"$m_3/I_0$", motion.m3, RATE),
+        ("Larmor's frequency @(27)", r"$\alpha$", motion.larmor, RATE),
         ("frequency of the turn about $\\hat{\\mathbf{k}}$, @(29)", r"$\gamma$", gamma, RATE),
         ("axis of that turn, @(29)", r"$\hat k_2$", k_hat[0], "1"),
         ("", r"$\hat k_3$", k_hat[1], "1"),
@@ -102,11 +102,11 @@ def flight(request: Request) -> Data:
     from atlas.exact.motions.particle import Flight
 
     asked, case = request.take(FlightParameters), request.case
-    made = exact_particle(case, asked.position, asked.velocity)
+    motion = exact_particle(case, asked.position, asked.velocity)
     turning = ElementaryMotion(case.exact, case.components, asked.omega2)
-    whole = Flight(made, turning, asked.point)
+    whole = Flight(motion, turning, asked.point)
     unit = case.units.length_unit if case.units else ""
-    values = certified(lambda: [(*made.position(t), *whole.position(t)) for t in asked.times], request.digits)
+    values = certified(lambda: [(*motion.position(t), *whole.position(t)) for t in asked.times], request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     return Data(
         heads(

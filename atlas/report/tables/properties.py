@@ -95,11 +95,11 @@ def properties(request: Request) -> Data:
     thing = Thing.of(request)
     rows = [*_rows_given(thing)] if thing.described else []
     rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
-    says, given = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
+    says, heading = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
     return Data(
         heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
         tuple(rows),
-        f"{says[:1].upper()}{says[1:]}: {given}.",
+        f"{says[:1].upper()}{says[1:]}: {heading}.",
         ("Numbers that are given are taken as the doubles nearest to them, and these as exact.",),
     )  # fmt: skip
 
@@ -109,9 +109,9 @@ def _rows_given(thing: Thing) -> Iterator[Row]:
     for p in thing.family.parameters:
         value = thing.given[p.name]
         parts = value if p.columns else (value,)
-        for place, (name, part) in enumerate(zip(p.names, parts, strict=True)):
-            if part is not None:
-                number = part if isinstance(part, Number) else Number.as_given(part)
+        for place, (name, component) in enumerate(zip(p.names, parts, strict=True)):
+            if component is not None:
+                number = component if isinstance(component, Number) else Number.as_given(component)
                 says = "" if place else p.says.partition(".")[0]
                 yield lettered(says), f"`{name}`", number, thing.unit(p.unit), "", "given"
 
@@ -119,18 +119,18 @@ def _rows_given(thing: Thing) -> Iterator[Row]:
 def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     """Give a quantity, a component a row; where it has no value, the reason."""
     try:
-        found = _texts(thing, q, digits)
+        texts = _texts(thing, q, digits)
     except DomainError as reason:
         yield lettered(q.says), f"`{q.name}`", NONE, "", cited(q.equation), str(reason).removesuffix(".")
         return
-    if found is None:
+    if texts is None:
         yield lettered(q.says), f"`{q.name}`", "none", "", cited(q.equation), "exactly"
         return
     case = getattr(thing.kernels(), "case", "") if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
     says = f"{q.name} {says}" if says.startswith("of ") else says
-    for place, (name, words, text) in enumerate(_parts(q, found)):
-        value, sure = _printed(thing, q, text, place if isinstance(found, list | tuple) else None, digits)
+    for place, (name, words, text) in enumerate(_parts(q, texts)):
+        value, certain = _printed(thing, q, text, place if isinstance(texts, list | tuple) else None, digits)
         unit = thing.unit(q.unit) if isinstance(value, Number) else ""
         yield (
             lettered(words or ("" if place else says)),
@@ -138,7 +138,7 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
             value,
             unit,
             "" if place else cited(equation),
-            sure,
+            certain,
         )
 
 
@@ -148,8 +148,8 @@ def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
 
     if not (q.certified or q.printed or q.checked):
         return q.value(thing.kernels())  # of kernels alone
-    made = thing.balls()
-    return certified(lambda: _plain(q.value(made, exact=True)), digits, spare=SPARE)
+    exact = thing.balls()
+    return certified(lambda: _plain(q.value(exact, exact=True)), digits, spare=SPARE)
 
 
 def _plain(value: Any) -> Any:
@@ -157,18 +157,18 @@ def _plain(value: Any) -> Any:
     return "infinite" if str(value) in {"inf", "+inf", "[+/- inf]"} else value
 
 
-def _parts(q: Quantity, found: Any) -> Iterable[tuple[str, str, Any]]:
+def _parts(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
     """Return the components: name, words of its own, text."""
-    if not isinstance(found, list | tuple):
-        return [(q.name, "", found)]
-    numbered = [f"{q.name}[{i}]" for i in range(len(found))]
-    if q.name == "roots" or (found and isinstance(found[0], list | tuple)):
-        parts = [q.text(part if q.lines else [part]) for part in found] or [q.text(found)]
+    if not isinstance(values, list | tuple):
+        return [(q.name, "", values)]
+    numbered = [f"{q.name}[{i}]" for i in range(len(values))]
+    if q.name == "roots" or (values and isinstance(values[0], list | tuple)):
+        parts = [q.text(component if q.lines else [component]) for component in values] or [q.text(values)]
         symbols = [symbol for symbol, _ in q.lines] or numbered or [q.name]
-        return [(name, "", part) for name, part in zip(symbols, parts, strict=True)]
+        return [(name, "", component) for name, component in zip(symbols, parts, strict=True)]
     names, of = q.columns or numbered, q.symbol or q.says
     words = [says for _, says in q.lines] or [f"{of}: {name}" if q.columns else "" for name in names]
-    return zip(names, words, found, strict=True)
+    return zip(names, words, values, strict=True)
 
 
 def _printed(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
@@ -200,8 +200,8 @@ def lettered(words: str) -> str:
     return re.sub(rf"\^({MINUS}?\d)", r"^\1^", _LETTERS.sub(_letter, words))
 
 
-def _letter(found: re.Match[str]) -> str:
-    vector, prime, name, primed, place, alone, minus = found.groups()
+def _letter(matched: re.Match[str]) -> str:
+    vector, prime, name, primed, place, alone, minus = matched.groups()
     if minus:
         return MINUS
     if vector:
@@ -229,14 +229,14 @@ _DIMENSIONS = {
 def body_and_field(request: Request) -> Data:
     """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', (32) and (33)."""
     request.take(StrictStruct)
-    one = request.case
-    body, field = one.body_record, one.field_record
+    case = request.case
+    body, field = case.body_record, case.field_record
     if body is None or field is None:
         raise AtlasError("this table needs a body and a field.")
-    rows = [(words, symbol, Number.as_given(value), unit, "given") for words, symbol, value, unit in _described(one)]
+    rows = [(words, symbol, Number.as_given(value), unit, "given") for words, symbol, value, unit in _described(case)]
     rows += [
         (words, symbol, quantity(value, request.digits), unit, "follows")
-        for words, symbol, value, unit in _derived(one, request.digits)
+        for words, symbol, value, unit in _derived(case, request.digits)
     ]
     return Data(
         heads("Quantity", "Symbol", "Value", "Unit", ""),
@@ -250,33 +250,33 @@ def body_and_field(request: Request) -> Data:
     )
 
 
-def _described(one: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
+def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
     """Go through what the user gave."""
     for key, (words, symbol, unit) in _DIMENSIONS.items():
-        value = getattr(one.body_record, key)
+        value = getattr(case.body_record, key)
         if value is not None:
             yield words, symbol, value, unit
-    if one.physical is not None and one.units is not None:
+    if case.physical is not None and case.units is not None:
         for words, letter, vector, unit in (
-            ("magnetic field", "B", one.physical.B, one.units.B_unit),
-            ("electric field", "E", one.physical.E, one.units.E_unit),
+            ("magnetic field", "B", case.physical.B, case.units.B_unit),
+            ("electric field", "E", case.physical.E, case.units.E_unit),
         ):
             for j, component in enumerate(vector, 1):
                 yield words if j == 1 else "", f"${letter}_{j}$", float(component), unit
 
 
-def _derived(one: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
+def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
     """Go through what the formulas take of it."""
     from atlas.exact.bodies.body import ratio_of
 
-    exact = one.exact
-    if one.body_record is not None and one.body_record.shape:
+    exact = case.exact
+    if case.body_record is not None and case.body_record.shape:
         I2, I3 = certified(lambda: (exact.I2, exact.I3), digits)
         yield "moment of inertia", "$I_2$", I2, "kg m$^2$"
         yield "", "$I_3$", I3, "kg m$^2$"
     yield "ratio of the moments", "$I=I_3/I_2$", certified(lambda: ratio_of(exact), digits), "1"
-    if one.physical is not None and one.units is not None:
-        yield "charge-to-mass ratio", r"$\mu$", one.physical.mu, one.units.mu_unit
-    B2, B3 = one.components
+    if case.physical is not None and case.units is not None:
+        yield "charge-to-mass ratio", r"$\mu$", case.physical.mu, case.units.mu_unit
+    B2, B3 = case.components
     yield "field as a frequency", "$B'_2$", B2, RATE
     yield "", "$B'_3$", B3, RATE

@@ -24,7 +24,7 @@ class Column:
 
 def heads(*columns: str | tuple[str, str]) -> tuple[Column, ...]:
     """Return columns by their heads, each alone or with its unit."""
-    return tuple(Column(one) if isinstance(one, str) else Column(*one) for one in columns)
+    return tuple(Column(column) if isinstance(column, str) else Column(*column) for column in columns)
 
 
 @dataclass(frozen=True)
@@ -122,6 +122,6 @@ def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> 
         return Number("0")
     if isinstance(value, float):
         value = fmpq(*value.as_integer_ratio())
-    found = printed(value, digits, layout)
-    digits_proven = "" if found.text == NOT_CERTIFIED else found.text.removesuffix(MARK)
-    return Number(digits_proven, proven=found.complete)
+    number = printed(value, digits, layout)
+    digits_proven = "" if number.text == NOT_CERTIFIED else number.text.removesuffix(MARK)
+    return Number(digits_proven, proven=number.complete)

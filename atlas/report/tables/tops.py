@@ -47,15 +47,15 @@ class MonodromyParameters(StrictStruct, frozen=True):
 def tops(request: Request) -> Data:
     """Return the period of nutation and the angles in it of several tops."""
     asked = request.take(TopsParameters).tops
-    found = certified(lambda: [_nutation(one) for one in asked], request.digits)
-    columns = [column(values, request.digits) for values in zip(*found, strict=True)]
+    nutations = certified(lambda: [_nutation(top) for top in asked], request.digits)
+    columns = [column(values, request.digits) for values in zip(*nutations, strict=True)]
     given: list[tuple[str | Number, ...]] = [
         (
-            one.name,
-            Number.as_given(one.ratio),
-            *(_of_top(x) for x in (one.coupling, (one.linear, one.quadratic), one.direction, one.omega)),
+            top.name,
+            Number.as_given(top.ratio),
+            *(_of_top(x) for x in (top.coupling, (top.linear, top.quadratic), top.direction, top.omega)),
         )
-        for one in asked
+        for top in asked
     ]
     return Data(
         heads(
@@ -92,20 +92,22 @@ def monodromy(request: Request) -> Data:
 
     asked = request.take(MonodromyParameters)
     rows: list[tuple[str | Number, ...]] = []
-    for one in asked.loops:
-        wells = Wells.at(one.M3, one.ratio, one.coupling, one.linear, one.quadratic)
-        loop = around(wells, one.p, asked.points)
-        found = on_loop(one.ratio, one.coupling, one.M3, loop, one.linear, one.quadratic)
-        matrix = r"\\".join("&".join(map(str, row)) for row in found.matrix)
+    for loop_asked in asked.loops:
+        wells = Wells.at(loop_asked.M3, loop_asked.ratio, loop_asked.coupling, loop_asked.linear, loop_asked.quadratic)
+        loop = around(wells, loop_asked.p, asked.points)
+        on_this_loop = on_loop(
+            loop_asked.ratio, loop_asked.coupling, loop_asked.M3, loop, loop_asked.linear, loop_asked.quadratic
+        )
+        matrix = r"\\".join("&".join(map(str, row)) for row in on_this_loop.matrix)
         rows.append(
             (
-                one.name,
-                *(Number.as_given(x) for x in (one.ratio, one.M3, one.p)),
-                Number(f"{found.period.min():.4f}"),
-                Number(f"{found.period.max():.4f}"),
+                loop_asked.name,
+                *(Number.as_given(x) for x in (loop_asked.ratio, loop_asked.M3, loop_asked.p)),
+                Number(f"{on_this_loop.period.min():.4f}"),
+                Number(f"{on_this_loop.period.max():.4f}"),
                 rf"$\begin{{pmatrix}}{matrix}\end{{pmatrix}}$",
-                Number(f"{found.step:.3f}"),
-                Number(f"{found.radius:.0e}"),
+                Number(f"{on_this_loop.step:.3f}"),
+                Number(f"{on_this_loop.radius:.0e}"),
             )
         )
     return Data(
@@ -152,7 +154,7 @@ def elliptic(request: Request) -> Data:
     values = certified(
         lambda: [(m.v, *m.omega, m.splitting, m.period, m.precession_per_period) for m in motions], request.digits
     )
-    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads("$z$", "$v$", *(rf"$\omega_{i}$" for i in (1, 2, 3)), "$C/D^2$", "$T$", r"$\Theta$", "Motion"),
         tuple(
@@ -177,8 +179,8 @@ def periods(request: Request) -> Data:
         [fmpq(*x.as_integer_ratio()) for x in row] for row in (asked.inertia, asked.field, asked.omega)
     )
     torus = Torus(tuple(inertia), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
-    found = torus.periods(bits(request.digits) + 64)
-    columns = [column(values, request.digits) for values in zip(*((x.H, x.F, x.angle) for x in found), strict=True)]
+    lattice = torus.periods(bits(request.digits) + 64)
+    columns = [column(values, request.digits) for values in zip(*((x.H, x.F, x.angle) for x in lattice), strict=True)]
     return Data(
         heads("Pair", "$T_H$", "$T_F$", r"$\theta$"),
         tuple((f"$r_{n}$", *row) for n, row in enumerate(zip(*columns, strict=True), 1)),
@@ -194,11 +196,11 @@ def asymmetric(request: Request) -> Data:
     from atlas.exact.motions.asymmetric import AsymmetricMotion
 
     asked = request.take(Samples)
-    made = AsymmetricMotion(asked.inertia, asked.field, asked.omega)
+    motion = AsymmetricMotion(asked.inertia, asked.field, asked.omega)
     values: list[Any] = certified(
-        lambda: [(*made.column(3, t), made.angular_velocity(t)[2]) for t in asked.times], request.digits
+        lambda: [(*motion.column(3, t), motion.angular_velocity(t)[2]) for t in asked.times], request.digits
     )
-    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads("$t$", *(rf"$R_{{{i}3}}$" for i in (1, 2, 3)), r"$\Omega_3$"),
         tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),

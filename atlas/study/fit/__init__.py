@@ -82,11 +82,11 @@ def fit(
         1.3
     """
     model = model_of(family)
-    given = {
+    measured = {
         "rotation": rotation, "quaternion": quaternion, "axis": axis, "angular_velocity": angular_velocity,
         "field_in_body": field_in_body, "signal": signal,
     }  # fmt: skip
-    data = of_arrays(t, given, sigma, float(epoch), scalar_first=scalar_first)
+    data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first)
     if loss not in LOSSES:
         raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
     if loss != "linear" and not data.known:
@@ -98,8 +98,8 @@ def fit(
         raise AtlasError(f"{numbers} numbers do not determine {len(problem.names)} parameters: measure more times.")
     tried = _tried(problem)
     if loss != "linear" and not data.known:  # a robust loss needs the noise: once by a guess, once as it was found
-        found = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
-        problem = Problem(model, replace(data, sigma=data.sigma * found), named, loss, problem.rate, given_values)
+        noise = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
+        problem = Problem(model, replace(data, sigma=data.sigma * noise), named, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
     steady = doubt = ""
     if model.name == "general":
@@ -117,7 +117,7 @@ def fit_file(file: Path, family: str = "general", *, kind: str | None = None, si
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
     """Return what starts lead to, the least squares and the values that are varied, the best first."""
-    found: list[tuple[float, tuple[float, Any]]] = []
+    minima: list[tuple[float, tuple[float, Any]]] = []
     for centre, there, start, count in tries(problem):
         try:
             x = grown(there, start, count)
@@ -125,20 +125,22 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
             chi = problem.chi_square(x)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so
-        again = any(centre != other and abs(chi - one) < SAME * one for other, (one, _) in found)
-        found.append((centre, (chi, x)))
+        again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
+        minima.append((centre, (chi, x)))
         if again or _good(problem, x):
             break
-    if not found:
+    if not minima:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
-    return sorted((one for _, one in found), key=lambda one: one[0])
+    return sorted((minimum for _, minimum in minima), key=lambda minimum: minimum[0])
 
 
 def _good(problem: Problem, x: Any) -> bool:
     """Return whether the data are followed, up to noise."""
     r = problem.residuals(x).reshape(problem.data.t.size, -1)
     if problem.data.known:
-        sure = SURE if problem.data.kind == "rotation" else 1.0  # others have false minima nearly as deep
-        return problem.reduced(r) < (1 + sure * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST)
+        allowed = SURE if problem.data.kind == "rotation" else 1.0  # others have false minima nearly as deep
+        return problem.reduced(r) < (
+            1 + allowed * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST
+        )
     small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
     return bool(small and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))

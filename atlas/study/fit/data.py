@@ -73,29 +73,29 @@ class Data:
         return self._signal(R) if self.kind == "signal" else R
 
     def _signal(self, R: FloatArray) -> FloatArray:
-        made: Any = self.function
+        function: Any = self.function
         flat = R.reshape(-1, 3, 3)
         lost = np.asarray(~(abs(flat) < NO_ROTATION).all((1, 2)))
-        found = real(made(np.where(lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns")
-        if found.shape[:1] != flat.shape[:1] or found.ndim > 2:
+        values = real(function(np.where(lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns")
+        if values.shape[:1] != flat.shape[:1] or values.ndim > 2:
             raise AtlasError(
                 f"The function of a signal takes rotations ({len(flat)}, 3, 3) and returns as many numbers, "
-                f"not an array {found.shape}."
+                f"not an array {values.shape}."
             )
-        found = np.where(lost.reshape(-1, *[1] * (found.ndim - 1)), np.nan, found)
-        return found.reshape(*R.shape[:-2], -1)
+        values = np.where(lost.reshape(-1, *[1] * (values.ndim - 1)), np.nan, values)
+        return values.reshape(*R.shape[:-2], -1)
 
     def differences(self, motion: Any) -> FloatArray:
         """Return data less motion, (N, k): of rotations three angles, in the laboratory, of axes two, in the body."""
-        found = self.of(motion, self.t)
+        values = self.of(motion, self.t)
         if self.kind == "rotation":
-            return difference(self.values, found)
+            return difference(self.values, values)
         if self.kind == "axis":
-            x, y, z = np.moveaxis(np.vecmat(self.values, found), -1, 0)
+            x, y, z = np.moveaxis(np.vecmat(self.values, values), -1, 0)
             across = np.hypot(x, y)
             angle = np.arctan2(across, z) / np.where(across > 0, across, 1.0)
             return np.stack([x * angle, y * angle], -1)
-        return np.asarray(self.values - found)
+        return np.asarray(self.values - values)
 
     def slopes(self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, rest: FloatArray) -> FloatArray:
         """Return the derivatives of what is seen, (N, k, P), by which the differences shrink.
@@ -126,19 +126,19 @@ class Data:
         return np.asarray(np.einsum("ink,npi->nkp", np.stack(by), v))
 
 
-def difference(one: FloatArray, other: FloatArray) -> FloatArray:
+def difference(first: FloatArray, other: FloatArray) -> FloatArray:
     """Return the rotation vectors, in the laboratory, from other rotations (..., 3, 3) to these."""
-    turn = one @ other.swapaxes(-1, -2)
+    turn = first @ other.swapaxes(-1, -2)
     skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
     sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
-    found = skew * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0))[..., None]
-    for at in np.argwhere(cosine < NEARLY_OPPOSITE):  # the axis is the largest column of what is symmetric
-        i = tuple(at)
+    vectors = skew * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0))[..., None]
+    for place in np.argwhere(cosine < NEARLY_OPPOSITE):  # the axis is the largest column of what is symmetric
+        i = tuple(place)
         twice = (turn[i] + turn[i].T) / 2 - cosine[i] * np.eye(3)
         axis = twice[np.argmax(np.diag(twice))]
         size = np.copysign(np.linalg.norm(axis), axis @ skew[i])
-        found[i] = axis / size * np.arctan2(sine[i], cosine[i])
-    return np.asarray(found)
+        vectors[i] = axis / size * np.arctan2(sine[i], cosine[i])
+    return np.asarray(vectors)
 
 
 def _inverse_right(rho: FloatArray) -> FloatArray:
@@ -151,24 +151,24 @@ def _inverse_right(rho: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + hat / 2 + second[:, None, None] * (hat @ hat))
 
 
-def of_arrays(t: Any, given: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool) -> Data:
+def of_arrays(t: Any, measured: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool) -> Data:
     """Return the data of arrays, of one kind that is not None. Raises AtlasError for what cannot be fitted."""
-    kinds = [name for name, x in given.items() if x is not None]
+    kinds = [name for name, x in measured.items() if x is not None]
     if len(kinds) != 1:
-        raise AtlasError(f"Give one of {', '.join(given)}, not {' and '.join(kinds) or 'none'}.")
+        raise AtlasError(f"Give one of {', '.join(measured)}, not {' and '.join(kinds) or 'none'}.")
     kind, times = kinds[0], real(t, "t")
     if times.ndim != 1 or times.size < LEAST:
         raise AtlasError(f"A fit needs an array (N,) of {LEAST} times or more, not {times.shape}.")
     function = None
     if kind == "signal":
-        if not (isinstance(given[kind], tuple) and len(given[kind]) == 2 and callable(given[kind][1])):
+        if not (isinstance(measured[kind], tuple) and len(measured[kind]) == 2 and callable(measured[kind][1])):
             raise AtlasError("signal = (values, function): numbers, and the function of rotations (N, 3, 3) they are.")
-        values, function = real(given[kind][0], "The signal"), given[kind][1]
+        values, function = real(measured[kind][0], "The signal"), measured[kind][1]
         if values.shape[:1] != times.shape or values.ndim > 2:
             raise AtlasError(f"The signal at {times.size} times is an array ({times.size},), not {values.shape}.")
         values = values.reshape(times.size, -1)
     else:
-        values, wanted = real(given[kind], f"The {kind}"), (times.size, *KINDS[kind])
+        values, wanted = real(measured[kind], f"The {kind}"), (times.size, *KINDS[kind])
         if values.shape != wanted:
             raise AtlasError(f"The {kind} at {times.size} times is an array {wanted}, not {values.shape}.")
     values = _unit(kind, values, scalar_first)

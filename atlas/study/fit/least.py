@@ -98,12 +98,12 @@ class Crowd:
             turn = -np.linalg.solve(damped, ((J @ (w * bend)[..., None])[..., 0] / size)[..., None])[..., 0] / size / 2
             much = np.linalg.norm(turn * size, axis=-1) > BEND * np.linalg.norm(step * size, axis=-1)
             new = self._back(Y + step + np.where(much[:, None], 0.0, turn))
-            made = self._slopes(new, places)
-            costs = self._cost(made[0])
+            new_slopes = self._slopes(new, places)
+            costs = self._cost(new_slopes[0])
             better = costs < self.costs
             self.X = np.where(better[:, None], new, self.X)
             fallen = (self.costs - costs) / self.costs * r.shape[-1]
-            r, J = np.where(better[:, None], made[0], r), np.where(better[:, None, None], made[1], J)
+            r, J = np.where(better[:, None], new_slopes[0], r), np.where(better[:, None, None], new_slopes[1], J)
             self.damping = np.clip(np.where(better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
             self.costs = np.where(better, costs, self.costs)
             if decrement and (better & (fallen < decrement) | (self.damping > 1e3)).all():
@@ -111,10 +111,10 @@ class Crowd:
 
     def drop(self, count: int) -> None:
         """Keep the best motions, each once."""
-        kept: list[int] = []
+        best: list[int] = []
         for i in np.argsort(self.costs, kind="stable"):
-            if all(abs((self.X[i] - self.X[j]) / self.problem.units_of_free).max() > 0.02 for j in kept):
-                kept.append(int(i))
-            if len(kept) == count:
+            if all(abs((self.X[i] - self.X[j]) / self.problem.units_of_free).max() > 0.02 for j in best):
+                best.append(int(i))
+            if len(best) == count:
                 break
-        self.X, self.damping, self.costs = self.X[kept], self.damping[kept], self.costs[kept]
+        self.X, self.damping, self.costs = self.X[best], self.damping[best], self.costs[best]

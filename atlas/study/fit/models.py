@@ -45,8 +45,8 @@ def _elementary(p: Values) -> Any:
     A, K = attitude(p), vector(p, B)
     _, turn = in_plane(A.T @ K)
     K = turn @ (A.T @ K)
-    made = ElementaryMotion(p["ratio"], (K[1], K[2]), p["omega2"])
-    return of_any(p["ratio"], vector(p, B), turn.T @ np.array([0.0, p["omega2"], made.omega3]), A)
+    motion = ElementaryMotion(p["ratio"], (K[1], K[2]), p["omega2"])
+    return of_any(p["ratio"], vector(p, B), turn.T @ np.array([0.0, p["omega2"], motion.omega3]), A)
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
@@ -83,14 +83,14 @@ def _asymmetric(p: Values) -> Any:
 def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
     """Return the motions of parameters (S,), as a body or top to be integrated; without one they are no numbers."""
     size = max(np.size(x) for x in p.values())
-    one = {name: np.broadcast_to(x, size) for name, x in p.items()}
+    parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
 
     def several(names: Sequence[str], none: float = 0.0) -> FloatArray:
-        return np.stack([one.get(name, np.full(size, none)) for name in names], -1)
+        return np.stack([parameters.get(name, np.full(size, none)) for name in names], -1)
 
     A = Rotation.from_rotvec(several(ATTITUDE)).as_matrix()
     moments = np.ones((size, 3))
-    moments[:, 0], moments[:, 2] = one.get("I1", 1.0), one.get("I3", one.get("ratio", 1.0))
+    moments[:, 0], moments[:, 2] = parameters.get("I1", 1.0), parameters.get("I3", parameters.get("ratio", 1.0))
     coupling, potential, field, omega = moments, np.zeros((size, 2)), several(B), several(OMEGA)
     K = np.vecmat(field, A)
     if model.name == "top":
@@ -98,12 +98,12 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
         field = several(DIRECTION)
         field = field / np.linalg.norm(field, axis=-1, keepdims=True)
     elif model.name == "elementary":  # on the hyperbola (67)
-        r, w, across = moments[:, 2], one["omega2"], np.hypot(K[:, 0], K[:, 1])
+        r, w, across = moments[:, 2], parameters["omega2"], np.hypot(K[:, 0], K[:, 1])
         along = K[:, 2] * w * (w + (2 - r) * across) / (r * across * (across + w))
         omega = np.stack([w * K[:, 0] / across, w * K[:, 1] / across, along], -1)
     elif model.name == "elliptic":
-        z, D = one["z"][:, None], moments.prod(-1, keepdims=True)
-        v = one["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
+        z, D = parameters["z"][:, None], moments.prod(-1, keepdims=True)
+        v = parameters["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
         omega = -(1 + v / (z * moments + D)) * K
     body = 2 * moments.max(-1) <= moments.sum(-1)
     return Flow(moments, coupling, potential, field, A, np.where(body[:, None], omega, np.nan), error)
@@ -200,8 +200,17 @@ def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) 
     elif unseen(model, kind):
         shown = upright(R[:, 2])
         omega, R = shown.T @ R @ omega, shown
-    found = {**p, **_named(B, field), **_named(OMEGA, omega), **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec())}
-    return found | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])} if model.name == "elementary" else found
+    parameters = {
+        **p,
+        **_named(B, field),
+        **_named(OMEGA, omega),
+        **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec()),
+    }
+    return (
+        parameters | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])}
+        if model.name == "elementary"
+        else parameters
+    )
 
 
 def upright(n: FloatArray) -> FloatArray:

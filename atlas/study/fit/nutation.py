@@ -74,7 +74,7 @@ def settled(
         if promise < least - tried[0][0] - 2 * BEYOND:
             break
         nutating = grown(problem, problem.inside(begin), data.t.size)
-        tried = sorted([*tried, (problem.chi_square(nutating), nutating)], key=lambda one: one[0])
+        tried = sorted([*tried, (problem.chi_square(nutating), nutating)], key=lambda minimum: minimum[0])
     best, x = tried[0]
     scale = problem.noise(best)
     fallen, chance = (least - best) / scale, 2 * np.log(max(count, data.t.size))
@@ -160,9 +160,9 @@ class _Steady:
         k, u, s, w = self.rate, self.cosine, self.sine, self.omega[2]
         b = k * (u * k - r * w) / (r * w + (r - 2) * u * k)
         across = r * w + (r - 2) * b * u - u * k  # the derivative in theta of Omega across the axis, k s
-        bent = 2 * b * s + k * s - u * across / s + u * u * k / s
+        bend = 2 * b * s + k * s - u * across / s + u * u * k / s
         precession = (across - u * k) / s
-        frequency = np.sqrt(across**2 + k * s * bent + r * (b * s) ** 2 + r * w * b * u)
+        frequency = np.sqrt(across**2 + k * s * bend + r * (b * s) ** 2 + r * w * b * u)
         return _Modes(r, b, frequency, precession, b * s - u * precession + s * k)
 
     def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
@@ -224,12 +224,12 @@ def _periodogram(
     rest = data.differences(steady.motion) if data.kind == "rotation" else np.zeros(3)
     rows = []
     for first in range(0, M, block := max(1, BLOCK // data.t.size)):
-        part = modes.part(slice(first, first + block))
+        some_modes = modes.part(slice(first, first + block))
         if data.kind == "angular_velocity":
             h = 1e-4 / problem.rate
-            v = (steady.turns(data.t + h, part) - steady.turns(data.t - h, part)) / (2 * h)
+            v = (steady.turns(data.t + h, some_modes) - steady.turns(data.t - h, some_modes)) / (2 * h)
         else:
-            v = steady.turns(data.t, part)
+            v = steady.turns(data.t, some_modes)
         seen = data.slopes(steady.motion, v, np.zeros(3), np.zeros(3), rest) / data.sigma[:, :, None]
         C = seen.reshape(r.size, -1) * weight[:, None]
         C -= U @ (U.T @ C)

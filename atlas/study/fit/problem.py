@@ -38,32 +38,32 @@ def lag(t: FloatArray, r: FloatArray) -> float:
     return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
 
 
-def parameters(model: Model, data: Data, given: Any) -> tuple[Any, dict[str, float]]:
+def parameters(model: Model, data: Data, typed: Any) -> tuple[Any, dict[str, float]]:
     """Return lmfit's parameters, and the values to start from. Raises AtlasError for what is none of the family's."""
     import lmfit
 
     try:
-        ready = given and all(isinstance(p, lmfit.Parameter) for p in given.values())
-        own = given if ready else lmfit.create_params(**(given or {}))
+        ready = typed and all(isinstance(p, lmfit.Parameter) for p in typed.values())
+        own = typed if ready else lmfit.create_params(**(typed or {}))
     except (AttributeError, TypeError, ValueError) as error:
         raise AtlasError(f"The parameters of a fit are as lmfit.create_params takes them: {error}.") from error
-    hidden, found = unseen(model, data.kind), lmfit.Parameters()
+    hidden, parameters_of_fit = unseen(model, data.kind), lmfit.Parameters()
     for name in model.names:
         low, high = LIMITS.get(name, (-np.inf, np.inf))
         value = model.fixed.get(name, hidden.get(name, 1.0 if name in LIMITS else 0.0))
-        found.add(name, value, min=low, max=high, vary=name not in model.fixed and name not in hidden)
+        parameters_of_fit.add(name, value, min=low, max=high, vary=name not in model.fixed and name not in hidden)
     for name, p in own.items():
-        if name not in found and p.expr is None:
+        if name not in parameters_of_fit and p.expr is None:
             raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
     for name, p in own.items():
         low, high = LIMITS.get(name, (-np.inf, np.inf))
-        found.add(
+        parameters_of_fit.add(
             name, value=None if p.expr else p.value, vary=p.vary, min=max(p.min, low), max=min(p.max, high), expr=p.expr
         )
-    if all(name in model.names for name in B) and "b" not in found:
-        found.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
+    if all(name in model.names for name in B) and "b" not in parameters_of_fit:
+        parameters_of_fit.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
     start = {name: float(p.value) for name, p in own.items() if p.vary and not p.expr and np.isfinite(p.value)}
-    return found, start
+    return parameters_of_fit, start
 
 
 class Problem:
@@ -169,9 +169,9 @@ class Problem:
         """Return the residuals of motions, (M, N k), huge ones where there is none."""
         if not (self.together or self.followed):
             return np.stack([self.residuals(x, places) for x in X])
-        part = self.data.part(places)
+        data = self.data.part(places)
         with np.errstate(all="ignore"):
-            r = part.differences(flow(self.model, self.several(X), self.error)) / part.sigma
+            r = data.differences(flow(self.model, self.several(X), self.error)) / data.sigma
         return np.where(np.isfinite(r), r, HUGE).reshape(len(X), -1)
 
     def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
@@ -194,8 +194,8 @@ class Problem:
 
     def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return I3, and what M3 has besides I3 omega3, at t = 0, each (M,)."""
-        made = flow(self.model, self.several(X), self.error)
-        return made.moments[:, 2], made.coupling[:, 2] * np.vecdot(made.field, made.attitude[:, :, 2])
+        motions = flow(self.model, self.several(X), self.error)
+        return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
 
     def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
         """Return the derivatives of parameters in those that are varied, (len(names), free)."""
@@ -213,12 +213,12 @@ class Problem:
         """Return the differences in standard errors, (N k,); huge ones where there is no motion."""
         if self.followed:
             return np.asarray(self.apart(np.array([x]), places)[0])
-        part = self.data.part(places)
+        data = self.data.part(places)
         try:
             motion, _ = self.motion(list(x))
-            return np.asarray(part.differences(motion) / part.sigma).ravel()
+            return np.asarray(data.differences(motion) / data.sigma).ravel()
         except AtlasError:
-            return np.full(part.sigma.size * self.width, HUGE)
+            return np.full(data.sigma.size * self.width, HUGE)
 
     @cached_property
     def width(self) -> int:
@@ -231,19 +231,19 @@ class Problem:
 
     def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the derivatives, (N, k, free)."""
-        x, part = list(x), self.data.part(places)
+        x, data = list(x), self.data.part(places)
         if self.followed:
             _, J = self.turned(np.array([x]), places)
-            return np.asarray(np.moveaxis(J[0].reshape(len(x), part.t.size, -1), 0, -1))
+            return np.asarray(np.moveaxis(J[0].reshape(len(x), data.t.size, -1), 0, -1))
         motion, values = self.motion(x)
         chain = self.chain(x, self.model.names)
         moved = [i for i, row in enumerate(chain) if row.any()]
         names = [self.model.names[i] for i in moved]
-        v = self._vectors(values, names, part.t, motion)
+        v = self._vectors(values, names, data.t, motion)
         fields = np.array([self._field_by(name, values) for name in names]).reshape(-1, 3)
-        rest = part.differences(motion) if part.kind == "rotation" else np.zeros(3)
-        slopes = part.slopes(motion, v, field_of(self.model, values), fields, rest)
-        return np.asarray(-(slopes @ chain[moved]) / part.sigma[:, :, None])
+        rest = data.differences(motion) if data.kind == "rotation" else np.zeros(3)
+        slopes = data.slopes(motion, v, field_of(self.model, values), fields, rest)
+        return np.asarray(-(slopes @ chain[moved]) / data.sigma[:, :, None])
 
     def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
         """Return the turns of R, (N, P, 3), or their derivatives in time where rates are seen."""

@@ -241,7 +241,7 @@ class Fit:
     @property
     def others(self) -> list[str]:
         """The other minima, in sentences."""
-        return [f"another start ended at a reduced chi square of {one.redchi:.3g}" for one in self.rivals]
+        return [f"another start ended at a reduced chi square of {rival.redchi:.3g}" for rival in self.rivals]
 
     def _sentences(self) -> list[str]:
         return [*self.undetermined, *self.doubts, *self.others]
@@ -268,7 +268,7 @@ class Fit:
             "redchi": self.redchi, "sigma": np.asarray(self.sigma).tolist(), "names": list(self.names),
             "covariance": self.covariance.tolist(), "undetermined": list(self.undetermined),
             "doubts": list(self.doubts),
-            "rivals": [{"redchi": one.redchi, "values": dict(one.values)} for one in self.rivals],
+            "rivals": [{"redchi": rival.redchi, "values": dict(rival.values)} for rival in self.rivals],
         }  # fmt: skip
 
     def scene(self) -> Scene:
@@ -306,8 +306,8 @@ class Fit:
 
     def predict_values(self, t: FloatArray) -> FloatArray:
         """Return what is drawn as a curve, (N, k): of rotations and axes the third axis."""
-        found = self.problem.data.of(self.motion, t - self.epoch)
-        return found[:, :, 2] if found.ndim == 3 else found
+        values = self.problem.data.of(self.motion, t - self.epoch)
+        return values[:, :, 2] if values.ndim == 3 else values
 
     def plot(self, style: Any = None) -> Any:
         """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
@@ -325,18 +325,18 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
             "densely somewhere."
         )
     if data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
-        wrong = (
+        reason = (
             "the family is not that of the motion (drag, a second field), sigma is too small, or this is a false "
             "minimum, as there are where a nutation is small: give a start by params (--start)"
             if redchi > 1
             else "sigma is too large"
         )
-        out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {wrong}.")
-    found = lag(problem.data.t, r)
-    if abs(found) > SURPRISE / np.sqrt(r.size):
+        out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {reason}.")
+    correlation = lag(problem.data.t, r)
+    if abs(correlation) > SURPRISE / np.sqrt(r.size):
         out.append(
-            f"Neighbouring residuals are correlated ({found:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is expected): "
-            "the family is not that of the motion (drag, a second field), or the noise is not white."
+            f"Neighbouring residuals are correlated ({correlation:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is "
+            "expected): the family is not that of the motion (drag, a second field), or the noise is not white."
         )
     return out
 
@@ -345,7 +345,7 @@ def _rivals(problem: Problem, tried: list[tuple[float, Any]], free: float) -> li
     """Return the other minima, each once."""
     out: list[Rival] = []
     for chi, x in tried[1:]:
-        known = [tried[0][0] / free, *(one.redchi for one in out)]
+        known = [tried[0][0] / free, *(rival.redchi for rival in out)]
         if all(abs(chi / free - other) > 1e-3 * other for other in known):
             out.append(Rival(chi / free, problem.values(x)))
     return out[:4]

@@ -60,13 +60,13 @@ def rate_of(data: Data) -> float:
     return rate or 1 / float(np.ptp(data.t))
 
 
-def centre_of(data: Data, rate: float, part: float) -> float:
+def centre_of(data: Data, rate: float, share: float) -> float:
     """Return the time of a datum with most of the others within parts of a turn, near a part of them all."""
     t, count = data.t, np.zeros(data.t.size)
     for width in (WINDOW / rate, 2 * ARC / rate):
         count += np.searchsorted(t, t + width, "right") - np.searchsorted(t, t - width)
     most = np.flatnonzero(count >= 0.8 * count.max())
-    return float(t[most[np.argmin(abs(most - part * t.size))]])
+    return float(t[most[np.argmin(abs(most - share * t.size))]])
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
@@ -83,13 +83,13 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
     powers = t[:, None] ** np.arange(3 if near.size > 6 else 2)
     weights = np.ones(len(t))
     for _ in range(5):  # outliers are not to carry it off
-        found = np.linalg.lstsq(powers * weights[:, None], x * weights[:, None])[0]
-        miss = np.linalg.norm(x - powers @ found, axis=-1)
+        coefficients = np.linalg.lstsq(powers * weights[:, None], x * weights[:, None])[0]
+        miss = np.linalg.norm(x - powers @ coefficients, axis=-1)
         weights = 1 / np.sqrt(np.maximum(miss, np.median(miss) or 1.0))
     if data.kind == "rotation":
-        A = start @ Rotation.from_rotvec(found[0]).as_matrix()
-        return A, np.asarray(found[1] + np.cross(found[1], found[0]) / 2)
-    return found[0], found[1]
+        A = start @ Rotation.from_rotvec(coefficients[0]).as_matrix()
+        return A, np.asarray(coefficients[1] + np.cross(coefficients[1], coefficients[0]) / 2)
+    return coefficients[0], coefficients[1]
 
 
 def random(problem: Problem, count: int, seed: int) -> dict[str, FloatArray]:
@@ -124,24 +124,24 @@ def random(problem: Problem, count: int, seed: int) -> dict[str, FloatArray]:
     a = Rotation.from_matrix(R).as_rotvec()
     I1, I3 = np.exp(rng.uniform(-0.5, 0.5, (2, count)))
     I1, I3 = np.where(abs(I1 - I3) < 1, [I1, I3], 1.0)
-    found = {"ratio": rng.uniform(0.3, 1.8, count), "I1": I1, "I3": I3}
+    parameters = {"ratio": rng.uniform(0.3, 1.8, count), "I1": I1, "I3": I3}
     for names, x in ((B, field), (OMEGA, omega), (ATTITUDE, a)):
-        found |= dict(zip(names, x.T, strict=True))
+        parameters |= dict(zip(names, x.T, strict=True))
     if problem.model.name == "top":
-        found["I3"] = found["ratio"]
-        found |= dict(zip(("k2", "k3"), rng.normal(size=(2, count)) * size.T / 2, strict=True))
-        found |= dict(zip(("linear", "quadratic"), rng.normal(size=(2, count)) * size.T**2, strict=True))
-        found |= dict(zip(("n1", "n2", "n3"), rng.normal(size=(3, count)), strict=True))
+        parameters["I3"] = parameters["ratio"]
+        parameters |= dict(zip(("k2", "k3"), rng.normal(size=(2, count)) * size.T / 2, strict=True))
+        parameters |= dict(zip(("linear", "quadratic"), rng.normal(size=(2, count)) * size.T**2, strict=True))
+        parameters |= dict(zip(("n1", "n2", "n3"), rng.normal(size=(3, count)), strict=True))
         if data.kind == "angular_velocity":
-            found["linear"], n = _pulled(problem, found["I3"], rng)
+            parameters["linear"], n = _pulled(problem, parameters["I3"], rng)
             a = Rotation.from_matrix([upright(x).T for x in n]).as_rotvec()
-            found |= dict(zip(ATTITUDE, a.T, strict=True))
+            parameters |= dict(zip(ATTITUDE, a.T, strict=True))
     D = I1 * I3
     ends = np.sort(-D[:, None] / np.stack([I1, np.ones(count), I3], -1), -1)
     inner = ends[:, 0] + rng.uniform(0.1, 0.9, count) * (ends[:, 1] - ends[:, 0])
-    found["z"] = np.where(rng.random(count) < 0.3, inner, ends[:, 2] + np.exp(rng.normal(0, 1.5, count)))
-    found["omega2"] = np.vecdot(omega, _across(np.vecmat(field, R)))
-    return found
+    parameters["z"] = np.where(rng.random(count) < 0.3, inner, ends[:, 2] + np.exp(rng.normal(0, 1.5, count)))
+    parameters["omega2"] = np.vecdot(omega, _across(np.vecmat(field, R)))
+    return parameters
 
 
 def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
@@ -168,8 +168,8 @@ def _across(K: FloatArray) -> FloatArray:
 
 def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
     """Yield the best motions about some time, the problem from then on, and how many data they follow; and others."""
-    for k, part in enumerate(PARTS):
-        centre = 0.0 if problem.pinned else centre_of(problem.data, problem.rate, part)
+    for k, share in enumerate(PARTS):
+        centre = 0.0 if problem.pinned else centre_of(problem.data, problem.rate, share)
         there = problem.shifted(centre)
         for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, last=k == len(PARTS) - 1):
             yield centre, there, x, count

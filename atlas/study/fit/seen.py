@@ -24,7 +24,7 @@ class Seen:
         motion: Any,
         x: FloatArray,
         J: FloatArray,
-        bent: FloatArray,
+        weighted: FloatArray,
         scores: FloatArray,
         scale: float,
     ) -> None:
@@ -33,19 +33,19 @@ class Seen:
         rate = max(problem.rate, float(np.linalg.norm(motion.angular_velocity(0.0))))  # it may start from rest
         units = units_of(problem.model, field + rate)
         self.units = np.array([units[name] for name in problem.names])
-        scaled = bent * self.units
+        scaled = weighted * self.units
         _, size, turn = np.linalg.svd(scaled, full_matrices=False)
         size = np.maximum(size, np.finfo(float).eps * size.max(initial=1.0))
         self.lost = scale / size > UNSEEN
-        kept = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
+        inverse = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
         null = self.lost & (size < NULL * size.max(initial=1.0))
         weak = self.lost & ~null
         if problem.loss == "linear":
-            self.covariance = kept * scale**2
+            self.covariance = inverse * scale**2
         else:  # of an M-estimator, whatever the noise
             score = (J * self.units * scores[:, None]).reshape(problem.data.t.size, -1, len(x)).sum(1)
             spread = score.T @ score  # the numbers of one time may be off together
-            self.covariance = kept @ spread @ kept
+            self.covariance = inverse @ spread @ inverse
         square = np.outer(self.units, self.units)
         self.covariance = self.covariance * square
         self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square

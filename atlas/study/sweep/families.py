@@ -142,9 +142,9 @@ class Swept:
                 certified,
             ),
         )
-        for what, wrong, there in lists:
-            if wrong:
-                raise AtlasError(f"There is no {what} {wrong[0]!r} here; there is {', '.join(there) or 'none'}.")
+        for what, refused, there in lists:
+            if refused:
+                raise AtlasError(f"There is no {what} {refused[0]!r} here; there is {', '.join(there) or 'none'}.")
         missing = [name for name in self.needed if name not in parameters]
         if missing:
             raise AtlasError(f"The parameter {missing[0]} is missing; needed are {', '.join(self.needed)}.")

@@ -123,8 +123,8 @@ def _compute(
 class Spans(Iterator[Span]):
     """Rows of the parts that are missing, one part after the other, as many as the last one tells."""
 
-    def __init__(self, plan: Plan, kept: Iterable[Span], rows: int | None, workers: int) -> None:
-        ends = [0, *(row for span in kept for row in span), plan.count]
+    def __init__(self, plan: Plan, spans: Iterable[Span], rows: int | None, workers: int) -> None:
+        ends = [0, *(row for span in spans for row in span), plan.count]
         self.gaps = deque((start, stop) for start, stop in zip(ends[::2], ends[1::2], strict=True) if start < stop)
         self.left = sum(stop - start for start, stop in self.gaps)
         self.rows, self.workers = rows, workers

@@ -77,8 +77,8 @@ def write_csv(out: Path, plan: Plan, parts: Parts) -> None:
     """Write the heading and the rows."""
     with out.open("wb") as file:
         file.write((",".join(plan.headings) + "\n").encode())
-        for part in parts:
-            file.write(part.read_bytes())
+        for rows in parts:
+            file.write(rows.read_bytes())
 
 
 def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
@@ -86,11 +86,11 @@ def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
     with zipfile.ZipFile(out, "w") as archive:
         for name in plan.names:
             with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
-                for part in parts:
+                for rows in parts:
                     # of a part no more is read than the column
-                    with np.load(part) as columns:
+                    with np.load(rows) as columns:
                         column = columns[name]
-                    if part is parts[0]:
+                    if rows is parts[0]:
                         descr = np.lib.format.dtype_to_descr(column.dtype)
                         header = {"descr": descr, "fortran_order": False, "shape": (plan.count,)}
                         np.lib.format.write_array_header_1_0(file, header)
