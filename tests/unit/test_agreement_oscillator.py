@@ -12,8 +12,6 @@ from atlas.core.motions.integrals import Integrals
 
 POINTS = bodies(55, 8)
 in_core = partial(Tie, points=POINTS, floors=("core",))
-MOVING = bodies(50, 8, u=lambda p: p.omega[2])
-"""States with Omega3 = u."""
 
 
 def oscillator(f: Floor, p: Any) -> Any:
@@ -80,28 +78,11 @@ def same(p: Any) -> dict[str, Any]:
     return {"E": known.E, "Bsquare": known.K2, "c3": known.c3, "c5": known.c5, "I": p.I, "Omega3": p.u}
 
 
-def projection(say: Ledger, p: Any) -> Any:
-    """Return Omega1 K1 + Omega2 K2 of (41) at Omega3 = u."""
-    rest = say("(41)", "c5", Omega1=0, Omega2=0, K1=0, K2=0, I=p.I, c3=same(p)["c3"], Omega3=p.u)
-    return sympy.Rational(same(p)["c5"]) - rest
-
-
-def across(say: Ledger, p: Any) -> Any:
-    """Return Omega1^2 + Omega2^2 of (36) at Omega3 = u."""
-    return sympy.Rational(same(p)["E"]) - say("(36)", "E", Omega1=0, Omega2=0, Omega3=p.u, I=p.I)
-
-
 def field(say: Ledger, p: Any) -> list[Any]:
     """Return K of (42), dOmega3/dt and all but E' given."""
     given = {**state(p), "E": say("(36)", "E", I=p.I, **state(p)), "d": lambda _: sympy.Rational(p.t)}
     known = same(p)
     return [say("(42)", name, I=p.I, c3=known["c3"], c5=known["c5"], **given) for name in ("K1", "K2", "K3")]
-
-
-def spin(say: Ledger, p: Any) -> list[Any]:
-    """Return Omega of (45) at the angle t; f0 is 1 by (36)."""
-    given = {"f0": 1, "E": same(p)["E"], "I": p.I, "u": p.u, "Phi": p.t, "phi0": 0}
-    return [say("(45)", "Omega1", **given), say("(45)", "Omega2", **given), p.u]
 
 
 INTEGRALS = "(36) (37) (40) (41)"

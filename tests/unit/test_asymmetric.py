@@ -429,17 +429,6 @@ def test_a_closed_form_is_held_against_the_twin(
     assert (one.closed is fake) == (not words.startswith("^cert"))
 
 
-def test_theta_functions_that_fit_badly_are_held_against_the_twin_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Before anything is asked of them: where they are wrong, they are never taken."""
-    fake = Fake(1e-40, 5e-15)
-    fake.fits = False
-    monkeypatch.setattr(kernels, "closed_form", lambda *_: fake)
-    for apart, taken in ((6e-15, False), (4e-15, True)):
-        monkeypatch.setattr(kernels.SingleAsymmetric, "_difference", lambda *_, apart=apart: apart)
-        one = kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, -2.0, 0.2)))
-        assert (one.closed is fake) == taken
-
-
 def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:
     """Of a ball: the matrix at t = 0 is exactly one, wherever that stands; a grid that ends before it has none."""
     motion = atlas.AsymmetricMotion((1.0, 1.0, 1.0), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2))

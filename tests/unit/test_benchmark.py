@@ -1,7 +1,5 @@
 """The figures of the benchmark: drawn from the stored record and from nothing else."""
 
-import subprocess
-import sys
 from collections.abc import Iterator
 from typing import Any
 
@@ -102,16 +100,3 @@ def test_every_method_of_the_record_has_a_name_and_a_look() -> None:
     for run in results.read().runs:
         assert run.method in LINES
         assert run.tolerance or title(run.method) != run.method
-
-
-def test_drawing_measures_nothing() -> None:
-    """The recipes load no integrator, no compiler, no ball arithmetic: there is nothing that could measure."""
-    code = (
-        "import sys\n"
-        "from atlas.scene import recipes\n"
-        f"[recipes.load(name).scene() for name in {NAMES}]\n"
-        "heavy = {'scipy', 'sympy', 'heyoka', 'flint', 'matplotlib', 'benchmarks'}\n"
-        "print(sorted(heavy & set(sys.modules)))\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"

@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from functools import partial
-from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
 
@@ -295,46 +294,6 @@ def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) 
     assert [bool(one.contents) for one in wanted] == [True, False, True]
 
 
-def test_a_single_figure_is_drawn_in_this_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No worker is started for one figure; and where none can be started, several are drawn here as well."""
-
-    def never(*_: object) -> None:
-        raise AssertionError("a worker was started")
-
-    with monkeypatch.context() as patch:
-        patch.setattr(processes, "pool", never)
-        (one,) = made([figure("lssc")], Cache(tmp_path), 2)
-        assert one.contents
-    monkeypatch.setattr(processes, "ProcessPoolExecutor", _denied)
-    assert all(one.contents for one in made([figure("magn"), figure("trochoids")], Cache(tmp_path), 2))
-
-
-def _denied(*_: object) -> None:
-    raise PermissionError(13, "Permission denied")
-
-
-TELLING = """'''Tell what is loaded.'''
-
-import sys
-
-from atlas.errors import AtlasError
-
-
-def scene(*, number: int = 0):
-    raise AtlasError(f"{number}: {'matplotlib.backends.backend_pdf' in sys.modules}")
-"""
-
-
-@pytest.mark.parametrize("there", [True, False])
-def test_workers_have_loaded_what_draws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, there: bool) -> None:
-    """They are forks of one process that has; where it can't be started, each loads what it needs."""
-    if not there:
-        monkeypatch.setattr(forkserver, "ensure_running", _denied)
-    (tmp_path / "telling.py").write_text(TELLING)
-    wanted = [figure(str(tmp_path / "telling.py"), number=number) for number in (1, 2, 3)]
-    assert [one.failure for one in made(wanted, Cache(tmp_path / "cache"), 2)] == [f"{k}: {there}" for k in (1, 2, 3)]
-
-
 def test_a_library_that_cannot_be_loaded_is_told(tmp_path: Path) -> None:
     """What Matplotlib refuses when it is loaded is a failure of each figure, in a line."""
     broken = tmp_path / "broken" / "contourpy"
@@ -412,26 +371,6 @@ def test_a_recipe_that_misbehaves_fails_alone(
     assert complaint in one.failure
     assert bool(one.failure) is bool(complaint)
     assert capfd.readouterr().out == ""
-
-
-def test_a_figure_is_drawn_once_for_each_format(tmp_path: Path) -> None:
-    """The same figure is taken from the cache; another format of it is drawn, and nothing that is there is touched."""
-    (first,) = build_figures(["magn"], ("svg",), tmp_path)
-    times = {file: file.stat().st_mtime_ns for file in first.files}
-    (again,) = build_figures(["magn"], ("svg",), tmp_path)
-    (more,) = build_figures(["magn"], ("svg", "png"), tmp_path)
-    assert [one.reason.partition(":")[0] for one in (first, again, more)] == ["drawn", "taken", "drawn"]
-    assert [file.name for file in more.files] == ["magn.svg", "magn.png"]
-    assert {file: file.stat().st_mtime_ns for file in first.files} == times
-
-
-def test_a_figure_that_was_lost_is_put_back(tmp_path: Path) -> None:
-    """What is in the folder is what was drawn."""
-    (made,) = build_figures(["magn"], ("svg",), tmp_path)
-    good = made.files[0].read_bytes()
-    made.files[0].unlink()
-    list(build_figures(["magn"], ("svg",), tmp_path))
-    assert made.files[0].read_bytes() == good
 
 
 def test_figures_keep_their_order_and_fail_alone(tmp_path: Path) -> None:

@@ -97,16 +97,6 @@ def test_what_is_remembered_is_not_stale(tmp_path: Path) -> None:
     assert Sources(cache).closure([recipe]) != before
 
 
-def test_a_file_that_is_remembered_is_not_parsed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The second time, no file is parsed, whatever its time."""
-    recipe, cache = write(tmp_path / "recipe.py", RECIPE), Cache(tmp_path / "cache")
-    sources = Sources(cache)
-    before = sources.closure([recipe])
-    sources.save()
-    monkeypatch.delattr(sources_module, "_tree")
-    assert Sources(cache).closure([write(recipe, RECIPE)]) == before
-
-
 def test_a_damaged_memory_does_no_harm(tmp_path: Path) -> None:
     """Where what was remembered is damaged, the files are parsed again."""
     recipe, cache = write(tmp_path / "recipe.py", "import atlas.errors\n"), Cache(tmp_path / "cache")

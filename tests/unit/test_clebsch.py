@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import ctx, fmpq, fmpz
+from flint import ctx, fmpq
 from oracles.taylor import taylor
 
 import atlas
@@ -63,46 +63,6 @@ def test_errors_that_grow_too_far_are_said() -> None:
     """In steps of few bits errors beyond a fourth of the bits have no bound; nor have steps that are too many."""
     with pytest.raises(NotCertifiedError, match="grow beyond their bounds"):
         flow("quick").go(fmpq(1), fmpq(0), 60)
-
-
-@pytest.mark.parametrize("count", [1, 4, 5, 50])
-def test_products_of_series_in_blocks_are_the_sums(count: int) -> None:
-    """To the last digit, and none is asked of coefficients that are not there yet."""
-    given = np.random.default_rng(3).integers(-(2**40), 2**40, (14, count)).tolist()
-    rows: list[list[int]] = [[fmpz(x)] for x, *_ in given]
-    for n, c in enumerate(clebsch_flow._products(rows, count, 4)):
-        pairs = [(rows[x], rows[y][::-1]) for x, y in clebsch_flow.PRODUCTS]
-        assert c == [sum((a * b for a, b in zip(*pair, strict=True)), fmpz(0)) for pair in pairs]
-        for row, coefficients in zip(rows, given, strict=True):
-            row.extend(map(fmpz, coefficients[n + 1 : n + 2]))
-
-
-def test_a_way_of_too_many_steps_is_not_gone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of one with fourteen steps the limit may be fourteen, not thirteen."""
-    monkeypatch.setattr(clebsch_flow, "MOST", 14)
-    flow("quick").go(fmpq(3), fmpq(-2), 128, proven=False)
-    monkeypatch.setattr(clebsch_flow, "MOST", 13)
-    with pytest.raises(NotCertifiedError, match="more than 13 steps"):
-        flow("quick").go(fmpq(3), fmpq(-2), 128, proven=False)
-
-
-def test_the_derivative_of_a_step_is_within_its_bound() -> None:
-    """That of (W, K) after h = 1/8 by differences of starts that are 2^-90 apart."""
-    h, bits, start = fmpq(1, 8), 128, flow("quick").start
-    way = clebsch_flow._Way(flow("quick").rates(fmpq(1), fmpq(2)), [int(x * 2**bits) for x in start], bits, proven=True)
-    rows = way._series(h)
-    found, bound = way._derivative(rows, h, 4.0)
-    true = np.empty((6, 6))
-    with ctx.workprec(400):
-        for i in range(6):
-            ends = []
-            for sign in (1, -1):
-                near = [x + sign * fmpq(int(i == j), 2**90) for j, x in enumerate(start)]
-                end = Flow(flow("quick").moments, near[:3], near[3:]).go(h, 2 * h, 300, proven=False)
-                ends.append([*end.W, *end.K])
-            true[:, i] = [float((x - y) * 2**89) for x, y in zip(*ends, strict=True)]
-    assert np.linalg.norm(found - true) < bound
-    assert bound == pytest.approx(2.91432e-10, rel=1e-3)
 
 
 INTO = np.array([[0.5, -1.0], [0.25, 2.0]], dtype=complex)

@@ -1,7 +1,5 @@
 """Three moments next to where periods fall together or grow without end: the closed form is found there, and proved."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from flint import ctx
@@ -103,22 +101,6 @@ def test_real_periods_are_the_shortest_whatever_basis_is_given() -> None:
             more[:, :2] = basis[:, :2] @ np.array(V)
             found = [complex_of(x[0]) for x in sums(given[:2], _shortest(given, more))]
             assert np.abs(np.abs(np.array(found)) - np.abs(np.array(known))).max() < 1e-12 * np.abs(known).max()
-
-
-@pytest.mark.parametrize("place", [1.0, 1e-3, np.pi - 1e-9, 1e-200])
-def test_a_path_through_a_zero_is_not_divided_without_end(place: float) -> None:
-    """Where floats tell no distance of a zero from the path between two others, there are no periods, and a reason."""
-    with pytest.raises(atlas.NotCertifiedError, match="too close to one another"):
-        list(clebsch_periods._parts(np.array([complex(place)])))
-
-
-def test_a_zero_near_a_path_divides_it_as_its_distance_has_digits() -> None:
-    """Parts in order from end to end; two for each halving of the distance at most, and one more."""
-    parts = list(clebsch_periods._parts(np.array([1.0 + 1e-12j])))
-    assert float(parts[0][0]) == 0.0
-    assert float(parts[-1][1]) == 1.0
-    assert all(high == low for (_, high), (low, _) in pairwise(parts))
-    assert len(parts) < 2 * 42
 
 
 @pytest.mark.parametrize(

@@ -13,11 +13,8 @@ from flint import acb, arb, fmpq
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions import clebsch_proof
 from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.motions.clebsch_flow import Flow
-from atlas.exact.motions.clebsch_periods import complex_of
-from atlas.exact.motions.clebsch_proof import Cell, distances, near_hull
-from atlas.exact.motions.clebsch_theta import Rough, ThetaMotion
-from atlas.exact.motions.theta_sums import near
+from atlas.exact.motions.clebsch_proof import Cell, distances
+from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import cross, dot, workprec
 
@@ -131,59 +128,6 @@ def test_the_bounds_of_a_body_whose_times_are_complex() -> None:
         np.testing.assert_allclose(cell.rates() * 1e40, rates, rtol=1e-3)
 
 
-def test_whole_places_are_those_within_an_ellipse_of_a_peak() -> None:
-    """All that there are between -30 and 30, by one condition after the other."""
-    Y, peaks = np.array([[2.0, 0.75], [0.75, 0.5]]), np.array([[0.25, -3.5], [4.5, 1.75]])
-    line = range(-30, 31)
-    true = {(P, Q) for P, Q in product(line, line) for p in peaks if ([P, Q] - p) @ Y @ ([P, Q] - p) < 20.0}
-    assert sorted(map(tuple, near(Y, peaks, 20.0).tolist())) == sorted(true)
-
-
-def test_terms_that_are_left_out_are_smaller_than_their_bound(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Coefficients without terms beyond exp(-30) miss less than is said, which is some 1e8 of it and no more."""
-    with workprec(240):
-        cell = Cell(made(), torus().periods(128))
-        for S, part in (((0, 0), 0.0), ((1, -2), 0.5)):
-            true = list(cell._coefficients(S))
-            monkeypatch.setattr(clebsch_proof, "LEFT_OUT", 30.0)
-            found, allowed = list(cell._coefficients(S)), cell._left_out(np.array(S), part)
-            monkeypatch.undo()
-            missed = max(
-                float(abs(x - y).upper()) for u, v in zip(true, found, strict=True) for x, y in zip(u, v, strict=True)
-            )
-            assert 1e-9 * allowed < missed < allowed
-
-
-def test_coefficients_of_a_defect_obey_their_law() -> None:
-    """c(S + 4j)/c(S) is in size what is said, with a slip in K and in N, so that there is a defect."""
-    theta = slipped(made(), "K", "N")
-    with workprec(240):
-        cell, compared = Cell(theta, torus().periods(128)), 0
-        for S, T in (((0, 0), (4, 0)), ((1, 0), (1, -4)), ((3, 1), (-5, 5))):
-            both = zip(cell._coefficients(S), cell._coefficients(T), strict=True)
-            for part, (before, after) in zip([0.0, 0.0, 0.5] * 2, both, strict=True):
-                ratio = cell._size(np.array(T), part) - cell._size(np.array(S), part)
-                for x, y in zip(before, after, strict=True):
-                    if abs(x) > 1e-50:
-                        compared += 1
-                        assert float((abs(y) / abs(x)).log().mid()) == pytest.approx(ratio, rel=1e-9)
-    assert compared > 10
-
-
-@pytest.mark.slow
-def test_more_starts_on_the_torus_prove_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    """From four states of the cell, to which Taylor's series goes, the bound is as good; a wrong state is noticed.
-
-    Errors grow on half the way alone.
-    """
-    monkeypatch.setattr(clebsch_proof, "PARTS", (2,))
-    assert bound(made()) == pytest.approx(9.76608e-43, rel=1e-2, abs=0.0)
-    assert bound(slipped(made(), "K")) == pytest.approx(3.57294e-38, rel=1e-3, abs=0.0)
-    real = Flow.go
-    monkeypatch.setattr(Flow, "go", lambda flow, H, F, bits: real(flow, H + fmpq(1, 2**70), F, bits))
-    assert bound(made()) > 2.0**-80
-
-
 def test_the_defects_over_the_denominator_are_bounded_at_each_place() -> None:
     """What K, M and N miss, by differences of balls at some places of the cell, is no more than the bound on it."""
     theta = made()
@@ -256,14 +200,6 @@ def test_errors_grow_no_faster_than_is_said(H: float, F: float) -> None:
         assert bounds.sum() / 4 < worst <= bounds.sum() * (1 + 1e-12)
 
 
-def test_errors_grow_by_the_exponential() -> None:
-    """The exponential of a matrix without negative elements is that of its eigenvalues."""
-    A = np.array([[0.5, 2.0, 0.0], [1.0, 0.0, 0.0], [0.25, 3.0, 0.0]])
-    values, vectors = np.linalg.eig(7 * A)
-    exact = (vectors * np.exp(values)) @ np.linalg.inv(vectors)
-    np.testing.assert_allclose(clebsch_proof._exponential(7 * A), exact.real, rtol=1e-12)
-
-
 def test_a_start_is_taken_near_the_real_times() -> None:
     """Nearly at rest the start was found far off, where N has a factor of 1e35 and no defect a bound: it is proved."""
     K = [fmpq(*x.as_integer_ratio()) for x in (0.777, -0.758, -0.961)]
@@ -295,17 +231,6 @@ def test_a_denominator_no_larger_than_its_errors_is_no_proof(monkeypatch: pytest
         assert np.isinf(cell.rates()).all()
 
 
-def test_a_rough_start_is_found_to_nine_digits() -> None:
-    """By Newton's method in doubles, from a tenth of a unit beside it along both flows."""
-    theta = made()
-    rough, target = Rough(theta), np.array([complex_of(x) for x in theta.at_start.all[:6]])
-    X = np.array([[complex_of(theta.X[i, j]) for j in range(2)] for i in range(2)])
-    times = X @ np.array([complex_of(x) for x in theta.start])
-    found = rough.near(times[None] + np.array([0.1, -0.1]), target)
-    assert found is not None
-    assert np.linalg.norm(rough.states(found[None])[0] - target) < 1e-9 * np.linalg.norm(target)
-
-
 def test_forms_of_other_characteristics_are_no_proof() -> None:
     """Two axes of one characteristic, or an N that is shifted otherwise, have no common law of coefficients."""
     for name in ("K", "M", "N"):
@@ -313,13 +238,3 @@ def test_forms_of_other_characteristics_are_no_proof() -> None:
         first, second, third = getattr(theta, name)
         setattr(theta, name, [replace(first, place=second.place), second, third])
         assert bound(theta) == np.inf
-
-
-def test_places_round_a_parallelogram_are_all_that_are_near_one_of_its_points() -> None:
-    """None is missing of those near to any of a fine net of its points, inside too."""
-    Y, corners = np.array([[0.5, 0.125], [0.125, 0.25]]), np.array([[0.5, 0], [9.5, 4], [-6, 12.0], [3, 16]])
-    found = set(map(tuple, near_hull(Y, corners, 3.0).tolist()))
-    line = np.linspace(0, 1, 101)
-    net = [corners[0] + s * (corners[2] - corners[0]) + t * (corners[1] - corners[0]) for s in line for t in line]
-    assert set(map(tuple, near(Y, np.array(net), 3.0).tolist())) <= found
-    assert len(found) < 600

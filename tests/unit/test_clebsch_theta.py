@@ -137,18 +137,6 @@ def test_no_bound_is_given_where_powers_are_too_small(monkeypatch: pytest.Monkey
     assert rounding.accuracy() == pytest.approx(7.12134e-15, rel=1e-3, abs=0.0)
 
 
-def test_errors_of_vectors_are_counted_by_operations() -> None:
-    """K takes an inverse, 3, and a product, 2; Omega = W - K an inverse, a sum, and products of both."""
-    rounding = replace(kernel(*QUICK).rounding, b=4.0, size=1e-3)  # then errors of R are none beside these
-    none, y = np.zeros((10, 1)), np.zeros((13, 1))
-    y[5] = 3.0
-    assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx(15e3)
-    y[5] = 5.0  # K is no longer than b
-    assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx(20e3)
-    y[8], y[11] = 7.0, 2.0
-    assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx((2 * (4 + 7) + 4 * 2) * 1e3)
-
-
 @pytest.mark.parametrize("case", [QUICK, NEAR])
 def test_bounds_in_cells_are_those_at_their_points(case: tuple[Three, Three, Three]) -> None:
     """In a cell the bound is no less than at nine points of it, and that on all phases at most 1.1 of that at 10^4."""
@@ -160,23 +148,6 @@ def test_bounds_in_cells_are_those_at_their_points(case: tuple[Three, Three, Thr
     line = np.linspace(-0.55 * np.pi, 0.55 * np.pi, 100)
     most = rounding.wrong(np.stack(np.meshgrid(line, line)).reshape(2, -1), 0.0).max() * 2.0**-53
     assert most <= rounding.accuracy() <= 1.1 * most
-
-
-@pytest.mark.parametrize("place", [(1.7, 1.72), (-1.69, 1.0), (0.4, -1.71), (-1.2, -0.3)])
-def test_cells_are_cut_where_a_bound_is_largest_and_leave_nothing_out(
-    place: tuple[float, float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Of 1 + 10 exp(-(2 distance)^2) from a place, taken at the nearest point of a cell, the largest is found."""
-
-    def wrong(_: Any, cells: Any, half: float) -> Any:
-        cut.append((cells.shape[1], half))
-        return 1 + 10 * np.exp(-4 * (np.maximum(abs(cells.T - place) - half, 0) ** 2).sum(axis=1))
-
-    cut = list[tuple[int, float]]()
-    monkeypatch.setattr(clebsch_rounding.Rounding, "wrong", wrong)
-    assert 11 <= kernel(*QUICK).rounding.accuracy() * 2.0**53 <= 11 * 1.02
-    assert cut[0] == (24**2, pytest.approx(0.55 * np.pi / 24))
-    assert cut[1] == (24**2, 0.0)
 
 
 def test_inverses_are_rounded_once() -> None:

@@ -11,7 +11,6 @@ import pytest
 from drawing import distance
 from numpy.typing import NDArray
 
-from atlas.core.motions.flight import Flight
 from atlas.draw import to_figure
 from atlas.draw.space import window
 from atlas.draw.view import fit
@@ -20,31 +19,6 @@ from atlas.scene import Curve, Plane, Region, Scene, Surface, recipes
 FloatArray = NDArray[np.float64]
 
 DPI = 300.0
-
-
-@pytest.mark.parametrize("name", ["motion", "motion_sphere"])
-def test_a_trace_asks_for_one_column(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the whole rotation out of order the figures of a motion are still drawn."""
-
-    def never(*_: Any) -> None:
-        raise AssertionError
-
-    from atlas.core.motions.elementary import ElementaryMotion
-
-    for owner in ElementaryMotion.__mro__:
-        for method in ("rotation", "rotation_grid"):
-            if method in vars(owner):
-                monkeypatch.setattr(owner, method, never)
-    assert recipes.load(name).scene().panels
-
-
-def test_panels_share_a_path(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both panels of a flight are drawn from one set of points."""
-    asked = []
-    position = Flight.position
-    monkeypatch.setattr(Flight, "position", lambda *words, **more: asked.append(1) or position(*words, **more))
-    recipes.load("flight").scene()
-    assert 0 < len(asked) < 10
 
 
 def dense(function: Callable[[FloatArray], FloatArray], start: float, stop: float, *_: Any, **__: Any) -> FloatArray:

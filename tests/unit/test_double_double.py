@@ -1,18 +1,15 @@
-import math
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
 import mpmath
 import numpy as np
-import pytest
-from flint import arb, fmpq
+from flint import arb
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from atlas.core.arithmetic.double_double import DoubleDouble, over
-from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, words
-from atlas.formulas import numbers
+from atlas.core.arithmetic.words import TURN, turn_of, words
 from atlas.formulas.numbers import length, nearest, rational, workprec
 
 floats = st.floats(-1e30, 1e30, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
@@ -127,19 +124,6 @@ def test_shapes_broadcast_and_empty_arrays_stay_empty() -> None:
     assert isinstance(over(lambda a: (a, a * a), 2.0, degree=(1, 2)), list)
 
 
-def test_a_row_in_doubt_is_made_in_256_digits(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only the rows that cancel to the last digit are made by themselves."""
-    made = []
-    alone = numbers.alone
-    monkeypatch.setattr(numbers, "alone", lambda *row: made.append(1) or alone(*row))
-    x, y = np.random.default_rng(2).uniform(1, 2, (2, 1000))
-    z = np.ones(1000)
-    z[:3] = -(x * y)[:3]
-    third = 1 / 3
-    over(lambda x, y, z, w: (x * y * w + z * w) / length(x, y), x, y, z, np.full(1000, third))
-    assert len(made) <= 3
-
-
 doubles = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -163,16 +147,3 @@ def test_a_phase_less_whole_turns_is_within_half_a_turn(x: float) -> None:
     assert abs(nearest(rest)) <= 0.5
     with workprec():
         assert (arb(rational(x)) - rest).is_integer()
-
-
-def test_words_add_up() -> None:
-    """Three words of a third leave less than 2^-158 of it, of a ball as of a rational number."""
-    for third in (fmpq(1, 3), middle(fmpq(1, 3))):
-        rest = fmpq(1, 3) - sum((rational(x) for x in words(third, 3)), fmpq(0))
-        assert abs(nearest(rest)) < 2.0**-158
-
-
-@given(doubles.filter(bool), st.integers(-300, 300))
-def test_a_power_of_two_moves_the_magnitude(x: float, exponent: int) -> None:
-    """The magnitude is that of frexp, and a power of two is added to it."""
-    assert magnitude(scaled(middle(rational(x)), exponent)) == math.frexp(x)[1] + exponent

@@ -19,7 +19,7 @@ import atlas
 from atlas import AtlasError
 from atlas.draw import gl, save, to_figure
 from atlas.draw.files import _short, choose
-from atlas.draw.labels import NOBODY, Tag, along, place
+from atlas.draw.labels import NOBODY, Tag, place
 from atlas.draw.space import silhouette
 from atlas.draw.view import fit
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
@@ -246,22 +246,6 @@ def test_a_piece_of_a_line_too_short_to_see_is_no_dot() -> None:
         axes = to_figure(replace(ball_scene(), panels=(Space(layers),))).axes[0]
         found.append([len(lines.get_segments()) for lines in axes.collections])
     assert found[0] == found[1]
-
-
-@pytest.mark.parametrize(
-    ("length", "count"), [(0.0, 2), (1.0, 2), (2.0, 2), (2.1, 3), (100.0, 51), (7998.0, 4000), (1e6, 4000)]
-)
-def test_ink_lies_along_a_line(length: float, count: int) -> None:
-    """From end to end in equal steps of at most two points, of which there are no more than 4000."""
-    bent = np.array([[0.0, 0.0], [0.6 * length, 0.0], [np.nan, 0.0], [0.6 * length, 0.4 * length]])
-    found = along(bent)
-    assert len(found) == count
-    ahead = np.append(0.0, np.cumsum(np.abs(np.diff(found, axis=0)).sum(axis=1)))
-    assert np.abs(found[[0, -1]] - bent[[0, -1]]).max() == 0.0
-    if count > 3:
-        assert np.abs(np.diff(ahead) - length / (count - 1)).max() <= 1e-9 * length
-    assert along(bent[2:3]).shape == (0, 2)
-    assert along(bent[:1]).tolist() == [[0.0, 0.0]]
 
 
 def test_a_name_moves_away_from_ink() -> None:

@@ -19,7 +19,7 @@ from atlas.draw import context, gl, save, to_figure
 from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.scene import Curve, Image, Plane, Scene, recipes
-from atlas.scene.style import LINES, STYLES, Style, contrast, readable
+from atlas.scene.style import LINES, STYLES, Style, readable
 
 
 def lines(count: int = 1) -> Scene:
@@ -249,14 +249,6 @@ def test_lines_that_are_components_keep_apart_in_grey() -> None:
     light = [lab(((np.array(mpl.colors.to_rgb(look.colour)) + 0.055) / 1.055) ** 2.4)[0] for look in looks]
     for (a, one), (b, other) in combinations(zip(light, looks, strict=True), 2):
         assert abs(a - b) > 15.0 or one.dash != other.dash
-
-
-def test_the_contrast_of_greys_falls_from_black_to_white() -> None:
-    """From 21 to 1, without a step up or a jump, by WCAG 2."""
-    greys = np.array([contrast("#" + 3 * f"{i:02x}") for i in range(256)])
-    assert greys[[0, -1]] == pytest.approx([21.0, 1.0], rel=1e-12, abs=0.0)
-    assert (np.diff(greys) < 0.0).all()
-    assert np.diff(greys).min() > -0.2
 
 
 def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:

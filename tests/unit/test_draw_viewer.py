@@ -12,8 +12,7 @@ import pytest
 from drawing import distance
 
 from atlas.draw import labels, moves
-from atlas.draw.panels import laid_out, places
-from atlas.draw.style import context, style_of
+from atlas.draw.style import style_of
 from atlas.draw.view import fit
 from atlas.draw.viewer import GRID, STEPS, data, script
 from atlas.places import folder
@@ -94,15 +93,6 @@ def test_lines_and_marks_are_all_there() -> None:
         assert len(given["dots"]) == sum(len(np.atleast_2d(one.points)) for one in marks)
 
 
-def test_letters_are_outlines_about_their_middle() -> None:
-    """Each text has its size in points and an outline that fits into it, of moves, lines and curves only."""
-    for wide, high, outline in handed("cone")["texts"]:
-        assert re.fullmatch(r"([mlqcz][-\d ]*)+", outline)
-        x, y = map(int, re.findall(r"-?\d+", outline)[:2])
-        assert abs(x) <= GRID * wide
-        assert abs(y) <= GRID * high
-
-
 def test_a_note_is_written_smaller_than_a_name() -> None:
     """As on paper: in nine points for ten."""
     roles = ("note", "label")
@@ -127,15 +117,6 @@ def test_panels_know_their_places_on_both_screens() -> None:
         for _, _, width, height, *window in found["wide"]["places"]:
             assert window[:2] == pytest.approx([width, height] * size, rel=1e-3)
         assert found["wide"]["places"] != found["narrow"]["places"]
-
-
-@pytest.mark.parametrize("name", ["cone", "two_turns", "film_strip", "rosettes"])
-def test_panels_have_the_places_of_their_axes(name: str) -> None:
-    """Places that are found without axes are those that the axes of the still picture have, to the bit."""
-    scene = recipes.load(name).scene()
-    with context():
-        axes = [one.get_position().extents for one, _ in laid_out(scene)[1]]
-        assert np.array_equal([box.extents for box in places(scene)], axes)
 
 
 PROGRAM = """

@@ -23,7 +23,7 @@ from atlas.cli.app import atlas as command_line
 from atlas.core.motions import asymmetric
 from atlas.families import FAMILIES
 from atlas.families.sliders import letters
-from atlas.live import answers, subjects
+from atlas.live import answers
 from atlas.live.server import HEADERS, PAGES, Explorer, Handler
 from atlas.live.subjects import OfFamily, OfRecipe, everything, subject
 from atlas.places import folder
@@ -188,16 +188,6 @@ def test_what_turns_fills_the_picture(server: Explorer, name: str, places: list[
     assert [place[:4] for place in found["scene"]["wide"]["places"]] == places
     assert width == scene.size[0]
     assert width * places[0][2] / (height * places[0][3]) == pytest.approx(cell[0] / cell[1])
-
-
-def test_a_motion_is_made_once(server: Explorer) -> None:
-    """Picture and numbers share it, and so does the next moment while it plays; another motion is made anew."""
-    before = subjects._instance.cache_info().misses
-    for t in (0.0, 0.1, 0.2):
-        own(server, "state", subject="general", ratio=1.25, t=t)
-    assert subjects._instance.cache_info().misses == before + 1
-    ratios = [own(server, "state", subject="general", ratio=ratio)["numbers"][0] for ratio in (1.25, 0.75)]
-    assert ratios[0] != ratios[1]
 
 
 def test_figures_are_saved(server: Explorer) -> None:

@@ -195,13 +195,6 @@ def test_branches_reach_the_edges_of_the_window_and_stop_there() -> None:
                 assert ((end <= low) | (end >= high)).any()
 
 
-def test_branches_are_sampled_by_their_bends() -> None:
-    """Neither branch is starved, and a quarter pixel takes no more than some hundred points."""
-    pieces = branches(1.5, (1.0, 2.0), window((1.0, 2.0)), (72.0, 72.0))
-    assert len(pieces) == 2
-    assert all(20 < len(piece) < 400 for piece in pieces)
-
-
 @pytest.mark.parametrize("ratio", [2.0, 1.5, 0.5])
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 0.1), (1.0, -0.3)])
 def test_the_dashed_line_is_the_asymptote(ratio: float, field: tuple[float, float]) -> None:

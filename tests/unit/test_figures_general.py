@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 from drawing import layers
-from numpy.typing import NDArray
 from oracles.top import taylor
 from stress.nutating import narrow
 
@@ -17,8 +16,6 @@ from atlas.core.maps.bifurcation import momentum_map, potential
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
 from atlas.scene.any_motion import precessing
-
-FloatArray = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
 LONG: tuple[Any, ...] = (0.5, (1.0, 0.1), -0.5)

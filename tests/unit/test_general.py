@@ -134,19 +134,6 @@ def test_a_fine_grid_is_interpolated_to_the_last_digits(
     assert worst(R, Balls(*inputs), [Fraction(start) + i * Fraction(step) for i in places]) <= 8
 
 
-def test_windows_that_are_too_long_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where polynomials do not hold, the grid is that evaluated time by time; without that test it is lost."""
-    motion, step = GeneralMotion(*ORDINARY[0]), 0.05
-    grid = general_grid.Grid(motion._single(), 0.0, step)
-    found, lost = np.empty((2, 4096, 3, 3))
-    general_grid.fill_windows(grid, 512, found)
-    assert general_grid.window(grid, 4096) == 0
-    assert np.array_equal(found[:1000], motion.rotation_grid(0.0, step, 1000))
-    monkeypatch.setattr(general_grid, "SMOOTH", np.inf)
-    general_grid.fill_windows(grid, 512, lost)
-    assert np.abs(lost - found).max() > 0.1
-
-
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
 def test_rotation_is_the_identity_at_zero(inputs: Any) -> None:
     """R(0) = 1, Omega(0) = omega and K(0) = (0, B2, B3), to 4 ulp of 1 and 8 ulp of the largest rate."""

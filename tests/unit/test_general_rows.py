@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import arb, ctx
 from stress.arrays import GENERAL_REGIME, check_general_rows, state
 from stress.nutating import narrow
 from stress.regimes import GENERAL
@@ -106,22 +105,6 @@ def test_matrices_of_many_motions_are_true_to_the_promise(draw: Any) -> None:
         assert max(absolute(R[i].flat, chain(*true[0]))) <= 6
         for values, balls in ((Omega[i], true[1]), (K[i], true[2])):
             assert max(error(x, y, size * ONE) for x, y in zip(values, balls, strict=True)) <= 12
-
-
-@pytest.mark.parametrize("draw", [partial(ordinary, 60, 2), partial(planar, 60, 7), partial(extreme, 2)])
-def test_each_frequency_keeps_its_bound(draw: Any) -> None:
-    """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
-    inputs = draw()
-    found = GeneralMotion(*inputs)
-    constants = GeneralRows(found._blocks).field
-    assert constants.is_certain.mean() > 0.3
-    for i in np.flatnonzero(constants.is_certain).tolist():
-        with ctx.workprec(400):
-            solution = Balls(*one(inputs, i)).trigonometric()
-            true = [solution.alpha.rate / arb.pi(), solution.beta.rate / arb.pi(), 1 / solution.period]
-            for j, frequency in enumerate(true):
-                high, low = constants.words[:, j, i].tolist()
-                assert abs(arb(high) + arb(low) - frequency) <= constants.lack[j, i] * (1 + 1e-6)
 
 
 def test_a_kind_next_to_a_border_is_decided_exactly() -> None:

@@ -16,7 +16,7 @@ from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.motions.elementary import ElementaryMotion as Balls
 from atlas.report.blocks.table import Cell, ColumnView, TableView
-from atlas.report.latex import _format, _numbers, _with_unit, table_of
+from atlas.report.latex import _numbers, _with_unit, table_of
 
 REPORT = r"""
 name = "small"
@@ -120,20 +120,6 @@ def test_a_figure_is_made_for_its_place(made: Path, name: str, kind: str, width:
     assert f"\\includegraphics{{figures/{name}.pdf}}" in text
     (page,) = PdfReader(made / "figures" / f"{name}.pdf").pages
     assert float(page.mediabox.width) * 25.4 / 72.0 == pytest.approx(width, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ("cells", "expected"),
-    [
-        ([("1", ".25", ""), ("\N{MINUS SIGN}12", ".5", "")], "S[table-format=-2.2]"),
-        ([("1", "", "")], "S[table-format=1.0]"),
-        ([("1", ".5", "\N{MINUS SIGN}15"), ("9", ".125", "")], "S[table-format=1.3e-2]"),
-        ([("", "", "")], "l"),
-    ],
-)
-def test_a_column_has_room_for_its_numbers(cells: list[tuple[str, str, str]], expected: str) -> None:
-    """The widest part before and behind the point, a sign, and the digits of an exponent."""
-    assert _format([Cell(None, *cell) for cell in cells], ()) == expected
 
 
 @pytest.mark.parametrize(

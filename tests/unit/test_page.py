@@ -36,7 +36,6 @@ from atlas.report.tables.table import Request
 from atlas.scene.recipes import load
 
 MOTION = "--ratio 1.3 --field 1 2 --omega2 0.7"
-NAME = "motion-ratio-1.3-field-1-2-omega2-0.7"
 BALL = "ball --larmor 0.5 --momentum 0.3 -0.7"
 
 

@@ -14,9 +14,9 @@ import pytest
 from fontTools.ttLib import TTFont
 
 from atlas.errors import AtlasError
-from atlas.report.blocks.table import POWER, Cell, ColumnView, TableView
+from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.body_and_field import Body, Field, body_and_field
-from atlas.report.digits import MINUS, THIN, Number, room
+from atlas.report.digits import MINUS, THIN, Number
 from atlas.report.fonts import ALWAYS, FACES, ITALIC, source
 from atlas.report.load import load
 from atlas.report.tables import TABLES, compute
@@ -296,20 +296,6 @@ def test_a_table_of_more_than_a_dozen_rows_may_be_broken_over_pages() -> None:
     for count in (12, 13):
         table = TableView(1, "tab-x", (column, column), ((Cell(0), Cell(0)),) * count, 0, 0, None)
         assert table.tall == table.tight == (count > 12)
-
-
-def test_the_room_of_a_number_is_its_width_in_the_font() -> None:
-    """In widths of a digit, within a twentieth for each sign; a power of ten with a minus and three digits has room."""
-    font = TTFont(source(FACES["roman"]))
-    names, widths = font.getBestCmap(), font["hmtx"]
-    digit = widths[names[ord("0")]][0]
-    wide = {sign: widths[names[ord(sign)]][0] / digit for sign in f"0123456789.{MINUS}×"}
-    wide[THIN] = 0.25 * font["head"].unitsPerEm / digit  # the font has no such space, and a browser takes a quarter
-    for sign in f"0123456789.{MINUS}{THIN}":
-        assert abs(room(sign) - wide[sign]) <= 0.05, sign
-    assert room(f"{MINUS}12.345{THIN}6") == pytest.approx(sum(map(room, f"{MINUS}12.345{THIN}6")))
-    least, most = (wide["×"] + 2.0 + 0.72 * (wide[MINUS] + digits) for digits in (2, 4))
-    assert least <= POWER <= most
 
 
 def test_tops_of_a_table_have_the_period_of_a_quadrature() -> None:

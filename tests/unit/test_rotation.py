@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 
-import atlas.core.arithmetic.rotation
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError
 
@@ -172,19 +171,3 @@ def test_working_memory_does_not_grow_with_the_times() -> None:
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         assert peak < 4e6
-
-
-def test_one_axis_costs_one_phase(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The third axis, Omega and m are evaluated from one phase, not two."""
-    evaluated = []
-    original = atlas.core.arithmetic.rotation.evaluate
-    monkeypatch.setattr(
-        "atlas.core.arithmetic.rotation.evaluate",
-        lambda phases, *rest: evaluated.append(phases.words.shape[1]) or original(phases, *rest),
-    )
-    motion = ElementaryMotion(*MOTION)
-    motion.third_axis(1.0)
-    motion.angular_velocity(1.0)
-    motion.angular_momentum(1.0)
-    motion.rotation(1.0)
-    assert evaluated == [1, 1, 1, 2]

@@ -62,17 +62,6 @@ def faces(surface: Surface) -> int:
     return int((rows - 1) * (columns - 1))
 
 
-def test_a_larger_surface_has_more_faces() -> None:
-    """A hundred times larger on paper, a sphere takes about ten times the cuts in each direction."""
-    large, larger = faces(solids.sphere(O, 1.0, 1e-4)), faces(solids.sphere(O, 1.0, 1e-6))
-    assert 60 < larger / large < 140
-
-
-def test_a_small_surface_is_cut_for_its_light() -> None:
-    """Where size no longer asks for cuts, the turning of the normal still does."""
-    assert faces(solids.sphere(O, 1.0, 10.0)) == faces(solids.sphere(O, 1.0, 1000.0)) > 1000
-
-
 @pytest.mark.parametrize(
     ("surface", "rows"),
     [

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas.errors import DomainError
-from atlas.scene.sample import curve, flat, knots, quarter_pixel
+from atlas.scene.sample import curve, flat
 
 FloatArray = NDArray[np.float64]
 
@@ -24,12 +24,6 @@ def test_no_chord_leaves_the_curve_by_more_than_the_tolerance(tolerance: float) 
     along = np.einsum("nik,ik->ni", dense[:, None] - a, b - a) / np.einsum("ik,ik->i", b - a, b - a)
     foot = a + np.clip(along, 0.0, 1.0)[..., None] * (b - a)
     assert np.linalg.norm(dense[:, None] - foot, axis=2).min(axis=1).max() < 1.1 * tolerance
-
-
-def test_a_finer_tolerance_costs_points_as_its_root() -> None:
-    """The sag of a chord is quadratic in its length: a hundredth of the tolerance takes about ten times the points."""
-    coarse, fine = (len(curve(spiral, 0.0, 4.0, tolerance)) for tolerance in (1e-2, 1e-4))
-    assert 5.0 < fine / coarse < 20.0
 
 
 def test_a_straight_line_is_left_as_it_is() -> None:
@@ -52,19 +46,6 @@ def test_what_lies_outside_the_box_is_not_refined() -> None:
     assert all((np.abs(part - point).max(axis=1) == 0.0).any() for point in whole[inside])
 
 
-@pytest.mark.parametrize("pieces", [1, 3, 8])
-def test_where_a_curve_lies_changes_nothing(pieces: int) -> None:
-    """Moved by a hundred in each direction it has its points at the same parameters."""
-    here = knots(spiral, 0.0, 4.0, 1e-3, pieces)
-    for step in (-100.0, 100.0):
-        assert np.array_equal(knots(lambda s, step=step: spiral(s) + step, 0.0, 4.0, 1e-3, pieces), here)
-
-
-def test_quarter_pixel_of_an_inch() -> None:
-    """An inch at 300 dots has 1200 quarters of a pixel."""
-    assert quarter_pixel(1.0, 25.4) == pytest.approx(1.0 / 1200.0, rel=1e-15, abs=0.0)
-
-
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3])
 def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
     """An S crosses its chord in the middle; its two bellies are found all the same."""
@@ -72,11 +53,6 @@ def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
     s = np.linspace(-1.0, 1.0, 4001)
     drawn = np.interp(s, *points.T)
     assert np.abs(drawn - s * (s * s - 1.0)).max() < 1.6 * tolerance  # upright, where it is steeper than 45 degrees
-
-
-def test_knots_are_where_the_points_are() -> None:
-    """The parameters and the points belong together."""
-    assert (spiral(knots(spiral, 0.0, 4.0, 1e-3)) == curve(spiral, 0.0, 4.0, 1e-3)).all()
 
 
 def test_distances_are_measured_on_paper() -> None:

@@ -14,7 +14,6 @@ from atlas.core.motions import euler_poisson as equations
 from atlas.errors import AtlasError
 from atlas.study.simulate import METHODS, Simulation
 
-EPS = float(np.finfo(float).eps)
 TENSOR = np.array([[2.0, 0.3, -0.1], [0.3, 1.5, 0.2], [-0.1, 0.2, 1.7]])
 B, OMEGA, TIMES = (0.3, 1.0, -2.0), (0.4, 0.5, -0.6), (0.0, 0.5, 3.0)
 

@@ -2,18 +2,17 @@
 
 import json
 from functools import cache
-from itertools import combinations
 from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from flint import arb, ctx, fmpq
+from flint import arb
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.errors import AtlasError, DomainError, NotCertifiedError
+from atlas.errors import AtlasError, DomainError
 from atlas.exact.motions import torus
 from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.torus import Torus
@@ -59,41 +58,6 @@ def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> No
     assert gone == [(90, False), (140, False), (200, True)] * 2
     for x, y in zip(periods, true, strict=True):
         assert all(p.overlaps(q) and p.rad() < q.rad() for p, q in ((x.H, y.H), (x.F, y.F), (x.angle, y.angle)))
-
-
-def test_a_rough_start_is_refused_before_it_is_improved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A start that is off by 1e-19 is no start."""
-    monkeypatch.setattr(torus, "GOOD", 96)
-    monkeypatch.setattr(torus, "FIRST", 90)
-    found = made()
-    first, second = found._approximate()
-    for error, refused in ((1e-19, True), (1e-21, False)):
-        found._starts = [(first[0] + torus.fmpq(*error.as_integer_ratio()), first[1]), second]
-        if refused:
-            with pytest.raises(NotCertifiedError, match="does not find a period"):
-                found.periods(128)
-        else:
-            assert all(x.H.overlaps(y.H) for x, y in zip(found.periods(128), kept().periods(128), strict=True))
-
-
-def test_components_that_do_not_tell_states_apart_prove_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The two that tell best are those whose rates along both flows make the largest parallelogram."""
-    with ctx.workprec(100):
-        assert kept()._coordinates() == (1, 5)
-        monkeypatch.setattr(Torus, "_told_apart", lambda *_: False)
-        with pytest.raises(NotCertifiedError, match="could not be proved"):
-            made().periods(128)
-
-
-def test_where_both_flows_are_one_no_components_tell_states_apart() -> None:
-    """Elliptic motions: gradients of H, F and both Casimirs depend on one another, and no two components will do."""
-    I, K = (fmpq(2), fmpq(3), fmpq(1)), (fmpq(1), fmpq(-2), fmpq(1, 2))
-    W = tuple(-fmpq(2, -4 * int(i.p) + 6) * k for i, k in zip(I, K, strict=True))
-    curve, pairs = Torus(I, W, K), list(combinations(range(6), 2))
-    with ctx.workprec(100):
-        assert not any(curve._told_apart([arb(x) for x in (*W, *K)], pair) for pair in pairs)
-        regular = [arb(x) for x in (*kept().W, *kept().K)]
-        assert all(kept()._told_apart(regular, pair) for pair in ((1, 5), (0, 4)))
 
 
 BODY, FIELD, OMEGA = (0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)
