@@ -71,11 +71,11 @@ def decide(
             return Outcome("refuted", "indices", reason.example)
         here = replace(model, letters=letters, where=where)
         trees = parse(f"{line}; {solves}" if solves else line)
-        found = _counterexample(
+        example = _counterexample(
             relations, here, tuple(name for tree in trees for name in letters_of(tree)), shrink=shrink
         )
-        if found:
-            return Outcome("refuted", "exact counterexample", found)
+        if example:
+            return Outcome("refuted", "exact counterexample", example)
         idle = (
             _unknown(trees, model, defines)
             or next((why for tree in trees if (why := _empty(tree, here))), "")
@@ -171,10 +171,10 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
     strange = {name for tree in trees for name in letters_of(tree)} - known
     if strange:
         return f"unreadable: {', '.join(sorted(strange))} means nothing here"
-    calls = [part for tree in trees for part in ast.walk(tree) if isinstance(part, ast.Call)]
+    calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)]
     pairs = [call.args for call in calls if _name(call) in {"br", "cross"}]  # zero, whatever stands in them
     every: list[Sequence[ast.AST]] = [trees, *([tree.left, *tree.comparators] for tree in trees), *pairs]
-    if any(len(set(map(ast.dump, one))) < len(one) for one in every):
+    if any(len(set(map(ast.dump, indices))) < len(indices) for indices in every):
         return "it says the same twice, or of something that it is itself"
     return ""
 
@@ -190,9 +190,9 @@ def _empty(tree: ast.Compare, model: Model) -> str:
         rate = ast.Compare(ast.Call(ast.Name("d"), tree.left.args, []), [ast.Eq()], [ast.Constant(0)])
         if all(_prove(relation, model) for relation in Reader(model.letters, model.ranges).relations(write([rate]))):
             return f"{ast.unparse(tree.left)} is the rate of what is zero itself"
-    calls = [part for part in ast.walk(tree) if isinstance(part, ast.Call) and _name(part) in {"br", "partial"}]
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _name(node) in {"br", "partial"}]
     for call in calls:
-        if any(isinstance(part, ast.Subscript) and isinstance(part.slice, ast.Constant) for part in ast.walk(call)):
+        if any(isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant) for node in ast.walk(call)):
             return f"{ast.unparse(call)} is said of one index only"
         first = getattr(call.args[0], "value", call.args[0])
         value = model.letters.get(getattr(first, "id", ""))
@@ -228,13 +228,13 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
 
 def reached(values: Iterable[Value], model: Model) -> set[Value]:
     """Return the symbols on which values depend, also through `where` and through the rates of what moves."""
-    found: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
+    symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     rules = [*model.where, *model.flow.items()]
     while True:
-        more = found | {s for symbol, value in rules if symbol in found for s in sympy.sympify(value).free_symbols}
-        if more == found:
-            return found
-        found = more
+        more = symbols | {s for symbol, value in rules if symbol in symbols for s in sympy.sympify(value).free_symbols}
+        if more == symbols:
+            return symbols
+        symbols = more
 
 
 def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
@@ -243,24 +243,24 @@ def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) 
     values += [
         model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
     ]
-    found: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
+    symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     while True:
-        more = found | {
-            s for symbol, value in model.where if symbol in found for s in sympy.sympify(value).free_symbols
+        more = symbols | {
+            s for symbol, value in model.where if symbol in symbols for s in sympy.sympify(value).free_symbols
         }
-        if more == found:
+        if more == symbols:
             break
-        found = more
-    return sorted(found - {symbol for symbol, _ in model.where}, key=str)
+        symbols = more
+    return sorted(symbols - {symbol for symbol, _ in model.where}, key=str)
 
 
 def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
     """Add what the symbols of `where` are at a point; each may use any other that doesn't depend on it."""
     point = dict(values)
     for symbol, value in ordered(model.where):
-        found = sympy.sympify(value).xreplace(point)
-        if not found.free_symbols:
-            point[symbol] = found
+        value_there = sympy.sympify(value).xreplace(point)
+        if not value_there.free_symbols:
+            point[symbol] = value_there
     return point
 
 
@@ -345,23 +345,23 @@ def _describe(
     relation: Relation, entry: int, model: Model, names: tuple[str, ...], values: dict[Value, Value]
 ) -> dict[str, str]:
     """Return the letters of a relation and its two sides at a point; of a family, those that aren't 0."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for name in dict.fromkeys((*relation.letters, *names)):
         value = model.letters.get(name, sympy.Symbol(name, real=True))
         if isinstance(value, dict):
             plain = any(isinstance(key, int) for key in value)
             family = {key: _show(v, values) for key, v in value.items() if isinstance(key, int) or not plain}
-            kept = {key: shown for key, shown in family.items() if shown.strip("[]0, ")}
-            found |= {f"{name}[{str(key).strip('()').replace(' ', '')}]": shown for key, shown in kept.items()}
-            if len(kept) < len(family):
-                found[f"any other {name}"] = "0"
+            not_zero = {key: shown for key, shown in family.items() if shown.strip("[]0, ")}
+            texts |= {f"{name}[{str(key).strip('()').replace(' ', '')}]": shown for key, shown in not_zero.items()}
+            if len(not_zero) < len(family):
+                texts[f"any other {name}"] = "0"
         elif isinstance(value, sympy.MatrixBase | sympy.Expr) and value.free_symbols <= set(values):
-            found[name] = _show(value, values)
-    own = set(model.letters) - set(COMMON) - set(found)
-    found |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in own}
+            texts[name] = _show(value, values)
+    own = set(model.letters) - set(COMMON) - set(texts)
+    texts |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in own}
     sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.left, relation.right)]
-    at = f" (component {entry + 1})" if len(relation.left) > 1 else ""
-    return {**found, "relation": relation.text + at, "left": sides[0], "right": sides[1]}
+    component = f" (component {entry + 1})" if len(relation.left) > 1 else ""
+    return {**texts, "relation": relation.text + component, "left": sides[0], "right": sides[1]}
 
 
 def _text(value: Value) -> str:

@@ -250,7 +250,7 @@ def free_proper_model() -> Model:
 
 def _rows(line: str) -> str:
     """Return what the constants c, b, k0 of three rows say of them: row(c, b, k0) is the row at t = 0."""
-    letters, values = zip(*((sides(part)[0], sides(part)[1:]) for part in line.split("; ")), strict=True)
+    letters, values = zip(*((sides(row)[0], sides(row)[1:]) for row in line.split("; ")), strict=True)
     if letters != ("c", "amp", "k0") * 3:
         raise UnreadableError("three rows of the constants c, b, k0 are not what stands here")
     first = [value[0] for value in values]

@@ -27,10 +27,10 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
     one, or has one or two free indices. AtlasError if the equation has no such side or lacks a value.
     """
     case = trial(equation(name).name)
-    known = {**COMMON, **{name: _exact(given) for name, given in letters.items()}}
+    known = {**COMMON, **{name: _exact(number) for name, number in letters.items()}}
     wanted = ast.dump(parse(f"{side} = 0")[0].left)
     lacking: list[str] = []
-    for tree in [tree for part in (*case.corrected_parts, *case.parts) for tree in parse(part.line)]:
+    for tree in [tree for piece in (*case.corrected_parts, *case.parts) for tree in parse(piece.line)]:
         sides = [tree.left, *tree.comparators]
         if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or wanted not in map(ast.dump, sides):
             continue
@@ -49,18 +49,20 @@ def _components(reader: Reader, side: ast.expr) -> Any:
     free = sorted(reader.free(side))
     if not free:
         return reader.value(side, {})
-    entries = [reader.value(side, dict(zip(free, at, strict=True))) for at in product((1, 2, 3), repeat=len(free))]
+    entries = [
+        reader.value(side, dict(zip(free, places, strict=True))) for places in product((1, 2, 3), repeat=len(free))
+    ]
     return sympy.Matrix(3, 3 ** (len(free) - 1), entries)
 
 
 def _functions(side: ast.expr) -> set[str]:
     """Return the names of the functions in a formula."""
-    return {part.func.id for part in ast.walk(side) if isinstance(part, ast.Call) and isinstance(part.func, ast.Name)}
+    return {node.func.id for node in ast.walk(side) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
 
 
-def _exact(given: Any) -> Any:
-    if isinstance(given, sympy.Basic | sympy.MatrixBase) or callable(given):
-        return given
-    if hasattr(given, "__len__"):
-        return sympy.Matrix([[_exact(x) for x in row] if hasattr(row, "__len__") else [_exact(row)] for row in given])
-    return sympy.Rational(given)
+def _exact(number: Any) -> Any:
+    if isinstance(number, sympy.Basic | sympy.MatrixBase) or callable(number):
+        return number
+    if hasattr(number, "__len__"):
+        return sympy.Matrix([[_exact(x) for x in row] if hasattr(row, "__len__") else [_exact(row)] for row in number])
+    return sympy.Rational(number)

@@ -123,9 +123,9 @@ def sigma_model() -> Model:
             return sign * value
         return sympy.Symbol("zeta_t", real=True) + sign * value + (P1 - sign * rate) / (P - height) / 2
 
-    def sigma(at: Value) -> Value:
+    def sigma(place: Value) -> Value:
         """Return sigma of t and a place: a letter whose logarithmic rate is zeta."""
-        return factors.setdefault(at, sympy.Symbol(f"sigma{len(factors)}", positive=True))
+        return factors.setdefault(place, sympy.Symbol(f"sigma{len(factors)}", positive=True))
 
     x = e + slope / 4 / (P - bend / 24)
     a = [sympy.Poly(q["q"](nu), nu).coeff_monomial(nu**n) / sympy.binomial(4, n) for n in (4, 3, 2, 1, 0)]

@@ -61,9 +61,9 @@ def proportional_model() -> Model:
     start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
     line = (sympy.Symbol("along1", real=True), sympy.Symbol("along2", real=True))
     where = [
-        (part, size * way)
+        (factor, size * way)
         for parts, size in (((Omega1, Omega2), s), ((K1, K2), kappa))
-        for part, way in zip(parts, line, strict=True)
+        for factor, way in zip(parts, line, strict=True)
     ]
     return Model(_STATE, where, flow, start)
 

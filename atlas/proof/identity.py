@@ -29,10 +29,10 @@ def ordered(where: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
 
 def resolved(where: list[tuple[Value, Value]]) -> dict[Value, Value]:
     """Return what each symbol of `where` is in free parameters alone."""
-    found: dict[Value, Value] = {}
+    values: dict[Value, Value] = {}
     for symbol, value in ordered(where):
-        found[symbol] = sympy.cancel(sympy.sympify(value).xreplace(found))
-    return found
+        values[symbol] = sympy.cancel(sympy.sympify(value).xreplace(values))
+    return values
 
 
 def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool:

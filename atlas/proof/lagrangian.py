@@ -79,12 +79,12 @@ def free_action() -> Value:
 def forces(*, equal: bool = True) -> dict[int, Value]:
     """Return m times acceleration of each particle: the variation of the action, d/dt dL/dv = dL/dy."""
     L = sympy.expand(free_action() + potential_energy(equal=equal))
-    found = {}
+    sums = {}
     for N in ALL:
         momentum = sympy.Matrix([L.diff(v) for v in dy[N]])
         drift = sum((momentum.jacobian(y[M]) * dy[M] for M in ALL), sympy.zeros(3, 1))
-        found[N] = (sympy.Matrix([L.diff(x) for x in y[N]]) - drift).applyfunc(sympy.expand)
-    return found
+        sums[N] = (sympy.Matrix([L.diff(x) for x in y[N]]) - drift).applyfunc(sympy.expand)
+    return sums
 
 
 @cache
@@ -105,11 +105,11 @@ def potential_model() -> Model:
 @cache
 def particles_model() -> Model:
     """Model the particles with accelerations from the action."""
-    found = forces()
-    ddy = {N: found[N] / m[N] for N in ALL}
+    forces_on_particles = forces()
+    ddy = {N: forces_on_particles[N] / m[N] for N in ALL}
     mass = sum(m.values())
     centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
-    centre["ddy0"] = sum(found.values(), sympy.zeros(3, 1)) / mass
+    centre["ddy0"] = sum(forces_on_particles.values(), sympy.zeros(3, 1)) / mass
     return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES)
 
 
@@ -124,14 +124,14 @@ def relative_model(*, equal: bool = True) -> Model:
     y0, v0 = vector("y0_"), vector("v0_")
     x, dx = _about(y), _about(dy)
     swap = {old: new for N in ALL for old, new in zip([*y[N], *dy[N]], [*(y0 + x[N]), *(v0 + dx[N])], strict=True)}
-    found = {N: force.xreplace(swap) for N, force in forces(equal=equal).items()}
-    whole = sum(found.values(), sympy.zeros(3, 1))
+    relative_forces = {N: force.xreplace(swap) for N, force in forces(equal=equal).items()}
+    whole = sum(relative_forces.values(), sympy.zeros(3, 1))
     a0 = mu * E + mu / c * cross(v0, Bf) if equal else whole / mass
     # what keeps the sum of m_N x_N zero in (5): the sum of its equations, in which the other multipliers cancel
     push = mu * mass * E + mu / c * cross(sum((m[N] * dx[N] for N in ALL), sympy.zeros(3, 1)), Bf)
-    letters = {"ddx": _components({N: found[N] / m[N] - a0 for N in ALL}), "x": _components(x), "dx": dx}
+    letters = {"ddx": _components({N: relative_forces[N] / m[N] - a0 for N in ALL}), "x": _components(x), "dx": dx}
     letters |= {"y0": y0, "dy0": v0, "ddy0": whole / mass}
-    letters["lami"] = {i + 1: sympy.cancel(one / mass) for i, one in enumerate(whole - mass * a0 - push)}
+    letters["lami"] = {i + 1: sympy.cancel(component / mass) for i, component in enumerate(whole - mass * a0 - push)}
     return Model({**COMMON, **letters}, ranges=RANGES)
 
 

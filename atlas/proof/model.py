@@ -10,13 +10,13 @@ Value = Any
 
 
 class _LeviCivita:
-    def __getitem__(self, at: tuple[int, int, int]) -> Value:
-        return sympy.LeviCivita(*at)
+    def __getitem__(self, indices: tuple[int, int, int]) -> Value:
+        return sympy.LeviCivita(*indices)
 
 
 class _Kronecker:
-    def __getitem__(self, at: tuple[int, int]) -> Value:
-        return sympy.Integer(at[0] == at[1])
+    def __getitem__(self, indices: tuple[int, int]) -> Value:
+        return sympy.Integer(indices[0] == indices[1])
 
 
 def certain(fact: Any) -> None:
@@ -130,7 +130,7 @@ def functions(name: str, value: Value, variable: Value) -> dict[str, Callable[[V
     """Return a function of one variable and its first three derivatives, q, dq, ddq and dddq, as letters."""
 
     def derivative(order: int) -> Callable[[Value], Value]:
-        return lambda at: sympy.diff(value, variable, order).xreplace({variable: at})
+        return lambda argument: sympy.diff(value, variable, order).xreplace({variable: argument})
 
     return {"d" * order + name: derivative(order) for order in range(4)}
 

@@ -65,8 +65,8 @@ def equations(line: str) -> list[ast.Compare]:
 
 def write(trees: list[ast.Compare]) -> str:
     """Return the line of these syntax trees, the inverse of parse."""
-    found = "; ".join(ast.unparse(tree) for tree in trees)
-    return re.sub(r" ([*/^]) ", r"\1", found.replace("==", "=").replace("**", "^"))
+    text = "; ".join(ast.unparse(tree) for tree in trees)
+    return re.sub(r" ([*/^]) ", r"\1", text.replace("==", "=").replace("**", "^"))
 
 
 def sides(line: str) -> list[str]:
@@ -77,21 +77,21 @@ def sides(line: str) -> list[str]:
 
 def conserved(line: str) -> str:
     """Return what a = c = b says of a conserved quantity: a = c, its rate is zero, and at t = 0 it is b."""
-    found: list[str] = []
+    lines: list[str] = []
     for tree in equations(line):
         sides = [ast.unparse(side) for side in (tree.left, *tree.comparators)]
-        found += [f"{sides[0]} == {side}" for side in sides[1:-1]]
-        found += [f"d({sides[0]}) == 0", f"at0({sides[-2]}) == {sides[-1]}"]
-    return write([compare for part in found for compare in parse(part)])
+        lines += [f"{sides[0]} == {side}" for side in sides[1:-1]]
+        lines += [f"d({sides[0]}) == 0", f"at0({sides[-2]}) == {sides[-1]}"]
+    return write([compare for part in lines for compare in parse(part)])
 
 
 def names(node: ast.AST) -> set[str]:
     """Return the index names that occur in the square brackets of a formula."""
-    found = set()
-    for part in ast.walk(node):
-        if isinstance(part, ast.Subscript):
-            found |= {name.id for name in ast.walk(part.slice) if isinstance(name, ast.Name)}
-    return found
+    letters = set()
+    for node_inside in ast.walk(node):
+        if isinstance(node_inside, ast.Subscript):
+            letters |= {name.id for name in ast.walk(node_inside.slice) if isinstance(name, ast.Name)}
+    return letters
 
 
 def factors(node: ast.expr) -> Iterator[tuple[ast.expr, bool]]:
@@ -119,7 +119,7 @@ class Reader:
 
     def relations(self, line: str) -> list[Relation]:
         """Return all relations of a line; a chain a = b = c gives two."""
-        found = []
+        relations = []
         for tree in parse(line):
             sides = [tree.left, *tree.comparators]
             free = sorted(self.free(tree.left) | (names(tree.left) & set(self.ranges)))
@@ -133,7 +133,7 @@ class Reader:
                 tree_here = ast.Compare(left, [operator], [right])
                 values = [(self.value(left, bound), self.value(right, bound)) for bound in self._all(free)]
                 pairs = [pair for value in values for pair in _entries(*value)]
-                found.append(
+                relations.append(
                     Relation(
                         write([tree_here]),
                         letters_of(tree_here),
@@ -142,7 +142,7 @@ class Reader:
                         tuple(b for _, b in pairs),
                     )
                 )
-        return found
+        return relations
 
     def free(self, node: ast.expr) -> set[str]:
         """Return the free indices of a formula, particles apart; NoMeaningError if terms of a sum differ."""
@@ -192,7 +192,7 @@ class Reader:
 
     def summed(self, parts: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
         """Return the indices over which a product of these factors is summed as a whole."""
-        holders = {name: [part for part, _ in parts if name in names(part)] for name in indices}
+        holders = {name: [factor for factor, _ in parts if name in names(factor)] for name in indices}
         return {name for name, held in holders.items() if len(held) > 1 or not is_sum(held[0])}
 
     def _all(self, indices: list[str]) -> Iterator[dict[str, int]]:
@@ -206,11 +206,11 @@ class Reader:
         if not parts:
             yield so_far
             return
-        (part, divides), rest = parts[0], parts[1:]
-        new = sorted(names(part) & sums)
+        (factor, divides), rest = parts[0], parts[1:]
+        new = sorted(names(factor) & sums)
         for more in self._all(new):
             here = {**bound, **more}
-            value = self._factor(part, here)
+            value = self._factor(factor, here)
             if new and value == 0 and not divides:
                 continue
             yield from self._products(rest, sums - set(new), here, so_far / value if divides else so_far * value)
@@ -252,16 +252,16 @@ class Reader:
             raise NoMeaningError(f"{ast.unparse(node)} has an index that does not count these")
         where = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
         first = isinstance(base, sympy.MatrixBase)
-        at = tuple(int(self._factor(index, bound)) - first for index in where)
-        return base[at if len(at) > 1 else at[0]]
+        entry = tuple(int(self._factor(index, bound)) - first for index in where)
+        return base[entry if len(entry) > 1 else entry[0]]
 
 
 def letters_of(tree: ast.AST) -> tuple[str, ...]:
     """Return the letters of a formula that aren't indices or functions, in order."""
-    called = {id(part.func) for part in ast.walk(tree) if isinstance(part, ast.Call)}
-    inside = {id(name) for part in ast.walk(tree) if isinstance(part, ast.Subscript) for name in ast.walk(part.slice)}
-    found = [part for part in ast.walk(tree) if isinstance(part, ast.Name) and id(part) not in called | inside]
-    return tuple(dict.fromkeys(name.id for name in sorted(found, key=lambda name: name.col_offset)))
+    called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    inside = {id(name) for node in ast.walk(tree) if isinstance(node, ast.Subscript) for name in ast.walk(node.slice)}
+    letters = [node for node in ast.walk(tree) if isinstance(node, ast.Name) and id(node) not in called | inside]
+    return tuple(dict.fromkeys(name.id for name in sorted(letters, key=lambda name: name.col_offset)))
 
 
 def is_zero(node: ast.expr) -> bool:

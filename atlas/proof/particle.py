@@ -15,12 +15,12 @@ SIGNS = {
     r"\dot{\mathbf{O}}": "drift",
     **{
         rf"{letter}_{{\{mark}}}": plain
-        for mark, part in (("bot", "perp"), ("Vert", "par"))
+        for mark, index in (("bot", "perp"), ("Vert", "par"))
         for letter, plain in (
-            (r"\mathbf{C}", f"C{part}"),
-            (r"\mathbf{E}", f"E{part}"),
-            (r"\mathbf{y}", f"y{part}"),
-            (r"\dot{\mathbf{y}}", f"dy{part}"),
+            (r"\mathbf{C}", f"C{index}"),
+            (r"\mathbf{E}", f"E{index}"),
+            (r"\mathbf{y}", f"y{index}"),
+            (r"\dot{\mathbf{y}}", f"dy{index}"),
         )
     },
     r"\ddot{\mathbf{y}}_{\Vert}": "d2(ypar)",

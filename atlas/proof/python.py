@@ -45,7 +45,7 @@ class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
         return f"Rational({expr.p}, {expr.q})"
 
     def _print_Integral(self, expr: Value) -> str:
-        return f"integrate({', '.join(self.doprint(part) for part in expr.args)})"
+        return f"integrate({', '.join(self.doprint(argument) for argument in expr.args)})"
 
     def _print_MatrixBase(self, expr: Value) -> str:
         rows = [[self.doprint(entry) for entry in row] for row in expr.tolist()]
@@ -114,12 +114,12 @@ class Line:
         for value in self.used.values():
             if isinstance(value, sympy.Symbol):
                 self.plain(value)
-        found = {}
+        assumptions = {}
         for symbol in sorted(self.symbols, key=str):
             kinds = [kind for kind in ("positive", "nonnegative", "nonzero", "real") if getattr(symbol, f"is_{kind}")]
             more = ["nonzero"] * (kinds[:1] == ["nonnegative"] and bool(symbol.is_nonzero))
-            found[self.identifier(symbol)] = "".join(f", {kind}=True" for kind in kinds[:1] + more)
-        return found
+            assumptions[self.identifier(symbol)] = "".join(f", {kind}=True" for kind in kinds[:1] + more)
+        return assumptions
 
     def is_said(self, name: str, value: Value) -> bool:
         """Whether a letter needs a row: not if it is the symbol of its name."""
@@ -135,12 +135,12 @@ class Line:
 
     def in_order(self) -> list[str]:
         """Return the letters that the line defines, each after those that its definition uses."""
-        found: list[str] = []
+        ordered: list[str] = []
         for _ in self.definitions:
             for name, tree in self.definitions.items():
-                if name not in found and not (_words(tree) & set(self.definitions)) - {name, *found}:
-                    found.append(name)
-        return found
+                if name not in ordered and not (_words(tree) & set(self.definitions)) - {name, *ordered}:
+                    ordered.append(name)
+        return ordered
 
     def loops(self, relation: Relation) -> list[tuple[str, tuple[int, ...]]]:
         """Return the free indices of a relation with their numbers; none where its components are written out."""
@@ -216,12 +216,12 @@ class Line:
             case ast.Name():
                 return self.name(node, bound)
             case ast.Subscript():
-                at = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+                indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
                 whole = getattr(node.value, "id", "")
                 if whole in {"eps", "delta"}:
-                    return ast.Call(ast.Name(_CALLED[whole]), list(at), [])
+                    return ast.Call(ast.Name(_CALLED[whole]), list(indices), [])
                 first = not isinstance(self.model.letters.get(whole), dict)
-                places = [_less(index) if first else index for index in at]
+                places = [_less(index) if first else index for index in indices]
                 return ast.Subscript(
                     self.factor(node.value, bound), places[0] if len(places) == 1 else ast.Tuple(places)
                 )
@@ -286,9 +286,9 @@ def _tree(text: str) -> ast.expr:
 
 
 def _called(tree: ast.AST) -> set[str]:
-    return {getattr(part.func, "id", "") for part in ast.walk(tree) if isinstance(part, ast.Call)}
+    return {getattr(node.func, "id", "") for node in ast.walk(tree) if isinstance(node, ast.Call)}
 
 
 def _words(node: ast.expr) -> set[str]:
     """Return the names in a formula."""
-    return {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
+    return {name.id for name in ast.walk(node) if isinstance(name, ast.Name)}

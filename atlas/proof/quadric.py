@@ -148,9 +148,9 @@ def angle_model() -> Model:
 @cache
 def range_model() -> Model:
     """Beta, which runs over the open interval from 0 to pi/2 as B3/(I B2) runs over the positive numbers."""
-    beta, part = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
+    beta, s = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
     letters = {"beta": beta, "at_end": lambda x: x.subs(beta, sympy.pi / 2)}
-    return Model(letters, [(beta, sympy.pi / 2 * part / (1 + part))], start={beta: 0})
+    return Model(letters, [(beta, sympy.pi / 2 * s / (1 + s))], start={beta: 0})
 
 
 def _sharp(line: str) -> str:

@@ -82,10 +82,10 @@ def save_scripts(written: Mapping[str, str], path: Path = SCRIPTS) -> None:
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
-def save(found: Iterable[Verdict], path: Path = VERDICTS) -> None:
+def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
     """Write records, over those of the same names that are there; seconds change only where the proof did."""
     old = {entry["name"]: entry for entry in _read(path)}
-    for record in found:
+    for record in verdicts:
         entry = record.as_dict()
         before = old.get(record.name)
         if before and before["source"] == entry["source"]:
@@ -95,11 +95,11 @@ def save(found: Iterable[Verdict], path: Path = VERDICTS) -> None:
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
-def differs(found: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
+def differs(verdicts: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
     """Return (name, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
     records = load() if recorded is None else recorded
     changed = []
-    for verdict in found:
+    for verdict in verdicts:
         before = records.get(verdict.name)
         was = _both(before) if before else "not recorded"
         if was != _both(verdict):

@@ -64,10 +64,10 @@ def trials(stem: str) -> dict[str, Trial]:
 def trial(name: str) -> Trial:
     """Return the trial of an entry of the ledger."""
     equation(name)
-    found = trials(topic(name)).get(name)
-    if found is None:
+    named = trials(topic(name)).get(name)
+    if named is None:
         raise AtlasError(f"nothing has been tried about {name!r}: add a trial to atlas/proof/{topic(name)}.py")
-    return found
+    return named
 
 
 def try_one(name: str) -> Verdict:
@@ -103,7 +103,7 @@ def try_one(name: str) -> Verdict:
 
 
 def _lines(parts: Iterable[Part]) -> str:
-    return "; ".join(part.line for part in parts)
+    return "; ".join(line.line for line in parts)
 
 
 def within_time(run: Callable[[], Outcome]) -> Outcome:
@@ -132,10 +132,10 @@ def verify(
     wanted = [name for name in EQUATIONS if name in meant]
     folder = cache_folder
     places = {name: folder / f"verdict-{slug(name)}-{recorded.source(name)}.json" for name in wanted} if folder else {}
-    found = {name: Verdict(**json.loads(path.read_text("utf-8"))) for name, path in places.items() if path.is_file()}
-    missing = [name for name in wanted if name not in found]
-    for done, (name, result) in enumerate(_each(missing, jobs), len(found) + 1):
-        found[name] = result
+    verdicts = {name: Verdict(**json.loads(path.read_text("utf-8"))) for name, path in places.items() if path.is_file()}
+    missing = [name for name in wanted if name not in verdicts]
+    for done, (name, result) in enumerate(_each(missing, jobs), len(verdicts) + 1):
+        verdicts[name] = result
         if folder:
             folder.mkdir(parents=True, exist_ok=True)
             fresh = places[name].with_suffix(".new")
@@ -143,7 +143,7 @@ def verify(
             fresh.replace(places[name])
         if progress:
             progress(name, done, len(wanted))
-    return [found[name] for name in wanted]
+    return [verdicts[name] for name in wanted]
 
 
 def _each(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:

@@ -42,26 +42,26 @@ _FORMS = "{}", "factor(together({}))", "(expand(numer(together({0}))) / expand(d
 Rows = tuple[dict[str, str], list[str]]  # what is declared, with its assumptions, and what follows
 
 
-def script_of(found: Verdict) -> str:
+def script_of(verdict: Verdict) -> str:
     """Return the script of an entry of the ledger on which this was found, or the line that says why there is none.
 
     It refutes the printed form where that is refuted, and proves the corrected one; otherwise the printed one.
     """
-    case = trial(found.name)
-    if found.verdict == "undecided" or (found.method == "indices" and not case.corrected):
-        return f"No script: it is {found.verdict} ({plain(found.method)}) before anything is computed."
-    if found.verdict == "refuted":
-        how = " by its indices" if found.method == "indices" else ""
-        says, blocks = [f"{found.name} as printed is refuted{how}"], [] if how else [_refuted(case.parts)]
+    case = trial(verdict.name)
+    if verdict.verdict == "undecided" or (verdict.method == "indices" and not case.corrected):
+        return f"No script: it is {verdict.verdict} ({plain(verdict.method)}) before anything is computed."
+    if verdict.verdict == "refuted":
+        how = " by its indices" if verdict.method == "indices" else ""
+        says, blocks = [f"{verdict.name} as printed is refuted{how}"], [] if how else [_refuted(case.parts)]
     else:
-        says = [f"{found.name} {'is a definition that holds' if found.verdict == 'definition' else 'is proved'}"]
+        says = [f"{verdict.name} {'is a definition that holds' if verdict.verdict == 'definition' else 'is proved'}"]
         blocks = [_proved(line) for line in _lines(case.parts)]
     if case.corrected:
         says.append("its corrected form is proved")
         blocks += [_proved(line) for line in _lines(case.corrected_parts)]
     body = list(_joined(blocks))
     top = f"numer(together(x)){_WHERE}" if "where = " in "\n".join(body) else "x"
-    head = textwrap.wrap(f"# {found.name}, from {plain(case.follows)}", _WIDTH, subsequent_indent="# ")
+    head = textwrap.wrap(f"# {verdict.name}, from {plain(case.follows)}", _WIDTH, subsequent_indent="# ")
     head += ["from sympy import *", *(_CHECK.format(top=top).split("\n") if "check(" in "\n".join(body) else [""])]
     return "\n".join(_wrapped(row) for row in [*head, *body, f'print("{", ".join(says)}")']) + "\n"
 
@@ -93,14 +93,14 @@ def sides_of(name: str) -> list[str]:
 
     None if that takes too long.
     """
-    found: list[str] = []
+    sides: list[str] = []
     try:
         with limit(LIMIT):
             for line in _lines(trial(name).true_parts):
-                found += [_sides(relation, line) for relation in line.relations]
+                sides += [_sides(relation, line) for relation in line.relations]
     except OverTimeError:
         return []
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(sides))
 
 
 def _sides(relation: Relation, line: Line) -> str:
@@ -132,7 +132,7 @@ def _short(value: Value, printer: StrPrinter) -> str:
 
 
 def _lines(parts: Sequence[Part]) -> list[Line]:
-    return [Line(part.line, model, part.defines, part.solves) for part in parts for model in part.cases]
+    return [Line(line.line, model, line.defines, line.solves) for line in parts for model in line.cases]
 
 
 def _proved(line: Line) -> Rows:

@@ -86,9 +86,9 @@ def _spinors(model: Model) -> Model:
         return (first - second) / (first + second)
 
     def argument(pair: Value, place: Value) -> Value:
-        one = pair[int(place) - 1]
-        turned = sympy.expand(one.xreplace({sympy.I: -sympy.I}) * model.rate(one))
-        return (turned - turned.xreplace({sympy.I: -sympy.I})) / (2 * sympy.I * size(one))
+        spinor = pair[int(place) - 1]
+        turned = sympy.expand(spinor.xreplace({sympy.I: -sympy.I}) * model.rate(spinor))
+        return (turned - turned.xreplace({sympy.I: -sympy.I})) / (2 * sympy.I * size(spinor))
 
     model.letters |= {"height": height, "argument": argument}
     return model
@@ -121,11 +121,13 @@ def family_model() -> Model:
     letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - nu0)) / 2
     rest = A * nu0**2 + w**2 * (1 - nu0**2)
     letters |= functions("q", QUARTIC.xreplace({general.g: rest, general.A: A, general.p: p, general.M3: M3}), nu)
-    letters["cosh"] = lambda at: C if at == sympy.sqrt(c) * t / 2 else sympy.cosh(at)
-    letters["sinh"] = lambda at: sympy.sqrt(c) * T * C if at == sympy.sqrt(c) * t / 2 else sympy.sinh(at)
-    found = steady(w, leading, double)
+    letters["cosh"] = lambda argument: C if argument == sympy.sqrt(c) * t / 2 else sympy.cosh(argument)
+    letters["sinh"] = lambda argument: (
+        sympy.sqrt(c) * T * C if argument == sympy.sqrt(c) * t / 2 else sympy.sinh(argument)
+    )
+    rates = steady(w, leading, double)
     where = [(ck, turn(x)[0]), (sk, turn(x)[1]), (cd, turn(y)[0]), (sd, turn(y)[1]), (e, turning), (nu0, double)]
-    where += [(A, leading), (M3, found["M3"]), (p, found["p"]), (c3, found["M3"] / I)]
+    where += [(A, leading), (M3, rates["M3"]), (p, rates["p"]), (c3, rates["M3"] / I)]
     where += [(c, leading * (double - turning) * (3 * double + turning))]
     flow = {T: (1 - c * T**2) / 2, C: c * T * C / 2, t: sympy.Integer(1)}
     return _spinors(Model(letters, where, flow, phases={kappa: (ck, sk), delta: (cd, sd)}))
@@ -197,7 +199,10 @@ def pendulum_model() -> Model:
     zero = sympy.Integer(0)
     state = {general.p: zero, general.M3: zero, general.A: a**2, general.g: a**2}
     letters = {"A": a**2, "M3": zero, "p": zero, "t": t, "b": b, "H": (a**2 + b**2) / 2}
-    letters |= {"tanh": lambda at: T if at == a * t else sympy.tanh(at), **functions("q", QUARTIC.xreplace(state), nu)}
+    letters |= {
+        "tanh": lambda argument: T if argument == a * t else sympy.tanh(argument),
+        **functions("q", QUARTIC.xreplace(state), nu),
+    }
     return Model(letters, flow={T: a * (1 - T**2)}, start={T: zero})
 
 

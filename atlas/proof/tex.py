@@ -98,26 +98,26 @@ def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
 def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
     """Return the phrases that are not read, each with the line in its place; without one, the model says them."""
     tokens = _tokens(tex)
-    found = {}
+    phrases = {}
     for key, plain in signs.items():
         phrase = _tokens(key)
-        stands = any(tokens[at : at + len(phrase)] == phrase for at in range(len(tokens))) if phrase else False
+        stands = any(tokens[place : place + len(phrase)] == phrase for place in range(len(tokens))) if phrase else False
         if stands and phrase[0] != r"\implies" and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
-            found[key] = plain
-    return found
+            phrases[key] = plain
+    return phrases
 
 
 @cache
 def _read(tex: str, signs: tuple[tuple[str, str], ...]) -> tuple[str, frozenset[str]]:
     table = _table(signs)
     readers = [_Formula(statement, table) for statement in _statements(tex, table)]
-    found = [part for reader in readers for part in reader.relations()]
-    if not found:
+    relations = [relation for reader in readers for relation in reader.relations()]
+    if not relations:
         raise UnreadableError("nothing in the formula is to be read")
     thin, bold = (frozenset().union(*(getattr(reader, kind) for reader in readers)) for kind in ("thin", "vectors"))
     if thin & bold:
         raise UnreadableError(f"{', '.join(sorted(thin & bold))} stands in two fonts")
-    return "; ".join(found), thin
+    return "; ".join(relations), thin
 
 
 @cache
@@ -165,7 +165,7 @@ def _tokens(tex: str) -> list[str]:
 def _statements(tex: str, table: _Table) -> list[list[_Token]]:
     """Return the formulas between commas, spaces, ends of rows and words, each as tokens."""
     tokens = _said(_tokens(tex), table)
-    found: list[list[_Token]] = [[]]
+    statements: list[list[_Token]] = [[]]
     depth, row, ended = 0, False, False
     for mark in tokens:
         if mark in {"(", "[", "{", r"\{", r"\begin{pmatrix}"}:
@@ -180,10 +180,10 @@ def _statements(tex: str, table: _Table) -> list[list[_Token]]:
             continue
         goes_on = mark in _SIGNS or (not ended and mark in {"+", "-"})
         if (row or ended) and not goes_on:
-            found.append([])
+            statements.append([])
         row = ended = False
-        found[-1].append(mark)
-    return [one for statement in found if statement and statement != ["."] for one in _signed(statement)]
+        statements[-1].append(mark)
+    return [signed for statement in statements if statement and statement != ["."] for signed in _signed(statement)]
 
 
 def _signed(statement: list[_Token]) -> list[list[_Token]]:
@@ -199,16 +199,16 @@ def _signed(statement: list[_Token]) -> list[list[_Token]]:
 def _said(tokens: list[str], table: _Table) -> list[_Token]:
     """Put what the table says of phrases in their place."""
     result: list[_Token] = []
-    at = 0
-    while at < len(tokens):
+    place = 0
+    while place < len(tokens):
         for phrase, plain in table.phrases:
-            if tuple(tokens[at : at + len(phrase)]) == phrase:
+            if tuple(tokens[place : place + len(phrase)]) == phrase:
                 result += _phrase(plain)
-                at += len(phrase)
+                place += len(phrase)
                 break
         else:
-            result.append(tokens[at])
-            at += 1
+            result.append(tokens[place])
+            place += 1
     return result
 
 
@@ -337,9 +337,9 @@ class _Formula:
         if self.peek() != "_":
             return []
         self.take()
-        found = self.indices()
-        self.sums += found
-        return found
+        indices = self.indices()
+        self.sums += indices
+        return indices
 
     def power(self) -> ast.expr:
         """Read a factor with what stands behind it: powers, indices, an argument t or 0, T for the transpose."""
@@ -432,12 +432,12 @@ class _Formula:
 
     def entries(self, opening: str) -> list[ast.expr]:
         """Read what stands between commas in a bracket."""
-        found = [self.sum()]
+        entries = [self.sum()]
         while self.peek() in {",", ";"}:
             self.take()
-            found.append(self.sum())
+            entries.append(self.sum())
         self.take(_PAIRS[opening][0])
-        return found
+        return entries
 
     def length(self) -> ast.expr:
         """Read the length of a vector, or the size of a number."""
@@ -536,13 +536,13 @@ class _Formula:
         if self.peek() != "{":
             return [str(self.take())]
         self.take()
-        found, depth = list[str](), 0
+        marks, depth = list[str](), 0
         while depth or self.peek() != "}":
             mark = str(self.take())
             depth += (mark == "{") - (mark == "}")
-            found.append(mark)
+            marks.append(mark)
         self.take()
-        return found
+        return marks
 
     def indices(self) -> list[str]:
         """Read indices, each a letter or a digit."""
@@ -599,13 +599,13 @@ def _expanded(term: ast.expr, index: str, sign: str) -> ast.expr:
 
 def _plain(below: Iterable[str]) -> list[str]:
     """Return indices in plain letters."""
-    found = [_name(mark.strip("\\")) for mark in below]
+    names = [_name(mark.strip("\\")) for mark in below]
     if not all(
         index.isdigit() or _GREEK.fullmatch(index.rstrip("_")) or (len(index) == 1 and index.isalpha())
-        for index in found
+        for index in names
     ):
         raise UnreadableError(f"the index {' '.join(below)} is not read")
-    return found
+    return names
 
 
 def _name(word: str) -> str:
@@ -633,7 +633,7 @@ def _minus(term: ast.expr) -> ast.expr:
 
 
 def _tuple(indices: list[str]) -> ast.expr:
-    entries: list[ast.expr] = [ast.Constant(int(at)) if at.isdigit() else ast.Name(at) for at in indices]
+    entries: list[ast.expr] = [ast.Constant(int(index)) if index.isdigit() else ast.Name(index) for index in indices]
     return entries[0] if len(entries) == 1 else ast.Tuple(entries)
 
 

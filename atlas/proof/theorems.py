@@ -49,8 +49,8 @@ def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
     """
     field = sympy.Matrix([0, B2, B3])
     letters = {**integrals(spin, field, scale), "Bsquare": field.dot(field), "I": scale, "u": U}
-    found = functions("Q", evaluated("theorem-quartic", SIGNS, letters, 2), U)
-    return {**found, "nun2": sympy.factor(-found["ddQ"](spin[2]) / 2)}
+    Q = functions("Q", evaluated("theorem-quartic", SIGNS, letters, 2), U)
+    return {**Q, "nun2": sympy.factor(-Q["ddQ"](spin[2]) / 2)}
 
 
 @cache
@@ -134,16 +134,16 @@ def leaving_model() -> Model:
 def equatorial_model() -> Model:
     """B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
     lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
-    found = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
-    return Model({**LETTERS, **found}, [(B3, sympy.Integer(0))])
+    rates = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
+    return Model({**LETTERS, **rates}, [(B3, sympy.Integer(0))])
 
 
 @cache
 def ball_nutation_model() -> Model:
     """I = 1 and any initial angular velocity."""
     spin = sympy.Matrix([omega1, omega2, omega3])
-    found = quartic(spin, sympy.Integer(1))
-    return Model({"nun2": found["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
+    Q = quartic(spin, sympy.Integer(1))
+    return Model({"nun2": Q["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
 
 
 @cache

@@ -25,8 +25,8 @@ class Part:
     @property
     def cases(self) -> Sequence[Model]:
         """The models in which the line is tried."""
-        found = self.model()
-        return [found] if isinstance(found, Model) else found
+        models = self.model()
+        return [models] if isinstance(models, Model) else models
 
     def outcome(self, line: str = "", *, sample_only: bool = False, shrink: bool = False) -> Outcome:
         """Try the line, or another one in its place."""
@@ -148,18 +148,22 @@ class Trial:
         """The part of the true form that the false sentence changes. Raises ValueError if there is none."""
         if self.false is None or not (self.false.right or self.false.model):
             raise ValueError(f"{self.name} has no false sentence beside it")
-        for part in self.true_parts:
-            if self.false.right in part.line:
-                line = part.line.replace(self.false.right, self.false.wrong, 1) if self.false.right else part.line
-                return replace(part, line=line, model=self.false.model or part.model)
+        for true_part in self.true_parts:
+            if self.false.right in true_part.line:
+                line = (
+                    true_part.line.replace(self.false.right, self.false.wrong, 1)
+                    if self.false.right
+                    else true_part.line
+                )
+                return replace(true_part, line=line, model=self.false.model or true_part.model)
         raise ValueError(f"{self.name}: the false sentence changes {self.false.right!r}, which is not there")
 
     def of_printed(self, *, shrink: bool = False) -> Outcome:
         """Try the printed form; a definition that holds is called one."""
-        found = self._of("parts", shrink=shrink)
-        if self.definition and found.decision == "proved":
+        outcome = self._of("parts", shrink=shrink)
+        if self.definition and outcome.decision == "proved":
             return Outcome("definition", "it says what its letters mean")
-        return found
+        return outcome
 
     def of_corrected(self) -> Outcome:
         """Try the corrected form."""
@@ -171,7 +175,7 @@ class Trial:
             self._bold(form, parts)
         except (tex.UnreadableError, NoMeaningError) as reason:
             return Outcome("undecided", f"unreadable: {reason}")
-        return _joined([part.outcome(shrink=shrink) for part in parts])
+        return _joined([piece.outcome(shrink=shrink) for piece in parts])
 
     def _bold(self, form: str, parts: tuple[Part, ...]) -> None:
         """Raise UnreadableError if a letter is a vector in a model and is not bold in the formula."""

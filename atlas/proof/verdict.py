@@ -70,13 +70,13 @@ class Verdict:
         sides = [f"{side}: {shown.pop(side)}" for side in ("left", "right") if side in shown]
         reason = shown.pop("reason", "")
         letters = ", ".join(f"{name} = {value}" for name, value in shown.items())
-        return "; ".join(part for part in (reason, letters, relation, *sides) if part)
+        return "; ".join(piece for piece in (reason, letters, relation, *sides) if piece)
 
 
 def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
     """Return the distinct slips by grade, the grave ones first, each by the name under which it is counted."""
-    found: dict[Grade, list[str]] = {grade: [] for grade in GRADES}
+    by_grade: dict[Grade, list[str]] = {grade: [] for grade in GRADES}
     for verdict in verdicts:
         if verdict.grade and not verdict.slip:
-            found[verdict.grade].append(verdict.name)
-    return found
+            by_grade[verdict.grade].append(verdict.name)
+    return by_grade

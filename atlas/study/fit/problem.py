@@ -84,6 +84,7 @@ class Problem:
         self.together = True
         """Whether motions are sought, many at once, by integrations."""
         self._kept: tuple[Any, Any] = (None, None)
+        self._kept_slopes: tuple[Any, Any] = (None, None)
 
     def shifted(self, centre: float) -> "Problem":
         """Return the same with times from another one on."""
@@ -212,13 +213,21 @@ class Problem:
     def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
         """Return the differences in standard errors, (N k,); huge ones where there is no motion."""
         if self.followed:
-            return np.asarray(self.apart(np.array([x]), places)[0])
+            return self._integrated(x, places)[0]
         data = self.data.part(places)
         try:
             motion, _ = self.motion(list(x))
             return np.asarray(data.differences(motion) / data.sigma).ravel()
         except AtlasError:
             return np.full(data.sigma.size * self.width, HUGE)
+
+    def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
+        """Return residuals and derivatives, which one integration gives; those of all data are kept till the next."""
+        key = tuple(x) if isinstance(places, slice) else None
+        if key is None or self._kept_slopes[0] != key:
+            r, J = self.turned(np.array([x]), places)
+            self._kept_slopes = key, (r[0], J[0])
+        return self._kept_slopes[1]  # type: ignore[no-any-return]
 
     @cached_property
     def width(self) -> int:
@@ -233,8 +242,8 @@ class Problem:
         """Return the derivatives, (N, k, free)."""
         x, data = list(x), self.data.part(places)
         if self.followed:
-            _, J = self.turned(np.array([x]), places)
-            return np.asarray(np.moveaxis(J[0].reshape(len(x), data.t.size, -1), 0, -1))
+            J = self._integrated(x, places)[1]
+            return np.asarray(np.moveaxis(J.reshape(len(x), data.t.size, -1), 0, -1))
         motion, values = self.motion(x)
         chain = self.chain(x, self.model.names)
         moved = [i for i, row in enumerate(chain) if row.any()]
