@@ -152,6 +152,8 @@ def _command_of(family: Family, described: Described) -> click.Command:
     ]
 
     def run(**options: Any) -> None:
+        if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
+            raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
         times = chosen_times(options) if family.sampled else []
         sampled = [s for s in family.sampled if s.printed]
 
@@ -372,8 +374,6 @@ def _spectrum(motion: Any, options: dict[str, Any]) -> Any:
     """Return the lines of a motion that are asked for, None where they are not."""
     if not options.get("spectrum"):
         return None
-    if options["digits"] is not None or options["decimal"]:
-        raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
     return motion.spectrum(options["spectrum"], least=options["least"])
 
 

@@ -16,8 +16,8 @@ from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values,
 
 LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, np.inf), "I3": (0.0, np.inf)}
 
-HUGE = 1e6
-"""A residual where there is no motion."""
+HUGE, LOST = 1e6, 1e100
+"""A residual where there is no motion, and size from which on one is taken for that."""
 
 LONG = 3000.0
 """Radians up to which motions without a fast closed form are integrated."""
@@ -173,7 +173,7 @@ class Problem:
         data = self.data.part(places)
         with np.errstate(all="ignore"):
             r = data.differences(flow(self.model, self.several(X), self.error)) / data.sigma
-        return np.where(np.isfinite(r), r, HUGE).reshape(len(X), -1)
+        return np.where(abs(r) < LOST, r, HUGE).reshape(len(X), -1)
 
     def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
         """Return the residuals of motions (M, N k), and their derivatives by differences (M, n, N k)."""
