@@ -152,8 +152,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
     ]
 
     def run(**options: Any) -> None:
-        if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
-            raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
+        _check_spectrum(options)
         times = chosen_times(options) if family.sampled else []
         sampled = [s for s in family.sampled if s.printed]
 
@@ -368,6 +367,12 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
         show(_printout(family, described, texts, options, IN_DOUBLES))
         _show_lines(family, options, motion)
+
+
+def _check_spectrum(options: dict[str, Any]) -> None:
+    """Raise UsageError for lines of a motion and proven digits at once."""
+    if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
+        raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
 
 
 def _spectrum(motion: Any, options: dict[str, Any]) -> Any:

@@ -1,5 +1,6 @@
 """Every number of every table, computed here in another way, where no parameter is 1 and nothing is symmetric."""
 
+import json
 import re
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
@@ -9,6 +10,7 @@ import mpmath
 from mpmath import mp, mpf
 from oracles import closed_form
 
+from atlas.places import folder
 from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.digits import Number
 from atlas.report.tables import TABLES, compute
@@ -266,6 +268,15 @@ def test_the_cells_of_radiation() -> None:
     holds(compute("radiation", Request((), more, 2)), *rows)
 
 
+def test_the_cells_of_fits() -> None:
+    """Each kind on record: found in 97 % at least, and parameters within one standard error as often as they should."""
+    record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
+    rows = [(row["found"], row["within"], row["seconds"]) for row in record.values()]
+    assert len(rows) == 15
+    assert all(found >= 97 and 63 <= within <= 73 for found, within, _ in rows)
+    holds(compute("fits", Request((), {}, 2)), *rows)
+
+
 def test_no_table_is_left_out() -> None:
     """Each table has a test of its cells above, or in another file."""
     tested = {"points", "quadric", "sheet", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
@@ -277,7 +288,7 @@ def test_no_table_is_left_out() -> None:
         "blocks",
         "report_keys",
     }  # test_guide, test_targets, test_report_tables
-    tested |= {"charges", "companions", "diamagnetism", "sizes", "radiation"}
+    tested |= {"charges", "fits", "companions", "diamagnetism", "sizes", "radiation"}
     elsewhere = {"tops", "monodromy", "coats", "swings", "properties", "closed"}  # test_report_tables, test_page
     elsewhere |= {"elliptic", "periods", "asymmetric"}  # test_three_moments
     elsewhere |= {"levitated", "lines", "inferred", "beyond_larmor"}  # test_laboratory

@@ -7,7 +7,7 @@ from atlas.report.tables.bodies import charges, coats, diamagnetism, radiation, 
 from atlas.report.tables.closed import closed, companions
 from atlas.report.tables.elementary import motion, points, quadric, samples, sheet
 from atlas.report.tables.families import blocks, layers, quantities, report_keys, roles, targets
-from atlas.report.tables.laboratory import beyond_larmor, inferred, levitated, lines
+from atlas.report.tables.laboratory import beyond_larmor, fits, inferred, levitated, lines
 from atlas.report.tables.particle import ball, flight, particle
 from atlas.report.tables.properties import body_and_field, properties
 from atlas.report.tables.table import Data, Maker, Request
@@ -19,6 +19,7 @@ TABLES: Mapping[str, Maker] = {
         *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
         *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
         *(periods, asymmetric, roles, layers, blocks, report_keys, levitated, lines, inferred, beyond_larmor),
+        fits,
     )
 }
 
