@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
+from stress.fits import KINDS
 
 import atlas
 from atlas.cli.app import atlas as command
@@ -303,6 +304,16 @@ def test_a_start_is_taken() -> None:
     t, w = measured("angular_velocity", 60, 10.0)
     found = atlas.fit(t, angular_velocity=w, sigma=NOISE, params={"ratio": 1.2, "omega1": 1.0})
     assert abs(found.params["ratio"].value - RATIO) < 5 * found.params["ratio"].stderr
+    hard = KINDS["ball, attitudes"](np.random.default_rng([0, 27]))  # chi square has many minima in b
+    start = {f"{name}{i}": hard.truth[f"{name}{i}"] for name in ("omega", "a", "B") for i in (1, 2, 3)}
+    assert abs(atlas.fit(hard.t, **hard.given, params=start).redchi - 1) < 0.1
+
+
+def test_a_fast_turn_by_little_is_found() -> None:
+    """Of a ball in a strong field, whose body turns slowly: within five standard errors."""
+    fast = KINDS["ball, attitudes"](np.random.default_rng([0, 25]))
+    b = atlas.fit(fast.t, **fast.given).params["b"]
+    assert abs(b.value - fast.truth["b"]) < 5 * b.stderr
 
 
 @pytest.mark.parametrize("size", [pytest.param(0.0, marks=pytest.mark.slow), 0.0009, 0.01])

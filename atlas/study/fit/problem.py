@@ -86,11 +86,10 @@ class Problem:
         self._kept: tuple[Any, Any] = (None, None)
         self._kept_slopes: tuple[Any, Any] = (None, None)
 
-    def shifted(self, centre: float) -> "Problem":
-        """Return the same with times from another one on."""
-        return Problem(
-            self.model, replace(self.data, t=self.data.t - centre), self.params, self.loss, self.rate, self.given
-        )
+    def shifted(self, centre: float, rate: float) -> "Problem":
+        """Return the same with times from another one on, and another typical rate."""
+        data = replace(self.data, t=self.data.t - centre)
+        return Problem(self.model, data, self.params, self.loss, rate, self.given)
 
     @cached_property
     def pinned(self) -> bool:
@@ -162,7 +161,7 @@ class Problem:
 
     def alone(self) -> "Problem":
         """Return the same for one motion at a time, with closed forms where they are fast."""
-        other = self.shifted(0.0)
+        other = self.shifted(0.0, self.rate)
         other.together = False
         return other
 

@@ -45,8 +45,8 @@ def turns(data: Data, i: Any, j: Any) -> FloatArray:
     return np.asarray(np.linalg.norm(x[j] - x[i], axis=-1) / (np.linalg.norm(x.std(0)) or 1.0))
 
 
-def rate_of(data: Data) -> float:
-    """Return a typical rate at which the data change, in sorted times."""
+def rate_of(data: Data, least: float = TURN) -> float:
+    """Return a typical rate at which the data change, by so much, in sorted times."""
     rate, n = 0.0, data.t.size
     for k in np.unique(np.geomspace(1, max(n // 6, 1), 24).astype(int)):
         gap = data.t[k:] - data.t[:-k]
@@ -55,7 +55,7 @@ def rate_of(data: Data) -> float:
             continue
         turn = np.median(turns(data, short, short + k))
         rate = float(turn / np.median(gap[short]))
-        if turn > TURN:
+        if turn > least:
             break
     return rate or 1 / float(np.ptp(data.t))
 
@@ -95,7 +95,7 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
 def random(problem: Problem, count: int, seed: int) -> dict[str, FloatArray]:
     """Return random parameters (count,), as the data have them at t = 0."""
     data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
-    size = rng.permuted(np.geomspace(0.05, 1.5, count))[:, None] * rate
+    size = rng.permuted(np.geomspace(0.05, 1.5 * 4 ** (seed > 0), count))[:, None] * rate
     field, omega = rng.normal(size=(2, count, 3)) * size
     R = np.tile(np.eye(3), (count, 1, 1))
     off = 0.1 * rate if np.sort(abs(data.t))[4] * rate < 2 * WINDOW else size
@@ -167,10 +167,17 @@ def _across(K: FloatArray) -> FloatArray:
 
 
 def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
-    """Yield the best motions about some time, the problem from then on, and how many data they follow; and others."""
+    """Yield the best motions about some time, the problem from then on, and how many data they follow; and others.
+
+    A start that is given in full is tried first on all data, as it stands.
+    """
+    if set(problem.names) <= problem.given.keys():
+        yield 0.0, problem, problem.inside(problem.given), problem.data.t.size
     for k, share in enumerate(PARTS):
-        centre = 0.0 if problem.pinned else centre_of(problem.data, problem.rate, share)
-        there = problem.shifted(centre)
+        # what turns fast by little, as in a strong field, is not seen in larger turns
+        rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, TURN / 4))
+        centre = 0.0 if problem.pinned else centre_of(problem.data, rate, share)
+        there = problem.shifted(centre, rate)
         for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, last=k == len(PARTS) - 1):
             yield centre, there, x, count
 
