@@ -82,7 +82,7 @@ def main() -> None:
     """Measure, print what was measured, and keep the record."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.run", description=__doc__)
     parser.add_argument("--case", action="append", choices=CASES, help="all when left out")
-    parser.add_argument("--quick", action="store_true", help="the short form, under half a minute")
+    parser.add_argument("--quick", action="store_true", help="the short form, some two minutes")
     parser.add_argument("--out", type=Path, default=stored(), help="keep the record here")
     options = parser.parse_args()
     files.check(options.out)

@@ -154,7 +154,7 @@ def outcome(kind: str, seed: int, i: int) -> Outcome:
         return Outcome(0, 0, time.process_time() - began, f"{i}: {error}")
     seconds = time.process_time() - began
     truth = made.truth
-    if "a1" in fit.names:  # a rotation by nearly half a turn has two vectors
+    if "a1" in truth:  # a rotation by nearly half a turn has two vectors
         a = np.array([truth[name] for name in ATTITUDE])
         other = a * (1 - 2 * np.pi / np.linalg.norm(a))
         near = min((a, other), key=lambda v: float(np.linalg.norm(v - [fit.params[name].value for name in ATTITUDE])))

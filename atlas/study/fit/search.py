@@ -18,6 +18,12 @@ from atlas.study.fit.problem import Problem
 TURN = 0.5
 """Turn, in radians or parts of the spread, over which data tell how fast they change."""
 
+FIELD = 1.5
+"""Largest field that is tried, in rates at which the data change."""
+
+NOISE = 6.0
+"""Standard errors that are no noise."""
+
 ARC, WINDOW = 1.5, 0.7
 """Radians of the first arc, and of that from which a rate is taken, on either side of the middle."""
 
@@ -92,10 +98,10 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
     return coefficients[0], coefficients[1]
 
 
-def random(problem: Problem, count: int, seed: int) -> dict[str, FloatArray]:
-    """Return random parameters (count,), as the data have them at t = 0."""
+def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str, FloatArray]:
+    """Return random parameters (count,), as the data have them at t = 0; `largest` is a field's size in rates."""
     data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
-    size = rng.permuted(np.geomspace(0.05, 1.5 * 4 ** (seed > 0), count))[:, None] * rate
+    size = rng.permuted(np.geomspace(0.05, largest, count))[:, None] * rate
     field, omega = rng.normal(size=(2, count, 3)) * size
     R = np.tile(np.eye(3), (count, 1, 1))
     off = 0.1 * rate if np.sort(abs(data.t))[4] * rate < 2 * WINDOW else size
@@ -175,19 +181,21 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
         yield 0.0, problem, problem.inside(problem.given), problem.data.t.size
     for k, share in enumerate(PARTS):
         # what turns fast by little, as in a strong field, is not seen in larger turns
-        rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, TURN / 4))
+        small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
+        rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
+        largest = FIELD * (4.0 if rate > problem.rate else 1.0)
         centre = 0.0 if problem.pinned else centre_of(problem.data, rate, share)
         there = problem.shifted(centre, rate)
-        for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, last=k == len(PARTS) - 1):
+        for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, largest, last=k == len(PARTS) - 1):
             yield centre, there, x, count
 
 
-def sought(problem: Problem, starts: int, seed: int, *, last: bool) -> Iterator[tuple[FloatArray, int]]:
+def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bool) -> Iterator[tuple[FloatArray, int]]:
     """Yield the best motions of an arc about t = 0, and how many data it has; none if all are lost, but the last."""
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate
     first = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
-    several = random(problem, starts, seed)
+    several = random(problem, starts, seed, largest)
     ones = np.ones(starts)
     several |= {name: value * ones for name, value in problem.given.items()}
     X = np.stack([several.get(name, problem.params[name].value * ones) for name in problem.names], -1)
