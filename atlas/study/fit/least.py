@@ -56,8 +56,9 @@ class Crowd:
     def _back(self, Y: FloatArray) -> FloatArray:
         if self.spin is None:
             return np.asarray(self.problem.inner(Y))
-        I3, more = self.problem.spin(Y)
-        X = Y.copy()
+        I3, _ = self.problem.spin(Y)
+        X = np.where(I3[:, None] > 0, Y, self.problem.inner(Y))
+        I3, more = self.problem.spin(X)
         X[..., self.spin] = (Y[..., self.spin] - more) / I3
         return np.asarray(self.problem.inner(X))
 
