@@ -56,10 +56,9 @@ class Crowd:
     def _back(self, Y: FloatArray) -> FloatArray:
         if self.spin is None:
             return np.asarray(self.problem.inner(Y))
-        I3, _ = self.problem.spin(Y)
-        X = np.where(I3[:, None] > 0, Y, self.problem.inner(Y))
-        I3, more = self.problem.spin(X)
-        X[..., self.spin] = (Y[..., self.spin] - more) / I3
+        I3, more = self.problem.spin(Y)
+        X = Y.copy()
+        X[..., self.spin] = (Y[..., self.spin] - more) / np.where(I3 == 0, 1.0, I3)  # from 1 a whole step may end at 0
         return np.asarray(self.problem.inner(X))
 
     def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
