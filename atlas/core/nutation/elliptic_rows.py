@@ -20,7 +20,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import ONE, DoubleDouble, blocks, chosen, component, stacked
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.blocks import Block, Blocks, Constants
+from atlas.core.nutation.blocks import KNOWN, Block, Blocks, Constants
 from atlas.core.nutation.pair import Pair
 from atlas.core.nutation.roots import Turning
 from atlas.core.nutation.rows import GeneralRows, MotionsAtTimes
@@ -36,7 +36,7 @@ class EllipticRoots(Turning):
     """The turning points of u + K_a, with what else the sphere of K takes, for rows (m,).
 
     `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
-    `E` the tensor along the principal axes; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
+    `rates` are E_i - 1, from K to Omega; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
     the third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
     """
 
@@ -49,7 +49,7 @@ class EllipticRoots(Turning):
     b: DoubleDouble
     torque: DoubleDouble
     precession: DoubleDouble
-    E: Sequence[DoubleDouble]
+    rates: Sequence[DoubleDouble]
     frame: FloatArray
     elliptic: Any
     top: None = None
@@ -104,7 +104,7 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         return chosen(places == 0, first, chosen(places == 1, second, third))
 
     def part(third: Any, other: Any, axis: Any) -> DoubleDouble:
-        """Return [(I_one - I_other) I_axis x_axis]/[(I_one - I_axis) I_other x_other] K_other^2."""
+        """Return [(I_third - I_other) I_axis x_axis]/[(I_third - I_axis) I_other x_other] K_other^2."""
         size = of(other, K)
         up = (of(third, I) - of(other, I)) * of(axis, I) * of(axis, x)
         return up / ((of(third, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
@@ -126,7 +126,7 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     squares = first * first, second * second
     flat = squares[0] + squares[1]
     across, b = flat.sqrt(), (flat + own).sqrt()
-    E = [-(v * y) for y in e]
+    rates = [-(v * y) - ONE for y in e]  # E - 1
     L = -(square * sides[0] * sides[1])
     longer = b + abs(along)
     shorter = -(flat / longer)
@@ -137,6 +137,7 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
         np.count_nonzero(np.broadcast_arrays(*(y.hi for y in K)), axis=0) > 1,
         w.hi < 0, w.rel < 0.5,
+        *(y.rel < KNOWN for y in rates),  # next to rest they are differences of what is all but one
     ]  # fmt: skip
     return EllipticRoots(
         rate=v * first * second * z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
@@ -152,8 +153,8 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         across=across,
         b=b,
         torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
-        precession=(of(axis, E) - ONE) * b,
-        E=E,
+        precession=of(axis, rates) * b,
+        rates=rates,
         frame=_frame(axis, (first / across).hi, (second / across).hi, shape),
         elliptic=np.logical_and.reduce([np.broadcast_to(y, shape) for y in certain]),
     )
@@ -225,7 +226,7 @@ def _scalars(block: Block) -> dict[str, Rounded]:
     with np.errstate(all="ignore"):
         r, angles = cast("EllipticRoots", block.roots), block.pair.angles
         mean = component(angles, 0) + component(angles, 1) + r.precession.scaled(1)
-        omega = [rounded((E - ONE) * K, block, 1) for E, K in zip(r.E, r.K, strict=True)]
+        omega = [rounded(rate * K, block, 1) for rate, K in zip(r.rates, r.K, strict=True)]
         shape = r.elliptic.shape
         scalars = of_period(block) | {
             "kind": Rounded(np.zeros(shape, int), block.fine),
@@ -255,7 +256,7 @@ class EllipticRows(GeneralRows):
         with np.errstate(all="ignore"):
             for block in self.blocks:
                 r = cast("EllipticRoots", block.roots)
-                rates = [np.broadcast_to((E - ONE).hi, r.elliptic.shape) for E in r.E]
+                rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
                 constants.append((block.constants, r.frame, np.array(rates)))
         pairs, frames, rates = zip(*constants, strict=True)
         return (
