@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -127,6 +128,7 @@ def _short(svg: str) -> str:
     return re.sub(r' d="([^"]+)"', path, svg)
 
 
+@lru_cache(1 << 16)
 def _hundredths(number: int) -> str:
     """Return a number of hundredths with the sign or the space that parts it from the one before."""
     shown = re.sub(r"^(-?)0\.", r"\1.", str(number / 100).removesuffix(".0"))
