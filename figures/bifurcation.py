@@ -146,7 +146,7 @@ def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
     """Return the border (N, 2) of what exists, of its lines, from the upper right to the corner and the lower right."""
     sides = []
     for oval in ("bounded", "unbounded"):
-        points = np.concatenate([points for oval_of_line, points in lines if oval_of_line == oval])
+        points = np.concatenate([points for name, points in lines if name == oval])
         points = points[np.argsort(points[:, 0], kind="stable")]
         last = [stop, float(np.interp(stop, *points.T))]
         sides.append(np.array([*points[points[:, 0] < stop], last]))

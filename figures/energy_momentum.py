@@ -37,7 +37,7 @@ def scene(
     called = [name(*top, alike=alike) for top in tops]
     panels = tuple(panel(f"({'abc'[k]}) {called[k]}", *top, M3, reach, unit) for k, top in enumerate(tops))
     same = f", $b={tex(b[0])}$" if alike else ""
-    there = {getattr(layer, "role", "") for panel_drawn in panels for layer in panel_drawn.layers}
+    there = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
     rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
     kinds = {"start": "stable (dots)", "unstable_point": "of focus-focus type (crosses)"}
     spins = " or ".join(words for role, words in kinds.items() if role in there)

@@ -84,7 +84,7 @@ def parts(motion: Any) -> tuple[float, float, float]:
 def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
     """Return the plane of z with the turn and its parts, from turn, dynamic part and area (N, 3) in turns.
 
-    ``one`` (4,) holds z and the values of the motion shown.
+    ``chosen`` (4,) holds z and the values of the motion shown.
     """
     lines = (("main", "turn", 0, 1), ("reference", "dynamic part", 1, 1), ("limit", "geometric part", 2, -1))
     layers: list[Layer] = [Curve(np.array([[z[0], 0.0], [z[-1], 0.0]]), "guide")]

@@ -25,4 +25,4 @@ for name in (
     with suppress(Exception):  # what can't be loaded is told by the worker that needs it
         import_module(name)
 gc.freeze()  # what all of them have is not searched for garbage again by each
-gc.set_threshold(100_000)  # a picture's objects live until it is saved: to search them in hundreds takes 6 % of its time
+gc.set_threshold(100_000)  # a picture's objects live until it is saved: to search for garbage more often takes 6 %

@@ -50,7 +50,7 @@ def _pages(inside: Mapping[str, bytes], place: Path, known: set[str], work: Path
     beside = {path: new for path, new in places.items() if new != path}
     foreign = _foreign(place, before, {*places.values()})
     lines = {line for line in before if line[66:] in beside}
-    lines |= {f"{digests[path]}  {path_of_line}" for path, new in places.items() for path_of_line in (path, new)}
+    lines |= {f"{digests[path]}  {name}" for path, new in places.items() for name in (path, new)}
     content = {new: inside[path] for path, new in places.items()}
     _write(content | {WRITTEN: files.listed(lines).encode()}, work)
     whole = not place.is_symlink()

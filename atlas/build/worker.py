@@ -79,7 +79,7 @@ def _draw(task: Task) -> None:
                 kind = "png" if renderer == "shaded" else "svg"
                 drawn[small] = save(small, {paths["narrow"]: kind}, renderer, task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
-    whole = not target and {*drawn} >= {scene_wanted for scene_wanted in (scene, small) if scene_wanted}
+    whole = not target and {*drawn} >= {version for version in (scene, small) if version}
     figures = list(drawn.values()) if whole else []
     contents |= _beside(task, scene, figures)
     facts = {

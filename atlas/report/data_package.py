@@ -219,8 +219,8 @@ def ascii_name(head: str) -> str:
 
 def unique(names: Iterable[str]) -> list[str]:
     """Return names with a number behind those that were there before."""
-    seen, names_seen = Counter[str](), []
+    seen, unique = Counter[str](), []
     for name in names:
         seen[name] += 1
-        names_seen.append(f"{name}_{seen[name]}" if seen[name] > 1 else name)
-    return names_seen
+        unique.append(f"{name}_{seen[name]}" if seen[name] > 1 else name)
+    return unique

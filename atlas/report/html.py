@@ -114,7 +114,7 @@ def _figures(document: Document) -> list[Card]:
 
 def cards(document: Document) -> list[Card]:
     """Return the cards of the pages: of the figures `pictures.on_cards`, those that are drawn."""
-    figures, cards_seen = _figures(document), []
+    figures, cards = _figures(document), []
     cuts = {one.slug: one.thumbnail for one in document.report.pages}
     for page in document.pages:
         wanted = cuts.get(page.slug, Thumbnail())
@@ -123,10 +123,10 @@ def cards(document: Document) -> list[Card]:
         )
         chosen = next(fits, None)
         if chosen and not chosen.figure.failure:
-            cards_seen.append(Card(page, chosen.figure, wanted))
+            cards.append(Card(page, chosen.figure, wanted))
         elif wanted.figure:
             raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn in this report.")
-    return cards_seen
+    return cards
 
 
 def thumbnail(png: bytes, cut: Thumbnail) -> bytes:

@@ -155,9 +155,7 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
             parts = [
                 piece
                 for floating, some in floats
-                for piece in (
-                    sorted(some, key=lambda piece_of_page: f"{piece_of_page[7:-1]}.tex" in wide) if floating else some
-                )
+                for piece in (sorted(some, key=lambda piece: f"{piece[7:-1]}.tex" in wide) if floating else some)
             ]
             if equations:
                 text += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"

@@ -52,7 +52,7 @@ def arcs(
     l1, l2 = (float(v) for v in lengths[order])
     m1, m2 = (float(v) for v in (form[2, :2] @ turn)[order])
     axes = (turn.T @ across)[order]
-    arcs_seen: list[Arc] = []
+    visible: list[Arc] = []
     for arc, start, stop in _arcs(l1, l2, m1, m2, float(form[2, 2]), radius):
 
         def point(s: FloatArray, arc: _Flat = arc) -> FloatArray:
@@ -60,8 +60,8 @@ def arcs(
             points: FloatArray = foot + x[:, None] * axes[0] + y[:, None] * axes[1]
             return points
 
-        arcs_seen += [(point, a, b) for a, b in spans(point, start, stop, half_spaces)]
-    return arcs_seen
+        visible += [(point, a, b) for a, b in spans(point, start, stop, half_spaces)]
+    return visible
 
 
 def spans(

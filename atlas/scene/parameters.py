@@ -113,11 +113,7 @@ def _fit(value: Any, kind: Any) -> Any:
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
         missing = value is None and NoneType in inner
-        return (
-            None
-            if missing
-            else _fit(value, next(kind_of_inner for kind_of_inner in inner if kind_of_inner is not NoneType))
-        )
+        return None if missing else _fit(value, next(kind for kind in inner if kind is not NoneType))
     if origin is Literal and value not in inner:
         raise _Unfit(" or ".join(map(str, inner)))
     if origin is tuple:

@@ -215,7 +215,7 @@ def cells(members: Sequence[Member], scale: float, azimuth: float, below: float 
 
     Gaps and that length are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
     """
-    right, cells_seen, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
+    right, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
     least = PITCH * max(float(np.ptp(solids.extent(body.surfaces, E3))) for body in members)
     for body in members:
         level = members[0].centre - body.centre
@@ -229,5 +229,5 @@ def cells(members: Sequence[Member], scale: float, azimuth: float, below: float 
             layers += [Curve(points + shift, "hyperbola") for points in curve]
         low = body.centre + shift - below * scale * E3
         layers.append(Label(np.asarray(low), body.name, body.role))
-        cells_seen.append(layers)
-    return cells_seen
+        cells.append(layers)
+    return cells

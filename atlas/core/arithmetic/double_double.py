@@ -158,9 +158,9 @@ ONE = DoubleDouble(np.float64(1.0))
 
 def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
-    is_one_bound = not (np.ndim(x.rel) or np.ndim(y.rel))
+    scalar = not (np.ndim(x.rel) or np.ndim(y.rel))
     hi, low = np.where(where, x.hi, y.hi), np.where(where, x.low, y.low)
-    return DoubleDouble(hi, low, max(x.rel, y.rel) if is_one_bound else np.where(where, x.rel, y.rel))
+    return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(where, x.rel, y.rel))
 
 
 def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:

@@ -47,16 +47,17 @@ CORNERS = np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
 
 
 def quotients(
-    value: Array, slopes: Sequence[Array], bends: FloatArray, unit: Array, half: float
+    value: Array, slopes: Sequence[Array], bends: FloatArray, by_phases: Array, half: float
 ) -> tuple[Array, list[Array], FloatArray, FloatArray]:
     """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and how far y may be from there.
 
-    `value` (n, m) are the forms, `slopes` two of these by exponents, which are `into` (2, 2) @ phases, `bent` bounds on
-    the sums of second derivatives by phases. The least |D| may be negative: then nothing is known.
+    `value` (n, m) are the forms, `slopes` two of these by exponents, which are `by_phases` (2, 2) @
+    phases, `bends` bounds on the sums of second derivatives by phases. The least |D| may be negative: then nothing is
+    known.
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]
-    across, below = (abs(np.einsum("k...,kl->l...", x, unit)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
+    across, below = (abs(np.einsum("k...,kl->l...", x, by_phases)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
     least = abs(value[D]) - half * below - half**2 / 2 * bends[D]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return y, G, least, (half * across + half**2 / 2 * (bends + abs(y) * bends[D])) / least

@@ -257,14 +257,14 @@ class ThetaKernel:
         steps = [bool(table[0, 0] @ end < 0) for end in (table[-1, 0], table[0, -1])]
         return table, np.array([*steps, True], dtype=int)[:, None]
 
-    def _vectors(self, sums_of: slice, weights: FloatArray) -> Callable[..., None]:
+    def _vectors(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
         """Return what fills rows with combinations of K, or of K and W."""
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, PART):
                 half, rest, _ = self._phases(t[i : i + PART])
                 x, less = self._places(half, rest)
-                D, *numerators = self.sums.at(x[:2], less[:2], sums_of)
+                D, *numerators = self.sums.at(x[:2], less[:2], forms)
                 combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + PART])
 
         return fill

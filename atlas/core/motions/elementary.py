@@ -76,17 +76,17 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         self.ratio = kept_ratio(ratio, I3)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         omega2 = real(omega2, "omega2", RATE)
-        typed_omega3 = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
-        super().__init__(Elementary, I2, I3, B2, B3, omega2, typed_omega3)
+        given_omega3 = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
+        super().__init__(Elementary, I2, I3, B2, B3, omega2, given_omega3)
         self.field = (plain(B2), plain(B3))
-        free = None if omega3 is None else plain(typed_omega3)
+        free = None if omega3 is None else plain(given_omega3)
         self.arguments = {"ratio": self.ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
         if not self.shape:
             self._single()
         else:
             self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
             if omega3 is not None:
-                self._refuse((self._codes >= FREE) & (typed_omega3 != self.omega3))
+                self._refuse((self._codes >= FREE) & (given_omega3 != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
         """Raise the error of the first row for which there is no motion."""

@@ -22,10 +22,10 @@ from atlas.core.arithmetic.double_double import ONE, DoubleDouble, blocks, chose
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.blocks import KNOWN, Block, Blocks, Constants
 from atlas.core.nutation.pair import Pair
-from atlas.core.nutation.roots import Turning
+from atlas.core.nutation.roots import Turning, poles_of
 from atlas.core.nutation.rows import GeneralRows, MotionsAtTimes
 from atlas.core.nutation.scalars import HALF_TURN, Rounded, Scalars, of_period, rounded
-from atlas.core.nutation.spheres import Sphere
+from atlas.core.nutation.spheres import Sphere, half_angles
 
 PLANE = 1 + 1e-12
 """Factor to the largest moment from which on a body is all but plane, and whether it is one is told exactly."""
@@ -128,8 +128,6 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     across, b = flat.sqrt(), (flat + own).sqrt()
     rates = [-(v * y) - ONE for y in e]  # E - 1
     L = -(square * sides[0] * sides[1])
-    longer = b + abs(along)
-    shorter = -(flat / longer)
     sizes = np.array([np.broadcast_to(y.hi, shape) for y in I])
     certain = [
         (sizes > 0).all(0) & (2 * PLANE * sizes.max(0) < sizes.sum(0)) & (abs(branch.hi) == 1),  # there is a motion
@@ -144,7 +142,7 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         low=-chosen(up, nearer, farther),
         high=chosen(up, farther, nearer),
         f=(-(L * part(middle, other, axis)), -(L * along).scaled(1), L),
-        poles=stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer)),
+        poles=poles_of(along, flat, b),
         turning=turning,
         w=w,
         K=K,
@@ -179,16 +177,14 @@ class EllipticBlock(Block):
     def pair(self) -> Pair:
         """Pair of the axis a, on the sphere of K."""
         r = self.roots
-        longer = ((abs(r.along) / r.b + ONE).scaled(-1)).sqrt()
-        shorter = r.across / (longer * r.b).scaled(1)
-        up, length, half = r.along.hi >= 0, r.b.hi, r.precession.scaled(-1)
+        length, half = r.b.hi, r.precession.scaled(-1)
         return Pair(
             self.means,
             Sphere(
                 roots=r,
                 poles=r.poles,
                 torques=stacked(r.torque, r.torque),
-                amplitudes=stacked(chosen(up, longer, shorter), chosen(up, shorter, longer)),
+                amplitudes=half_angles(r.along, r.across, r.b),
                 meets=np.zeros((2, length.size), dtype=bool),
                 slopes=np.zeros((2, length.size)),
                 frames=stacked(half, half),
@@ -246,24 +242,22 @@ def _scalars(block: Block) -> dict[str, Rounded]:
         }
 
 
+def _constants(block: Block) -> tuple[Any, ...]:
+    """Return the constants of the pair of a block, its axes (3, 3, m) in the body, and E - 1 (3, m)."""
+    with np.errstate(all="ignore"):
+        r = cast("EllipticRoots", block.roots)
+        rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
+        return *block.constants, r.frame, np.array(rates)
+
+
 class EllipticRows(GeneralRows):
     """Elliptic motions in arrays, ready to be evaluated."""
 
     @cached_property
     def _constants(self) -> tuple[Constants, FloatArray, FloatArray]:
         """Constants of the pair, its axes (3, 3, m) in the body, and E - 1 (3, m)."""
-        constants = []
-        with np.errstate(all="ignore"):
-            for block in self.blocks:
-                r = cast("EllipticRoots", block.roots)
-                rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
-                constants.append((block.constants, r.frame, np.array(rates)))
-        pairs, frames, rates = zip(*constants, strict=True)
-        return (
-            Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
-            np.concatenate(frames, axis=-1),
-            np.concatenate(rates, axis=-1),
-        )
+        *columns, frames, rates = self._of(_constants)
+        return Constants(*columns), frames, rates
 
     @property
     def field(self) -> Constants:

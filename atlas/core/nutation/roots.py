@@ -192,15 +192,20 @@ def roots_of(
     q2 = w1 * w1 + M2 * M2 + A * square + M3 * M3 - (plus(a, bend) * n3).scaled(2)
     q = rate * rate, q1.scaled(1), -q2, -plus(a, bend.scaled(1)).scaled(1), A
     b = (square + n3 * n3).sqrt()
-    longer = b + abs(n3)
-    shorter = -square / longer
-    poles = stacked(chosen(n3.hi > 0, longer, -shorter), chosen(n3.hi > 0, shorter, -longer))
+    poles = poles_of(n3, square, b)
     still = q[0].hi == 0
     known = np.broadcast_to(q1.rel, q1.hi.shape) < 0.5
     low, high, f = turning(q, poles)
     steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
     frame = across * b
     return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, steady, moving)
+
+
+def poles_of(along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+    """Return along + b and along - b, (2, m), of which one cancels; `square` is b^2 - along^2."""
+    up, longer = along.hi > 0, b + abs(along)
+    shorter = -square / longer
+    return stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer))
 
 
 def plus(x: DoubleDouble | None, y: DoubleDouble) -> DoubleDouble:

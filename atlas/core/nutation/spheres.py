@@ -59,8 +59,6 @@ def sphere_of_field(r: Roots) -> Sphere:
     The torques are b [(M, n) - nu M3] there. The frame is Larmor's, with the turn (1-I) c3 about the axis.
     """
     torques = r.n2 * r.M2 + r.I * r.c3 * r.poles
-    longer = ((abs(r.n3) / r.b + ONE).scaled(-1)).sqrt()
-    shorter = abs(r.n2) / (longer * r.b).scaled(1)
     up, spin = r.n3.hi >= 0, r.less * r.c3
     (w1, w2, _), there = (w.hi for w in r.omega), r.along & (torques.hi == 0) & (torques.rel < 0.5)
     length = r.b.hi if r.top is None else np.ones_like(r.b.hi)
@@ -68,13 +66,21 @@ def sphere_of_field(r: Roots) -> Sphere:
         roots=r,
         poles=r.poles,
         torques=torques,
-        amplitudes=stacked(chosen(up, longer, shorter), chosen(up, shorter, longer)),
+        amplitudes=half_angles(r.n3, abs(r.n2), r.b),
         meets=there & np.array([~up, up]),
         slopes=np.array([1j * w2 - w1, 1j * w2 + w1]),
         frames=stacked(spin - r.frame, -(spin + r.frame)).scaled(-1),
         azimuth=(np.where(r.n2.hi < 0, -1.0, 1.0), np.zeros_like(length)),
         sizes=(length, length),
     )
+
+
+def half_angles(along: DoubleDouble, across: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+    """Return cosine and sine, (2, m), of half the angle whose cosine and sine are along/b and across/b."""
+    longer = ((abs(along) / b + ONE).scaled(-1)).sqrt()
+    shorter = across / (longer * b).scaled(1)
+    up = along.hi >= 0
+    return stacked(chosen(up, longer, shorter), chosen(up, shorter, longer))
 
 
 def sphere_of_velocity(r: Roots) -> Sphere:

@@ -89,7 +89,7 @@ def _sliders(B2: float, B3: float) -> dict[str, Slider]:
     known = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
     (low2, high2), (low3, high3) = _PLANE
     turned = "angle of the field with e2, in degrees"
-    sliders_here: list[Any] = [
+    sliders: list[Any] = [
         replace(known["ratio"], name="I", symbol="I"),
         Slider("angle", turned, *_OBLIQUE, _STEP, round(degrees(atan2(B3, B2)), 2), "∠(e₂, B)"),
         replace(known["omega1"], symbol="ω₁", start=0.0),
@@ -98,4 +98,4 @@ def _sliders(B2: float, B3: float) -> dict[str, Slider]:
         Slider("p", "turns of the body about its axis", -7.0, 7.0, 1.0, 1.0),
         Slider("q", "turns of the axis about the field", 1.0, 9.0, 1.0, 2.0),
     ]
-    return {slider.name: slider for slider in sliders_here}
+    return {slider.name: slider for slider in sliders}

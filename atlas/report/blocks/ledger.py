@@ -111,15 +111,15 @@ def _reading(phrase: str, line: str) -> str:
     return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is supposed, or tried in a further line"
 
 
-def by_grade(entries_seen: Sequence[EntryView]) -> tuple[EntryView, ...]:
+def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
     """Return entries with a slip, the grave ones first; those that share a slip stand together, its own one first."""
-    place = {entry.name: number for number, entry in enumerate(entries_seen)}
+    place = {entry.name: number for number, entry in enumerate(entries)}
 
     def order(entry: EntryView) -> tuple[int, int, bool, int]:
         own = place[entry.name]
         return GRADES.index(entry.grade), place.get(entry.slip, own), bool(entry.slip), own
 
-    return tuple(sorted(entries_seen, key=order))
+    return tuple(sorted(entries, key=order))
 
 
 def _display(tex: str) -> str:

@@ -209,9 +209,9 @@ def samples(request: Request) -> Data:
     from atlas.exact.motions.elementary import ElementaryMotion
 
     asked = request.take(Samples)
-    motion_exact = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
+    motion = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
     values = certified(
-        lambda: [(*motion_exact.angular_velocity(t), *motion_exact.third_axis(t)) for t in asked.times], request.digits
+        lambda: [(*motion.angular_velocity(t), *motion.third_axis(t)) for t in asked.times], request.digits
     )
     columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
