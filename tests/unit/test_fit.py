@@ -142,6 +142,15 @@ def test_drag_is_told() -> None:
     assert "drag" in str(found)
 
 
+def test_a_wider_family_is_named() -> None:
+    """Of a body with three moments, fitted as a symmetric one, the family that has it is named."""
+    t, _ = measured("rotation", 60, 15.0)
+    R = atlas.AsymmetricMotion((0.8, 1.0, 1.3), FIELD, OMEGA).rotation(t)
+    found = atlas.fit(t, rotation=R, sigma=1e-3)
+    assert any("asymmetric" in words for words in found.doubts)
+    assert not atlas.fit(t, "asymmetric", rotation=R, sigma=1e-3).undetermined
+
+
 def test_bounds_and_expressions_are_kept() -> None:
     """As lmfit has them: what is tied follows, and is none of the varied ones."""
     t, R = measured("rotation", 80, 15.0)

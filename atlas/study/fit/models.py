@@ -121,6 +121,8 @@ class Model:
     """Whether the motion has derivatives in all parameters by itself."""
     slow: bool = False
     """Whether an integration is faster than the closed form, over the times of a usual measurement."""
+    wider: tuple[str, ...] = ()
+    """Families that have all its motions and more."""
 
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
         """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
@@ -163,15 +165,18 @@ _FIELD = (*B, *OMEGA, *ATTITUDE)
 MODELS: Mapping[str, Model] = {
     m.name: m
     for m in (
-        Model("general", ("ratio", *_FIELD), _general, {}, exact=True),
-        Model("ball", _FIELD, _general, {}, exact=True),
-        Model("free", ("ratio", *OMEGA, *ATTITUDE), _general, {}, exact=True),
-        Model("elementary", ("ratio", *B, "omega2", *ATTITUDE), _elementary, {}),
+        Model("general", ("ratio", *_FIELD), _general, {}, exact=True, wider=("asymmetric", "top")),
+        Model("ball", _FIELD, _general, {}, exact=True, wider=("general", "asymmetric")),
+        Model("free", ("ratio", *OMEGA, *ATTITUDE), _general, {}, exact=True, wider=("general", "asymmetric")),
+        Model("elementary", ("ratio", *B, "omega2", *ATTITUDE), _elementary, {}, wider=("general", "asymmetric")),
         Model(
             "top", ("I3", "k2", "k3", "linear", "quadratic", *DIRECTION, *OMEGA, *ATTITUDE), _top,
             {"n1": 0.0, "n2": 0.0, "n3": 1.0},
         ),
-        Model("elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0}, slow=True),
+        Model(
+            "elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0},
+            slow=True, wider=("asymmetric",),
+        ),
         Model("asymmetric", ("I1", "I3", *_FIELD), _asymmetric, {}, exact=True, slow=True),
     )
 }  # fmt: skip

@@ -317,7 +317,9 @@ class Fit:
 def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:
     """Return what speaks against the family."""
     out = []
-    data = problem.data
+    data, wider = problem.data, problem.model.wider
+    other = "the family is not that of the motion ("
+    other += f"family {' or '.join(wider)} is wider; drag, a second field)" if wider else "drag, a second field)"
     off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
     if off > FOLLOWED * data.spread:
         out.append(
@@ -326,8 +328,8 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
         )
     if data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
         reason = (
-            "the family is not that of the motion (drag, a second field), sigma is too small, or this is a false "
-            "minimum, as there are where a nutation is small: give a start by params (--start)"
+            f"{other}, sigma is too small, or this is a false minimum, as there are where a nutation is small: give a "
+            "start by params (--start)"
             if redchi > 1
             else "sigma is too large"
         )
@@ -336,7 +338,7 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
     if abs(correlation) > SURPRISE / np.sqrt(r.size):
         out.append(
             f"Neighbouring residuals are correlated ({correlation:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is "
-            "expected): the family is not that of the motion (drag, a second field), or the noise is not white."
+            f"expected): {other}, or the noise is not white."
         )
     return out
 
