@@ -21,7 +21,10 @@ WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
 PIECES = 32
 """Of a period at first: near a separatrix most of it is spent at one end."""
+NARROW, NARROWEST = 1e-3, 2.0**-40
+"""Widths of the interval, in parts of omega3, from which on it is counted from omega3, and is too small for doubles."""
 Ends: TypeAlias = tuple[float, float]
+Function: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
 def scene(
@@ -32,7 +35,10 @@ def scene(
     turns: float = 2.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw Q, V and Omega3(t), over ``turns`` oscillations, for the initial angular velocity ``omega``."""
+    """Draw Q, V and Omega3(t), over ``turns`` oscillations, for the initial angular velocity ``omega``.
+
+    An oscillation that is small beside omega3 is drawn from there.
+    """
     oscillator = PseudoOscillator(ratio, field, omega)
     motion = GeneralMotion(ratio, field, omega)
     low, high = motion.turning_points
@@ -40,11 +46,22 @@ def scene(
         raise DomainError(f"From omega = {omega} the motion runs on a separatrix: it has no period to be drawn.")
     rest = high == low
     span = (high - low) or max(np.abs((*omega, *field))) or 1.0
-    view = window(oscillator, (low, high), span)
-    allowed = rf"{tex(low)}\le\Omega_3\le {tex(high)}"
+    if high - low < NARROWEST * abs(omega[2]) and str(motion.kind).startswith("nutation"):
+        raise DomainError("figure pseudo_oscillator draws a nutation, and that of this motion is too small to be seen.")
+    zero = float(omega[2]) if high - low < NARROW * abs(omega[2]) and not rest else 0.0
+    view = window(oscillator, (low, high), span, zero)
+    symbol = r"\Omega_3-\omega_3" if zero else r"\Omega_3"
+    low, high = low - zero, high - zero
+    allowed = rf"{tex(low)}\le{symbol}\le {tex(high)}"
     still = "The motion is at equilibrium: $\\Omega_3$ is constant. "
     period = rf"It oscillates in ${allowed}$ with the period $T{tex_equals(motion.period)}$. "
-    spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {plain(low)} and {plain(high)}"
+    ends = f"{plain(low)} and {plain(high)}{f' off {plain(zero)}' if zero else ''}"
+    spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {ends}"
+
+    def Q(u: FloatArray) -> FloatArray:
+        return np.asarray(oscillator.quartic(zero + u))
+
+    start = np.array([oscillator.omega3 - zero, (oscillator.omega1 * oscillator.B2) ** 2])
     return Scene(
         title=title(__doc__),
         caption=(
@@ -61,9 +78,9 @@ def scene(
             f"interval; Omega 3 over time. {spoken}."
         ),
         panels=(
-            quartic(oscillator, (low, high), view, unit),
-            potential(oscillator, (low, high), view, unit),
-            course(motion, turns, view, unit),
+            quartic(Q, start, (low, high), view, f"${symbol}$ (1/{unit})", unit),
+            potential(Q, start, (low, high), view, f"${symbol}$ (1/{unit})", unit),
+            course(motion, turns, (low, high), view, zero, f"${symbol}$ (1/{unit})", unit),
         ),
         columns=3,
         named={"shaded": "region"},
@@ -71,8 +88,8 @@ def scene(
     )
 
 
-def window(oscillator: PseudoOscillator, allowed: Ends, span: float) -> Ends:
-    """Return the interval of Omega3 to show: the allowed one, and the extrema of Q near it that are of its size."""
+def window(oscillator: PseudoOscillator, allowed: Ends, span: float, zero: float) -> Ends:
+    """Return the interval of Omega3 - zero to show: the allowed one, and the extrema of Q near it of its size."""
     slope = np.polynomial.Polynomial(oscillator.coefficients).trim()
     extrema = slope.roots() if slope.degree() else np.empty(0)
     real = np.sort(extrema[np.isreal(extrema)].real)
@@ -81,35 +98,31 @@ def window(oscillator: PseudoOscillator, allowed: Ends, span: float) -> Ends:
     near = [u for u in real if abs(u - sum(allowed) / 2) < 3 * span and abs(oscillator.quartic(u)) <= 3 * top]
     low, high = min(allowed[0], *near, allowed[0]), max(allowed[1], *near, allowed[1])
     pad = max(0.5 * span, 0.25 * (high - low))
-    return low - pad, high + pad
+    return low - zero - pad, high - zero + pad
 
 
-def quartic(oscillator: PseudoOscillator, allowed: Ends, view: Ends, unit: str) -> Plane:
+def quartic(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: str, unit: str) -> Plane:
     """Panel (a): the quartic, its zeros and the allowed interval."""
-    inner = oscillator.quartic(np.linspace(*allowed, 65))
-    top = float(max(inner.max(), 0.02 * np.abs(oscillator.quartic(np.array(view))).max())) or 1.0
+    inner = Q(np.linspace(*allowed, 65))
+    top = float(max(inner.max(), 0.02 * np.abs(Q(np.array(view))).max())) or 1.0
     limits = (-1.1 * top, 1.6 * top)
     layers: list[Layer] = [
         Region(band(allowed, limits), "region"),
         Curve(np.array([[view[0], 0.0], [view[1], 0.0]]), "guide"),
-        Curve(graph(oscillator.quartic, view, limits), "main"),
+        Curve(graph(Q, view, limits), "main"),
         Points(np.stack([allowed, np.zeros(2)], axis=1), "rest"),
-        Points(np.array([[oscillator.omega3, (oscillator.omega1 * oscillator.B2) ** 2]]), "start"),
+        Points(start[None], "start"),
     ]
-    return Plane(
-        tuple(layers), r"$\Omega_3$" + f" (1/{unit})", rf"$Q$ (1/{unit}$^4$)", view, limits, title="(a) first integral"
-    )
+    return Plane(tuple(layers), x_label, rf"$Q$ (1/{unit}$^4$)", view, limits, title="(a) first integral")
 
 
-def potential(oscillator: PseudoOscillator, allowed: Ends, view: Ends, unit: str) -> Plane:
-    """Panel (b): the potential, counted from its value at the start, and the level of the motion."""
-    a0, a1, a2, a3 = oscillator.coefficients
-    powers = np.polynomial.Polynomial([0.0, -a0, -a1 / 2, -a2 / 3, -a3 / 4])
+def potential(Q: Function, start: FloatArray, allowed: Ends, view: Ends, x_label: str, unit: str) -> Plane:
+    """Panel (b): the potential, counted from its value at the start, and the level of the motion: Q + 2 V = 2 level."""
+    level = float(start[1]) / 2
 
     def V(u: FloatArray) -> FloatArray:
-        return np.asarray(powers(u) - powers(oscillator.omega3))
+        return level - Q(u) / 2
 
-    level = float(oscillator.omega1 * oscillator.B2) ** 2 / 2
     inner = V(np.linspace(*allowed, 65))
     depth = float(max(level - inner.min(), 0.02 * np.abs(V(np.array(view))).max())) or 1.0
     limits = (level - 1.4 * depth, level + 1.2 * depth)
@@ -119,19 +132,21 @@ def potential(oscillator: PseudoOscillator, allowed: Ends, view: Ends, unit: str
         Curve(graph(V, view, limits), "main"),
         Curve(across, "second"),
         Points(across, "rest"),
-        Points(np.array([[oscillator.omega3, level]]), "start"),
+        Points(np.array([[start[0], level]]), "start"),
     )
-    return Plane(layers, r"$\Omega_3$" + f" (1/{unit})", rf"$V$ (1/{unit}$^4$)", view, limits, title="(b) potential")
+    return Plane(layers, x_label, rf"$V$ (1/{unit}$^4$)", view, limits, title="(b) potential")
 
 
-def course(motion: GeneralMotion, turns: float, view: Ends, unit: str) -> Plane:
+def course(
+    motion: GeneralMotion, turns: float, allowed: Ends, view: Ends, zero: float, y_label: str, unit: str
+) -> Plane:
     """Panel (c): Omega3 over time."""
-    low, high = motion.turning_points
+    low, high = allowed
     pad = 0.15 * (view[1] - view[0])
     limits = (low - pad, high + pad)
 
     def point(t: FloatArray) -> FloatArray:
-        return np.stack([t, motion.angular_velocity(t)[:, 2]], axis=1)
+        return np.stack([t, motion.angular_velocity(t)[:, 2] - zero], axis=1)
 
     if high == low:
         line = np.array([[0.0, low], [1.0, low]])
@@ -144,7 +159,7 @@ def course(motion: GeneralMotion, turns: float, view: Ends, unit: str) -> Plane:
         Curve(line, "main"),
         Points(line[:1], "start"),
     )
-    return Plane(layers, f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", ends, limits, title="(c) course")
+    return Plane(layers, f"$t$ ({unit})", y_label, ends, limits, title="(c) course")
 
 
 def band(interval: Ends, limits: Ends) -> FloatArray:
@@ -153,6 +168,6 @@ def band(interval: Ends, limits: Ends) -> FloatArray:
     return np.array([[a, low], [b, low], [b, high], [a, high]])
 
 
-def graph(function: Callable[[FloatArray], FloatArray], view: Ends, limits: Ends) -> FloatArray:
+def graph(function: Function, view: Ends, limits: Ends) -> FloatArray:
     """Return the graph of a function inside a window."""
     return flat(lambda u: np.stack([u, function(u)], axis=1), *view, (view, limits), SIZE, pieces=32)

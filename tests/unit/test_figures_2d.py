@@ -490,14 +490,25 @@ def test_a_free_spin_stands_in_the_middle_of_its_window() -> None:
     assert (low + high) / 2 == pytest.approx(0.2, rel=8 * EPS)
 
 
-def test_the_potential_is_minus_half_the_quartic() -> None:
-    """V is drawn so that level - V = Q/2 at every point: the first integral of (47)."""
+def test_the_potential_is_that_of_the_cubic() -> None:
+    """V is minus the integral of the cubic (47) from the start on, and the level is what Omega3 has there to move."""
     omega = (0.3, 0.7, 0.2)
     scene = load("pseudo_oscillator").scene(omega=omega)
     panel = scene.panels[1]
     (line,), (level,) = curves(panel, "main"), curves(panel, "second")
-    half = PseudoOscillator(1.5, (1.0, 2.0), omega).quartic(line[:, 0]) / 2
-    assert np.abs(level[0, 1] - line[:, 1] - half).max() <= 1e-13 * np.abs(line[:, 1]).max()
+    V = -np.polynomial.Polynomial(PseudoOscillator(1.5, (1.0, 2.0), omega).coefficients).integ(lbnd=omega[2])
+    assert np.abs(line[:, 1] - V(line[:, 0])).max() <= 1e-13 * np.abs(line[:, 1]).max()
+    assert level[0, 1] == pytest.approx(0.3**2 / 2)
+
+
+def test_a_nutation_that_is_small_beside_the_spin_is_drawn_without_noise() -> None:
+    """A disk at 2 kHz, whose Omega3 varies by 2e-8: V, from there, falls and rises once; below doubles it is refused."""
+    recipe, field = load("pseudo_oscillator"), (0.016, 0.028)
+    (line,) = curves(recipe.scene(ratio=2.0, field=field, omega=(0.0, 0.0, 12566.37)).panels[1], "main")
+    assert np.count_nonzero(np.diff(np.sign(np.diff(line[:, 1])))) == 1
+    assert -3e-8 < line[np.argmin(line[:, 1]), 0] < 0
+    with pytest.raises(DomainError, match="too small"):
+        recipe.scene(ratio=2.0, field=field, omega=(0.0, 0.0, 1e7))
 
 
 def test_points_of_the_quadric_leave_it_at_the_rate_of_the_paper() -> None:
