@@ -278,10 +278,16 @@ def system_of(options: Mapping[str, Any]) -> str:
     Raises click.UsageError for a unit beside another system.
     """
     charged = options["charge"] is not None or options.get("points") is not None
+    typed = in_one_system(options)
+    return options["units"] or ("si" if charged or typed else "natural")
+
+
+def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Measured]]:
+    """Return the numbers with a unit, which is in SI. Raises click.UsageError for one beside another system."""
     typed = measured(options)
     if typed and options["units"] not in {None, "si"}:
         raise click.UsageError(f"{typed[0][1].text} is in SI: leave out --units {options['units']}.")
-    return options["units"] or ("si" if charged or typed else "natural")
+    return typed
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:

@@ -49,11 +49,13 @@ UNKNOWN = (
     "symmetry of the motion."
 )
 
-STARTED = ("general", "asymmetric")
+STARTED = ("general", "asymmetric", "top")
 """Families that take --spin for --omega."""
 
-OTHERWISE = {"general": ("omega",), "asymmetric": ("omega",), "top": ("inertia", "direction"), "particle": ("mu",)}
-"""Parameters that other options may stand for, by family: --heavy or --magnetic, --mass and --charge."""
+OTHERWISE = {
+    "general": ("omega",), "asymmetric": ("omega",), "top": ("inertia", "direction", "omega"), "particle": ("mu",),
+}  # fmt: skip
+"""Parameters that other options may stand for, by family: --spin, --heavy or --magnetic, --mass and --charge."""
 
 CHARGE = ("mass", "charge")
 """Options that may stand for the charge-to-mass ratio of a point charge."""

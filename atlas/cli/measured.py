@@ -15,18 +15,22 @@ UNITS: dict[str, tuple[str, str]] = {
     "m": ("1", "m"), "g": ("1e-3", "kg"), "u": ("1.66053906892e-27", "kg"),
     "s": ("1", "s"), "min": ("60", "s"), "h": ("3600", "s"), "Hz": ("1", "s-1 turn"),
     "C": ("1", "C"), "e": ("1.602176634e-19", "C"), "A": ("1", "C s-1"), "V": ("1", "kg m2 s-2 C-1"),
-    "T": ("1", "kg s-1 C-1"), "G": ("1e-4", "kg s-1 C-1"), "rad": ("1", ""), "deg": ("1", "degree"),
+    "T": ("1", "kg s-1 C-1"), "G": ("1e-4", "kg s-1 C-1"), "N": ("1", "kg m s-2"), "J": ("1", "kg m2 s-2"),
+    "rad": ("1", ""), "deg": ("1", "degree"),
 }  # fmt: skip
 """Units by name: how many of those after it they are. A turn is 2 pi, a degree pi/180."""
 
 ANGLES = {"turn": 2 * math.pi, "degree": math.pi / 180}
 RATE = "rad/s"
-WANTED = dict.fromkeys(("field", "omega", "omega2", "omega3", "spin", "larmor"), RATE) | {
+WANTED: dict[str, str | tuple[str, ...]] = {
+    **dict.fromkeys(("field", "omega", "omega2", "omega3", "spin", "larmor"), RATE),
     "radius": "m", "height": "m", "equatorial": "m", "polar": "m", "position": "m", "velocity": "m/s", "mass": "kg",
     "charge": "C", "mu": "C/kg", "magnetic": "T", "electric": "V/m", "momentum": "kg m2/s", "times": "s",
-    "inertia": "kg m2", "tensor": "kg m2", "density": "kg/m3", "angle": "rad",
+    "inertia": "kg m2", "tensor": "kg m2", "density": "kg/m3", "angle": "rad", "heavy": ("m/s2", "m"),
+    "coupling": "kg m2/s", "linear": "J", "quadratic": "J", "charged": "C m2", "moment": "A m2",
+    "polarizability": "A m2/T",
 }  # fmt: skip
-"""The unit of SI in which an option is, by its name."""
+"""The unit of SI in which an option is, by its name; of each of its numbers, where they are not alike."""
 
 FACTOR = re.compile(r"([*/ ]?)([^\W\d]+)(?:(?:\^|\*\*)?(-?\d))?")
 NUMBER = re.compile(
@@ -41,18 +45,21 @@ def split(text: str) -> tuple[str, str] | None:
     return (match[1], match[2]) if match else None
 
 
-def in_si(number: Fraction, unit: str, option: str) -> tuple[float, Fraction | None]:
-    """Return a number of units in the unit of an option, and exactly, None where that has pi in it.
+def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[float, Fraction | None]:
+    """Return a number of units in the unit of an option, at its place there, and exactly, None where that has pi in it.
 
     Raises AtlasError for a unit that there is not, or of another quantity.
     """
     factor, powers = _parsed(unit)
-    wanted = _parsed(WANTED[option])[1] if option in WANTED else None
+    units = WANTED.get(option, ())
+    known = (units,) if isinstance(units, str) else units
+    wanted = _parsed(known[min(place, len(known) - 1)])[1] if known else None
     angle = {name: powers.pop(name) for name in ANGLES if powers.get(name)}
     allowed = {"turn": WANTED.get(option) == RATE or option == "times", "degree": option in ("angle", *WANTED)}
     if powers != wanted or not all(allowed[name] for name in angle):
-        right = f"--{option} is in {WANTED[option]}" if wanted is not None else f"--{option} has no unit"
-        other = next((name for name, unit_of in WANTED.items() if _parsed(unit_of)[1] == powers), None)
+        right = f"--{option} is in {' and '.join(known)}" if known else f"--{option} has no unit"
+        alike = (name for name, units in WANTED.items() if isinstance(units, str) and _parsed(units)[1] == powers)
+        other = next(alike, None)
         hint = f", as --{other} may be" if other and not angle else ""
         raise AtlasError(f"{right}, or what can be made of it, not in {unit.strip()!r}{hint}.")
     value = number * factor

@@ -84,12 +84,12 @@ class Measured(Typed):
     exact: "Fraction | None"
 
     @classmethod
-    def of(cls, text: str, option: str) -> Self | None:
+    def of(cls, text: str, option: str, place: int = 0) -> Self | None:
         """Read a number with a unit; None where there is none. AtlasError for a unit that does not fit the option."""
         parts = split(text) if len(text) <= LONGEST else None
         if parts is None:
             return None
-        value, exact = in_si(_fraction(parts[0]), parts[1], option)
+        value, exact = in_si(_fraction(parts[0]), parts[1], option, place)
         number = float.__new__(cls, value)
         number.text, number.exact = text, exact
         return number
@@ -108,9 +108,12 @@ def _fraction(value: str | float) -> "Fraction":
 
 
 class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
-    """A finite real number."""
+    """A finite real number, the one at a place of an option whose numbers have different units."""
 
     name = "number"
+
+    def __init__(self, place: int = 0) -> None:
+        self.place = place
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
         """Turn what was typed into a number, or say what is wrong with it."""
@@ -118,7 +121,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         if (parts := UNCERTAIN.fullmatch(text)) is not None:
             return self._with_sigma(text, parts, param, ctx)
         try:
-            number: Typed = Measured.of(text, str(param.name) if param else "") or Typed(text)
+            number: Typed = Measured.of(text, str(param.name) if param else "", self.place) or Typed(text)
         except AtlasError as error:
             self.fail(str(error), param, ctx)
         except OverflowError:

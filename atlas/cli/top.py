@@ -6,8 +6,8 @@ from typing import Any
 
 import click
 
-from atlas.cli.body import SECONDS, SIZES, F, one_of
-from atlas.cli.options import REAL, stack
+from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, start_of, units_of
+from atlas.cli.options import REAL, Real, stack
 from atlas.cli.points import columns_of
 
 WAYS = ("heavy", "magnetic")
@@ -16,8 +16,8 @@ CHARGES = ("charged", "coat", "points")
 OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polarizability", "units")
 
 top_options: Callable[[F], F] = stack(
-    click.option("--heavy", type=REAL, nargs=2, metavar="G L", help="Lagrange's top: gravity, and the distance of the "
-                 "centre of mass along the axis from the point at which the body is held, in SI. Needs --mass, but "
+    click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Lagrange's top: gravity, and the distance of "
+                 "the centre of mass along the axis from the point at which the body is held, in SI. Needs --mass, but "
                  "with --points."),
     click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="A charged body in this magnetic field, which "
                  "is the direction too. Needs --charged, --coat or --points. With --heavy, a charged heavy top, up is "
@@ -49,7 +49,7 @@ def given_otherwise(options: Mapping[str, Any]) -> bool:
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
     """Return what the units of times and rates are: seconds in SI and in Gaussian units."""
-    return SECONDS if given_otherwise(options) else {}
+    return SECONDS if given_otherwise(options) else units_of({**options, "magnetic": None})
 
 
 def needs_no_way(options: Mapping[str, Any]) -> None:
@@ -71,7 +71,7 @@ def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
     """Return what was given, and what the top has from it."""
     top = chosen_top(options)
-    typed = top_parameters(options) | {"omega": options["omega"]}
+    typed = top_parameters(options) | {name: options[name] for name in ("omega", "spin") if options[name] is not None}
     typed |= {} if options["direction"] is None else {"direction": options["direction"]}
     return typed | {"top": {name: getattr(top, name) for name in names}}
 
@@ -84,7 +84,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
     for name in ("coupling", "linear", "quadratic"):
         if any(options[name] if isinstance(options[name], tuple) else [options[name]]):
             raise click.UsageError(f"--{name} has no place beside --heavy or --magnetic, from which it is computed.")
-    omega = tuple(map(float, options["omega"]))
+    omega = tuple(map(float, start_of(options)))
     if options["magnetic"] is not None:
         return _charged(options, omega)
     _nothing_of(options, (*OF_CHARGED, "points"), "--magnetic", "--heavy")
@@ -108,6 +108,7 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
     from atlas.core.bodies.body import SymmetricBody
     from atlas.core.motions.top import TopMotion
 
+    in_one_system(options)
     field, body, length, weight = _pair(options["magnetic"]), _body(options), None, (0.0, 0.0)
     if options["heavy"] is not None:
         n2, n3 = _pair(options["direction"] or field)

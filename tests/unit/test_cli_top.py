@@ -1,6 +1,7 @@
 """``atlas top`` with a heavy or a charged body: what Python makes of the same, units, and what is wrong in a line."""
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,25 @@ def test_a_heavy_top_from_body_gravity_and_length_is_that_of_python() -> None:
     text = CliRunner().invoke(TOP, HEAVY.split()).stdout
     assert "1/s" in text
     assert "1/time" not in text
+
+
+def test_a_top_takes_numbers_with_units_and_a_spin() -> None:
+    """Gravity and the distance each in its own unit, in this order; a spin in Hz; none beside Gaussian units."""
+    plain = record("--shape disk --radius 0.03 --mass 0.1 --heavy 9.81 0.04 --direction 0.3 1 --omega 0 0 150")
+    typed = record("--shape disk --radius 3cm --mass 100g --heavy 981cm/s2 4cm --direction 0.3 1 --spin 150rad/s")
+    assert typed["period"] == pytest.approx(plain["period"], rel=1e-14)
+    by_energy = record("--inertia 1e-5kg*m2 5e-6kg*m2 --direction 0.6 0.8 --linear 15mJ --spin 40Hz")
+    assert (
+        by_energy["period"]
+        == atlas.TopMotion((1e-5, 5e-6), (0, 0), (0.6, 0.8), (0, 0, 80 * math.pi), linear=0.015).period
+    )
+    swapped = HEAVY.replace("9.81 0.04", "4cm 9.81m/s2")
+    both = HEAVY + " --spin 2"
+    gaussian = "--inertia 2 1 --charged 1 2 --magnetic 1T 1T --spin 9 --units gaussian"
+    for words, says in ((swapped, "m/s2 and m"), (both, "--spin"), (gaussian, "is in SI")):
+        found = CliRunner().invoke(TOP, words.split())
+        assert found.exit_code == 2, words
+        assert says in found.output, words
 
 
 def test_a_charged_top_takes_moments_in_si_or_in_gaussian_units() -> None:
