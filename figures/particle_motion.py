@@ -10,7 +10,7 @@ from atlas.core.inputs import FloatArray, positive
 from atlas.core.motions.particle import ParticleMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
 from atlas.scene.any_motion import course
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import plain, plain_vector, tex, tex_equals, tex_vector, title
 from atlas.scene.quadric_panel import tolerance
 from atlas.scene.sample import curve
 
@@ -30,6 +30,7 @@ def scene(
     azimuth: float = -65.0,
     elevation: float = 28.0,
     unit: str = "time",
+    length: str = "length",
 ) -> Scene:
     """Draw path and velocity over ``turns`` turns; without a magnetic field, while E doubles or makes the speed."""
     particle = ParticleMotion(mu, electric, magnetic, position, velocity, c)
@@ -47,10 +48,10 @@ def scene(
         if any(vector):
             layers.append(Arrow(line[0], line[0] + 0.4 * np.array(vector) / np.linalg.norm(vector), role, name))
     fields = rf"$\mathbf{{E}}={tex_vector(electric)}$, $\mathbf{{B}}={tex_vector(magnetic)}$"
-    time = plain(float(f"{stop:.3g}"))
+    until = tex_equals(float(f"{stop:.3g}"))
     return Scene(
         title=title(__doc__),
-        caption=rf"(a) The path of a particle ({particle.kind}) up to $t={time}$; the arrows are not to scale. (b) Its "
+        caption=rf"(a) The path of a particle ({particle.kind}) up to $t{until}$; the arrows are not to scale. (b) Its "
         rf"velocity, at the dot ${tex_vector(velocity)}$. {particle.case.capitalize()}: $\mu={tex(mu)}$, {fields}.",
         alt=f"The path in space of a particle with mu = {plain(mu)} in E = {plain_vector(electric)} and B = "
         f"{plain_vector(magnetic)}, and the three components of its velocity over time.",
@@ -58,7 +59,7 @@ def scene(
             Space(tuple(layers), azimuth=azimuth, elevation=elevation, title="(a) path"),
             course(
                 particle.velocity, tuple(f"$v_{i}$" for i in (1, 2, 3)), stop, f"$t$ ({unit})",
-                rf"$\mathbf{{v}}$ (length/{unit})", "(b) velocity", size=(SIZE[0] / 2, SIZE[1]), pieces=pieces,
+                rf"$\mathbf{{v}}$ ({length}/{unit})", "(b) velocity", size=(SIZE[0] / 2, SIZE[1]), pieces=pieces,
             ),
         ),
         columns=2,

@@ -215,6 +215,8 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     }
     values |= {"c": options_asked["c"]} if "c" in options_asked else {}
     records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}
+    if "c" in options_asked and (units := body.system_of(options)) != "natural":
+        records = {"time": "s", "units": units}
     if in_field(family):
         records = {"time": body.units_of(options).get("time", "time")}
     if "ratio" in options_asked:

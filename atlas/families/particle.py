@@ -34,11 +34,20 @@ FAMILY = Family(
     _balls,
     (
         Parameter("mu", "Charge-to-mass ratio, either sign.", "charge/mass", (1.0,), (-3.0, 3.0)),
-        _vector("electric", "E", "field", (0.2, 0.5, 0.0), "Electric field E; zero when left out."),
-        _vector("magnetic", "B", "field", (0.0, 0.0, 1.0), "Magnetic field B; zero when left out."),
+        _vector("electric", "E", "electric field", (0.2, 0.5, 0.0), "Electric field E; zero when left out."),
+        _vector("magnetic", "B", "magnetic field", (0.0, 0.0, 1.0), "Magnetic field B; zero when left out."),
         _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0; the origin when left out."),
         _vector("velocity", "v", SPEED, (1.0, 0.0, 0.0), "Velocity at t = 0; zero when left out."),
-        Parameter("c", "Speed of light.", SPEED, (1.0,), (0.5, 2.0), needed=False, omitted=1.0, option=False),
+        Parameter(
+            "c",
+            "Speed of light, 1 in SI.",
+            "speed of light",
+            (1.0,),
+            (0.5, 2.0),
+            needed=False,
+            omitted=1.0,
+            option=False,
+        ),
     ),
     (
         Quantity("case", "name of the case", printed=False),

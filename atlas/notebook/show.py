@@ -56,7 +56,7 @@ def rows(shown: Shown) -> Sequence[Row]:
     several = bool(getattr(shown, "shape", ()))
     if family is None or several or shown.made_by or len(values) != len(family.parameters):
         return ()
-    thing = Thing(family, {}, values, values, "time", described=False)
+    thing = Thing(family, {}, values, values, {}, described=False)
     return [row for q in family.quantities for row in rows_of(thing, q, DIGITS) if row[2] != NONE]
 
 

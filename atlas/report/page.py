@@ -29,6 +29,7 @@ class Asked:
 
     options   the options that say which object it is, each with what was typed, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
+    units     the system of units, si or gaussian, of a family whose parameters have different units
     values    the other parameters of the family
     called    the name of its files, if it has one of its own
     note      a sentence on its axes
@@ -40,6 +41,7 @@ class Asked:
     body: Mapping[str, Any] | None = None
     field: Mapping[str, Any] | None = None
     time: str = "time"
+    units: str = ""
     digits: int = 10
     title: str = ""
     called: str = ""
@@ -164,6 +166,7 @@ def _calls(asked: Asked, family: Family) -> dict[str, str]:
 
 def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
     unit = {"time": asked.time} if asked.time != "time" else {}
+    unit = {"units": asked.units} if asked.units else unit
     return {
         "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(asked, FAMILIES[family]),
         "digits": asked.digits, "parameters": {"family": family, **values, **unit},
@@ -198,6 +201,7 @@ def _setting() -> dict[str, Any]:
 
 def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the figures that take the numbers, and note of the others why they don't."""
+    from atlas.core.bodies.units import system
     from atlas.scene import recipes
 
     case = _case(asked)
@@ -206,6 +210,8 @@ def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
         values = {key: value for key, value in asked.values.items() if key in recipe.parameters}
         if recipe.parameters.get("unit") == "time":
             values["unit"] = asked.time
+        if asked.units and "length" in recipe.parameters:
+            values["length"] = system(asked.units).length_unit
         parameters = {"ratio": case.ratio, "field": case.components} if asked.body else {}
         try:
             recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)

@@ -264,6 +264,20 @@ def test_a_negative_field_keeps_its_sign_in_si(unbuilt: Callable[[str], dict[str
 
 
 @pytest.mark.parametrize(
+    ("units", "names"), [("si", "C/kg V/m T m m/s 1"), ("gaussian", "statC/g statV/cm G cm cm/s cm/s")]
+)
+def test_a_point_charge_has_the_units_that_it_was_given_in(
+    unbuilt: Callable[[str], dict[str, Any]], units: str, names: str
+) -> None:
+    """Each parameter has its own unit, and the velocity in the figure."""
+    record = unbuilt(f"particle --mu 5 --electric 1 0 0 --magnetic 0 0 2 --velocity 1 0 0 --units {units}")
+    table, figure = (block["parameters"] for block in record["pages"][0]["blocks"] if "parameters" in block)
+    shown = {row[1]: row[3] for row in compute("properties", Request([body_and_field(None, None)], table, 8)).rows}
+    assert [shown[f"`{name}`"] for name in ("mu", "E1", "B1", "y1", "v1", "c")] == names.split()
+    assert f"{figure['length']}/{figure['unit']}" == names.split()[4]
+
+
+@pytest.mark.parametrize(
     "body", ["--points FILE", "--inertia 2 4 --mu 1", "--shape ring --radius 1 --mass 4 --charge 4"]
 )
 def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, Any]], tmp_path: Path, body: str) -> None:

@@ -31,21 +31,22 @@ Row = tuple[str, str, str | Number, str, str, str]
 class Thing:
     """An object of a family: the parameters as given, and how to make it of kernels and of balls.
 
-    `time` is the unit of time, and `described` whether what is given stands in a table.
+    `units` are those of the register by another name, and `described` tells whether what is given stands in a table.
     """
 
     family: Family
     given: Mapping[str, Any]
     floats: tuple[Any, ...]
     exact: tuple[Any, ...]
-    time: str
+    units: Mapping[str, str]
     described: bool
 
     @classmethod
     def of(cls, request: Request) -> "Thing":
         """Read the family and its parameters. Raises AtlasError for what is unknown or missing."""
         rest = dict(request.parameters)
-        name, time, described = rest.pop("family", None), rest.pop("time", "time"), rest.pop("given", True)
+        name, described = rest.pop("family", None), rest.pop("given", True)
+        units = {"time": str(rest.pop("time", "time"))} | _units(rest.pop("units", None))
         if name not in FAMILIES:
             raise unknown("family", str(name), FAMILIES)
         family, case = FAMILIES[name], request.case
@@ -68,7 +69,7 @@ class Thing:
             exact.append(balls)
         if rest:
             raise unknown("parameter", next(iter(rest)), [p.name for p in family.parameters], f"of {name!r}")
-        return cls(family, given, tuple(floats), tuple(exact), str(time), bool(described))
+        return cls(family, given, tuple(floats), tuple(exact), units, bool(described))
 
     def kernels(self) -> Any:
         """Return the object of kernels."""
@@ -79,16 +80,31 @@ class Thing:
         return self.family.balls()(*self.exact)
 
     def unit(self, unit: str) -> str:
-        """Return a unit of the register in TeX, with the unit of time that was asked for."""
-        words = unit.replace("time", self.time)
+        """Return a unit of the register in TeX, by the names that were asked for."""
+        words = unit
+        for name, other in self.units.items():
+            words = words.replace(name, other)
         if words.startswith("1/"):
             base, _, power = words[2:].partition("^")
             return f"{base}^{MINUS}{power or 1}^"
         return re.sub(r"\^(\d)", r"^\1^", words) or "1"
 
 
+def _units(name: Any) -> dict[str, str]:
+    """Return what the units of a system are called, SI or Gaussian. Raises AtlasError for another one."""
+    if name is None:
+        return {}
+    from atlas.core.bodies.units import system
+
+    units = system(name)
+    return {
+        "time": "s", "length": units.length_unit, "charge/mass": units.mu_unit, "electric field": units.E_unit,
+        "magnetic field": units.B_unit, "speed of light": "1" if units.c == 1 else f"{units.length_unit}/s",
+    }  # fmt: skip
+
+
 def properties(request: Request) -> Data:
-    """List the parameters and quantities of one object of a `family`; `time` is the unit of time.
+    """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
 
     With ``given = false`` what is given is left out.
     """
