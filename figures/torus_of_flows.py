@@ -7,7 +7,7 @@ the flow of H for a time T_H, and then that of F/2 for T_F, lead back.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, vector
+from atlas.core.inputs import FloatArray, positive, vector
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, solids
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
@@ -26,13 +26,15 @@ def scene(
     inertia: tuple[float, float, float] = (0.5, 1.0, 1.4),
     field: tuple[float, float, float] = (0.6, 0.6, 0.5),
     omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
-    stop: float = 75.0,
+    turns: float = 18.0,
+    stop: float | None = None,
 ) -> Scene:
-    """Draw the motion that starts with ``omega`` up to the time ``stop``, and one way back to its start."""
+    """Draw the motion from ``omega`` for ``turns`` or up to the time ``stop``, and one way back to its start."""
     first, second = periods(inertia, field, omega)
     area = first[0] * second[1] - first[1] * second[0]
     rates = np.array([[second[1], -first[1]], [-second[0], first[0]]]) * 2 * np.pi / area  # of both angles, H and F/2
     fastest = float(np.abs(rates[0]).max()) / (2 * np.pi)
+    stop = positive(turns, "turns") / fastest if stop is None else stop
     if not 0 < stop <= MOST / fastest:
         raise DomainError(
             f"figure torus_of_flows draws up to {MOST:g} turns: give a stop between 0 and {MOST / fastest:.3g}, not "

@@ -71,5 +71,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=1,
-    figures=("asymmetric_motion",),
+    figures=("asymmetric_motion", "torus_of_flows"),
 )  # fmt: skip

@@ -73,5 +73,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=8192,
-    figures=("general_motion", "larmor_pair", "pseudo_oscillator", "quadric"),
+    figures=("general_motion", "larmor_pair", "pseudo_oscillator", "spectrum", "quadric"),
 )  # fmt: skip

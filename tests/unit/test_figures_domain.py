@@ -97,6 +97,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("quadrics_of_tops", {"direction": (1.0, 0.0)}, "n3 > 0"),
     ("quadrics_of_tops", {"ratio": 0.0}, "(0, 2]"),
     ("quadrics_of_tops", {"ratio": 2.1}, "(0, 2]"),
+    ("pseudo_oscillator", {"omega": (0.0, 0.0, 1e8)}, "too small to be seen"),
     ("ribbon", {"ratio": 1.0}, "I other than 1"),
     ("ribbon", {"field": (-1.0, 1.0)}, "B2, B3 > 0"),
     ("ribbon", {"field": (1.0, -1.0)}, "B2, B3 > 0"),

@@ -106,17 +106,19 @@ def _units(name: Any) -> dict[str, str]:
 def properties(request: Request) -> Data:
     """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
 
-    With ``given = false`` what is given is left out.
+    With ``given = false`` what is given is left out. Why a quantity has no value stands below the table.
     """
     thing = Thing.of(request)
     rows = [*_rows_given(thing)] if thing.described else []
     rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
+    reasons = [f"{name}: {reason}." for _, name, value, _, _, reason in rows if value is NONE]
+    rows = [(*row[:5], "") if row[2] is NONE else row for row in rows]
     says, heading = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
     return Data(
         heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
         tuple(rows),
         f"{says[:1].upper()}{says[1:]}: {heading}.",
-        ("Numbers that are given are taken as the doubles nearest to them, and these as exact.",),
+        ("Numbers that are given are taken as the doubles nearest to them, and these as exact.", *reasons),
     )  # fmt: skip
 
 
