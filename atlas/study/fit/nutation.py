@@ -6,7 +6,8 @@ between axis and field oscillates at another frequency nu, and a small nutation,
     v = e cos(nu t) n + e sin(nu t) / nu (psi B + phi e3),
 
 n across field and axis, psi and phi the derivatives in theta of the rates of precession and spin. A periodogram of what
-an elementary motion leaves of the data, along the valley, tells which nutation there is, and so which body.
+an elementary motion leaves of the data, along the valley, tells which nutation there is, and so which body. Where the
+axis alone is seen, the spin is as free as the ratio, and each frequency is that of some spin.
 """
 
 from typing import Any, NamedTuple
@@ -17,7 +18,7 @@ from scipy.spatial.transform import Rotation
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.study.fit.least import SCORE
-from atlas.study.fit.models import ATTITUDE, OMEGA, B, Values, attitude, in_plane, model_of, state, vector
+from atlas.study.fit.models import ATTITUDE, OMEGA, B, Values, attitude, in_plane, model_of, state, upright, vector
 from atlas.study.fit.problem import Problem, parameters
 from atlas.study.fit.search import grown
 
@@ -38,6 +39,15 @@ APART = 0.01
 
 FINE = 20001
 """Ratios of which the frequencies are computed, from which those are taken."""
+
+SMALL, LEVEL = 0.6, 2.0
+"""Ratios below which one of 1 is tried, and by how much chi square may rise for it."""
+
+STRIDE = 0.4
+"""Largest step on the way there, in the logarithm of the ratio."""
+
+SPUN = 0.2, 1.8
+"""Ratios of bodies whose spins are tried where the axis alone is seen."""
 
 FLAT = 1e-6
 """Sine of the angle between axis and field below which there is no nutation in it."""
@@ -88,26 +98,72 @@ def settled(
     return [(least, level), *tried], words, ""
 
 
+def rounded(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
+    """Return what was tried, before all a body of ratio 1 where the axis alone is seen and follows from that as well.
+
+    The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
+    derivatives at one place do not show how far the field goes with the ratio.
+    """
+    best, x = tried[0]
+    values, ratio = problem.values(x), problem.params.get("ratio")
+    if problem.data.kind != "axis" or not ratio.vary or not ratio.min < 1 < ratio.max or values["ratio"] > SMALL:
+        return tried
+    chi, other = best, x
+    for r in np.geomspace(values["ratio"], 1.0, 2 + int(-np.log(values["ratio"]) / STRIDE))[1:].tolist():
+        params = problem.params.copy()
+        params["ratio"].set(value=r, vary=False)
+        held = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
+        K3 = float(attitude(values)[:, 2] @ vector(values, B))
+        start = values | {"ratio": r, "omega3": (values["omega3"] + K3) * values["ratio"] / r - K3}
+        try:
+            values = held.values(grown(held, held.inside(start), problem.data.t.size))
+            other = problem.inside(values)
+            chi = problem.chi_square(other)
+        except AtlasError:
+            return tried
+    return [(chi, other), *tried] if chi - best < LEVEL * problem.noise(best) else tried
+
+
 def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
     """Return the least squares of elementary motions, and what they lead to from the mean of one that hardly nutates.
 
     Its rates of precession and spin, and its attitude with both turned back, are the means over the times of the data.
+    Where the axis alone is seen, they lead from the circle through the data too, which may have more turns.
     """
-    model, t = model_of("elementary"), problem.data.t
-    named, _ = parameters(model, problem.data, {n: p for n, p in problem.params.items() if n in model.names})
-    other = Problem(model, problem.data, named, problem.loss, problem.rate)
+    model, data, t = model_of("elementary"), problem.data, problem.data.t
+    named, _ = parameters(model, data, {n: p for n, p in problem.params.items() if n in model.names})
+    other = Problem(model, data, named, problem.loss, problem.rate)
     axis, e3 = vector(values, B) / values["b"], np.array([0.0, 0.0, 1.0])
     rates = float(motion.precession_rate), float(motion.spin_rate)
     if not np.isfinite(rates).all():
         raise AtlasError("A separatrix has no mean rates.")
     about, own = (Rotation.from_rotvec(np.outer(-rate * t, n)) for rate, n in zip(rates, (axis, e3), strict=True))
     mean = (about * Rotation.from_matrix(motion.rotation(t)) * own).mean()
-    omega = rates[0] * mean.inv().apply(axis) + rates[1] * e3
-    start = {**values, **dict(zip((*OMEGA, *ATTITUDE), [*omega, *mean.as_rotvec()], strict=True))}
-    with np.errstate(all="ignore"):
-        field = float(_Steady(motion, start).modes(np.array([values["ratio"]])).field[0]) * axis
-    start |= {**dict(zip(B, field, strict=True)), "omega2": float((in_plane(mean.inv().apply(field))[1] @ omega)[1])}
-    return other, grown(other, other.inside(start), t.size)
+    steady = [(axis, rates[0], mean)]
+    if data.kind == "axis":
+        steady.append(_circle(t, data.values))
+    found = []
+    for n, rate, at_rest in steady:
+        omega = rate * at_rest.inv().apply(n) + rates[1] * e3
+        start = {**values, **dict(zip((*B, *OMEGA, *ATTITUDE), [*n, *omega, *at_rest.as_rotvec()], strict=True))}
+        with np.errstate(all="ignore"):
+            field = n * _Steady(motion, start | {"b": 1.0}).modes(np.array([values["ratio"]])).field
+        across = float((in_plane(at_rest.inv().apply(field))[1] @ omega)[1])
+        x = other.inside({**start, **dict(zip(B, field.tolist(), strict=True)), "omega2": across})
+        found.append(grown(other, x, t.size))
+    return other, min(found, key=other.chi_square)
+
+
+def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
+    """Return the direction about which axes (N, 3) go round, their rate, and the shortest turn to where they start."""
+    n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
+    first = np.cross(np.cross(n, axes[0]), n)
+    first /= np.linalg.norm(first) or 1.0
+    second = np.cross(n, first)
+    rate, phase = np.polyfit(t, np.unwrap(np.arctan2(axes @ second, axes @ first)), 1)
+    along = float((axes @ n).mean())
+    start = along * n + np.sqrt(max(1 - along**2, 0.0)) * (np.cos(phase) * first + np.sin(phase) * second)
+    return n, float(rate), Rotation.from_matrix(upright(start))
 
 
 def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> str:
@@ -130,9 +186,10 @@ def _nutation(problem: Problem, x: FloatArray) -> float:
 
 
 class _Modes(NamedTuple):
-    """Small nutations about one elementary motion, of bodies of several ratios, each (M,)."""
+    """Small nutations about one elementary motion, of bodies of several ratios or spins omega3, each (M,)."""
 
     ratio: FloatArray
+    omega3: FloatArray
     field: FloatArray
     """Size of the field, along its direction."""
     frequency: FloatArray
@@ -155,15 +212,16 @@ class _Steady:
         self.cosine, self.sine = K[2], float(np.hypot(K[0], K[1]))
         self.rate = (K[:2] @ self.omega[:2]) / self.sine**2
 
-    def modes(self, r: FloatArray) -> _Modes:
-        """Return the nutation of each ratio, nan where there is none."""
-        k, u, s, w = self.rate, self.cosine, self.sine, self.omega[2]
+    def modes(self, ratio: FloatArray, omega3: FloatArray | None = None) -> _Modes:
+        """Return the nutation of each ratio, of another spin if one is given, nan where there is none."""
+        r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
+        k, u, s = self.rate, self.cosine, self.sine
         b = k * (u * k - r * w) / (r * w + (r - 2) * u * k)
         across = r * w + (r - 2) * b * u - u * k  # the derivative in theta of Omega across the axis, k s
         bend = 2 * b * s + k * s - u * across / s + u * u * k / s
         precession = (across - u * k) / s
         frequency = np.sqrt(across**2 + k * s * bend + r * (b * s) ** 2 + r * w * b * u)
-        return _Modes(r, b, frequency, precession, b * s - u * precession + s * k)
+        return _Modes(r, w, b, frequency, precession, b * s - u * precession + s * k)
 
     def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
         """Return the turns v of unit nutations cos(nu t) and sin(nu t), (N, 2 M, 3)."""
@@ -178,7 +236,8 @@ class _Steady:
         """Return the parameters of a motion with one nutation, of two amplitudes."""
         h = 1e-4 / problem.rate
         back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
-        R, omega = Rotation.from_rotvec(here).as_matrix() @ self.R, self.omega + self.R.T @ (ahead - back) / (2 * h)
+        R, steady = Rotation.from_rotvec(here).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
+        omega = steady + self.R.T @ (ahead - back) / (2 * h)
         field = dict(zip(B, (mode.field[0] * self.axis).tolist(), strict=True))
         return state(
             problem.model, problem.data.kind, {**self.values, **field, "ratio": float(mode.ratio[0])}, R, omega
@@ -196,19 +255,30 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
         return 0, []  # the size of the field is seen, or there is no such angle
     ratio = problem.params["ratio"]
     r = np.linspace(ratio.min, ratio.max, FINE)[1:-1] if ratio.vary else np.array([values["ratio"]])
-    with np.errstate(all="ignore"):
-        modes = steady.modes(r)
     fastest = max(FASTEST * problem.rate, 2 * np.pi * data.t.size / span)
-    there = np.flatnonzero(modes.frequency < fastest)  # no nan
-    if not there.size:
+    with np.errstate(all="ignore"):
+        lines = [steady.modes(r)]
+        if data.kind == "axis":
+            body = float(np.clip(values["ratio"], *SPUN)) if ratio.vary else values["ratio"]
+            lines.append(steady.modes(np.array(body), np.linspace(-0.5, 0.5, FINE) * fastest / body))
+    apart = [part for line in lines for part in _apart(line, fastest, span)]
+    if not apart:
         return 0, []
-    passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[there])))) * span
-    marks = np.arange(0.0, passed[-1], max(PHASE, passed[-1] / MOST)) if there.size > 1 else np.zeros(1)
-    modes = modes.part(there[np.searchsorted(passed, marks)])
+    modes = _Modes(*map(np.concatenate, zip(*apart, strict=True)))
     falls, sizes = _periodogram(problem, steady, modes, problem.inside(values), J)
     higher = np.r_[True, falls[1:] > falls[:-1]] & np.r_[falls[:-1] >= falls[1:], True]
     best = sorted(np.flatnonzero(higher), key=lambda i: -falls[i])[:PEAKS]
-    return marks.size, [(float(falls[i]), steady.beside(problem, modes.part([i]), sizes[i])) for i in best]
+    return falls.size, [(float(falls[i]), steady.beside(problem, modes.part([i]), sizes[i])) for i in best]
+
+
+def _apart(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
+    """Return those of a row of nutations below a frequency that differ by `PHASE` over the times; none if none is."""
+    there = np.flatnonzero(modes.frequency < fastest)  # no nan
+    if not there.size:
+        return []
+    passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[there])))) * span
+    marks = np.arange(0.0, passed[-1], max(PHASE, passed[-1] / MOST)) if there.size > 1 else np.zeros(1)
+    return [modes.part(there[np.searchsorted(passed, marks)])]
 
 
 def _periodogram(

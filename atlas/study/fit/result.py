@@ -321,12 +321,13 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
     other = "the family is not that of the motion ("
     other += f"family {' or '.join(wider)} is wider; drag, a second field)" if wider else "drag, a second field)"
     off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
-    if off > FOLLOWED * data.spread:
+    surprising = data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free)
+    if off > FOLLOWED * data.spread and (surprising or not data.known):
         out.append(
             "The motion does not follow the data: give a start by params (--start), fix what is known, or measure more "
             "densely somewhere."
         )
-    if data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free) and problem.loss == "linear":
+    if surprising and problem.loss == "linear":
         reason = (
             f"{other}, sigma is too small, or this is a false minimum, as there are where a nutation is small: give a "
             "start by params (--start)"
