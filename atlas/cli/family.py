@@ -49,9 +49,6 @@ UNKNOWN = (
     "symmetry of the motion."
 )
 
-STARTED = ("general", "asymmetric", "top")
-"""Families that take --spin for --omega."""
-
 OTHERWISE = {
     "general": ("omega",), "asymmetric": ("omega",), "top": ("inertia", "direction", "omega"), "particle": ("mu",),
 }  # fmt: skip
@@ -427,7 +424,7 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
-        *([body.spin_option] if family.name in STARTED else []),
+        *([body.spin_option] if "omega" in OTHERWISE.get(family.name, ()) else []),
         *([body.tensor_option, body.attitude_option, body.curve_option] if family.name == "asymmetric" else []),
         *([top_options] if ways else []),
         *([charge_options, units_option] if "c" in names else []),

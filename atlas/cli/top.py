@@ -49,7 +49,7 @@ def given_otherwise(options: Mapping[str, Any]) -> bool:
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
     """Return what the units of times and rates are: seconds in SI and in Gaussian units."""
-    return SECONDS if given_otherwise(options) else units_of({**options, "magnetic": None})
+    return SECONDS if given_otherwise(options) else units_of(options)
 
 
 def needs_no_way(options: Mapping[str, Any]) -> None:

@@ -165,8 +165,7 @@ def _calls(asked: Asked, family: Family) -> dict[str, str]:
 
 
 def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    unit = {"time": asked.time} if asked.time != "time" else {}
-    unit = {"units": asked.units} if asked.units else unit
+    unit = {"units": asked.units} if asked.units else {"time": asked.time} if asked.time != "time" else {}
     return {
         "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(asked, FAMILIES[family]),
         "digits": asked.digits, "parameters": {"family": family, **values, **unit},

@@ -42,12 +42,12 @@ class Made(NamedTuple):
 def made(
     rng: np.random.Generator, *, kind: str = "rotation", count: int = 500, span: float = 200.0, noise: float = 0.01,
     even: bool = False, known: bool = True, outliers: float = 0.0, family: str = "general", spin: float = 1.5,
-    whirl: float = 0.0,
+    omega3: float = 0.0,
 ) -> Made:  # fmt: skip
     """Return a measurement of a random motion."""
     I1, I3 = _moments(rng, family)
     B = np.zeros(3) if family == "free" else rng.normal(size=3)
-    w, A = rng.normal(size=3) * spin + np.array([0.0, 0.0, whirl]), Rotation.random(random_state=rng)
+    w, A = rng.normal(size=3) * spin + np.array([0.0, 0.0, omega3]), Rotation.random(random_state=rng)
     t = np.linspace(0, span, count) if even else np.sort(rng.uniform(0, span, count))
     truth = {"ratio": I3, "I1": I1, "I3": I3, "b": float(np.linalg.norm(B))}
     if family == "elementary":
@@ -123,7 +123,7 @@ KINDS: dict[str, Callable[[np.random.Generator], Made]] = {
     "general, sigma unknown": lambda rng: made(rng, even=True, known=False),
     "general, outliers 5 %": lambda rng: made(rng, outliers=0.05),
     "general, axes": lambda rng: made(rng, kind="axis", span=120.0),
-    "general, axes of fast spins": lambda rng: made(rng, kind="axis", span=20.0, whirl=30.0),
+    "general, axes of fast spins": lambda rng: made(rng, kind="axis", span=20.0, omega3=30.0),
     "general, rates": lambda rng: made(rng, kind="angular_velocity", span=100.0),
     "general, fields": lambda rng: made(rng, kind="field_in_body", span=100.0),
     "ball, attitudes": lambda rng: made(rng, family="ball"),

@@ -151,6 +151,29 @@ def test_a_wider_family_is_named() -> None:
     assert not atlas.fit(t, "asymmetric", rotation=R, sigma=1e-3).undetermined
 
 
+def test_the_small_nutation_of_a_fast_spin_is_found_in_axes() -> None:
+    """A spin of 30 that nutates by a hundredth: chi square is that of noise, the momentum along the axis is right."""
+    rng = np.random.default_rng(5)
+    t = np.arange(400) * 1e-2
+    true = atlas.GeneralMotion(1.8, (0.6, 0.8), omega=(0.2, 0.5, 30.0))
+    n = true.third_axis(t) + rng.normal(0, NOISE, (t.size, 3))
+    found = atlas.fit(t, axis=n, sigma=NOISE)
+    assert abs(found.redchi - 1) < 0.3
+    K3 = float(found.motion.field_in_body(0.0)[2])
+    momentum = found.params["ratio"].value * (abs(found.params["omega3"].value) + K3)
+    assert momentum == pytest.approx(1.8 * 30.8, rel=0.1)
+
+
+def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
+    """Noise as large as the changes of the rates is no doubt where chi square is what it should be."""
+    rng, t = np.random.default_rng(0), np.linspace(0.0, 40.0, 400)
+    true = atlas.GeneralMotion(RATIO, FIELD[1:], omega=OMEGA).angular_velocity(t)
+    sigma = 0.3 * float(true.std(0).max())
+    found = atlas.fit(t, angular_velocity=true + rng.normal(0, sigma, true.shape), sigma=sigma)
+    assert abs(found.redchi - 1) < 0.2
+    assert not found.doubts
+
+
 def test_bounds_and_expressions_are_kept() -> None:
     """As lmfit has them: what is tied follows, and is none of the varied ones."""
     t, R = measured("rotation", 80, 15.0)

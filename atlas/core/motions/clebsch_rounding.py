@@ -51,9 +51,9 @@ def quotients(
 ) -> tuple[Array, list[Array], FloatArray, FloatArray]:
     """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and how far y may be from there.
 
-    `value` (n, m) are the forms, `slopes` two of these by exponents, which are `by_phases` (2, 2) @
-    phases, `bends` bounds on the sums of second derivatives by phases. The least |D| may be negative: then nothing is
-    known.
+    `value` (n, m) are the forms, `slopes` two of these by exponents, which are `by_phases`
+    (2, 2) @ phases, `bends` bounds on the sums of second derivatives by phases. The least |D| may be negative: then
+    nothing is known.
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]

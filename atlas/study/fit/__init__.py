@@ -11,7 +11,7 @@ from atlas.errors import AtlasError
 from atlas.study.fit.data import of_arrays, of_file
 from atlas.study.fit.free import freely
 from atlas.study.fit.models import model_of
-from atlas.study.fit.nutation import rounded, settled
+from atlas.study.fit.nutation import of_ratio_one, settled
 from atlas.study.fit.problem import Problem, lag, parameters
 from atlas.study.fit.result import FOLLOWED, Fit
 from atlas.study.fit.search import grown, rate_of, tries
@@ -104,7 +104,7 @@ def fit(
     steady = doubt = ""
     if model.name == "general":
         tried, steady, doubt = settled(problem, tried, good=_good(problem, tried[0][1]))
-        tried = rounded(problem, tried)
+        tried = tried if steady else of_ratio_one(problem, tried)
     elif model.name == "asymmetric":
         tried, steady = freely(problem, tried)
     return Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)

@@ -46,7 +46,7 @@ SMALL, LEVEL = 0.6, 2.0
 STRIDE = 0.4
 """Largest step on the way there, in the logarithm of the ratio."""
 
-SPUN = 0.2, 1.8
+MODERATE = 0.2, 1.8
 """Ratios of bodies whose spins are tried where the axis alone is seen."""
 
 FLAT = 1e-6
@@ -98,14 +98,14 @@ def settled(
     return [(least, level), *tried], words, ""
 
 
-def rounded(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
+def of_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
     """Return what was tried, before all a body of ratio 1 where the axis alone is seen and follows from that as well.
 
     The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
     derivatives at one place do not show how far the field goes with the ratio.
     """
     best, x = tried[0]
-    values, ratio = problem.values(x), problem.params.get("ratio")
+    values, ratio = problem.values(x), problem.params["ratio"]
     if problem.data.kind != "axis" or not ratio.vary or not ratio.min < 1 < ratio.max or values["ratio"] > SMALL:
         return tried
     chi, other = best, x
@@ -259,19 +259,19 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
     with np.errstate(all="ignore"):
         lines = [steady.modes(r)]
         if data.kind == "axis":
-            body = float(np.clip(values["ratio"], *SPUN)) if ratio.vary else values["ratio"]
+            body = float(np.clip(values["ratio"], *MODERATE)) if ratio.vary else values["ratio"]
             lines.append(steady.modes(np.array(body), np.linspace(-0.5, 0.5, FINE) * fastest / body))
-    apart = [part for line in lines for part in _apart(line, fastest, span)]
-    if not apart:
+    spaced = [part for line in lines for part in _spaced(line, fastest, span)]
+    if not spaced:
         return 0, []
-    modes = _Modes(*map(np.concatenate, zip(*apart, strict=True)))
+    modes = _Modes(*map(np.concatenate, zip(*spaced, strict=True)))
     falls, sizes = _periodogram(problem, steady, modes, problem.inside(values), J)
     higher = np.r_[True, falls[1:] > falls[:-1]] & np.r_[falls[:-1] >= falls[1:], True]
     best = sorted(np.flatnonzero(higher), key=lambda i: -falls[i])[:PEAKS]
     return falls.size, [(float(falls[i]), steady.beside(problem, modes.part([i]), sizes[i])) for i in best]
 
 
-def _apart(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
+def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
     """Return those of a row of nutations below a frequency that differ by `PHASE` over the times; none if none is."""
     there = np.flatnonzero(modes.frequency < fastest)  # no nan
     if not there.size:
