@@ -45,6 +45,7 @@ def test_a_top_takes_numbers_with_units_and_a_spin() -> None:
         by_energy["period"]
         == atlas.TopMotion((1e-5, 5e-6), (0, 0), (0.6, 0.8), (0, 0, 80 * math.pi), linear=0.015).period
     )
+    assert "1/time" not in CliRunner().invoke(TOP, "--inertia 1 0.5 --direction 0.6 0.8 --spin 40Hz".split()).stdout
     swapped = HEAVY.replace("9.81 0.04", "4cm 9.81m/s2")
     both = HEAVY + " --spin 2"
     gaussian = "--inertia 2 1 --charged 1 2 --magnetic 1T 1T --spin 9 --units gaussian"

@@ -504,9 +504,11 @@ def test_the_potential_is_that_of_the_cubic() -> None:
 def test_a_nutation_that_is_small_beside_the_spin_is_drawn_without_noise() -> None:
     """A disk at 2 kHz, whose Omega3 varies by 2e-8: its potential falls and rises once."""
     recipe, field = load("pseudo_oscillator"), (0.016, 0.028)
-    (line,) = curves(recipe.scene(ratio=2.0, field=field, omega=(0.0, 0.0, 12566.37)).panels[1], "main")
+    _, potential, course = recipe.scene(ratio=2.0, field=field, omega=(0.0, 0.0, 12566.37)).panels
+    (line,), (path,) = curves(potential, "main"), curves(course, "main")
     assert np.count_nonzero(np.diff(np.sign(np.diff(line[:, 1])))) == 1
     assert -3e-8 < line[np.argmin(line[:, 1]), 0] < 0
+    assert -3e-8 < path[:, 1].min() < path[:, 1].max() < 1e-11
 
 
 def test_points_of_the_quadric_leave_it_at_the_rate_of_the_paper() -> None:

@@ -370,6 +370,14 @@ def test_properties_say_what_is_not_proven() -> None:
         compute("properties", Request(case, {"family": "nix"}, 8))
 
 
+def test_why_a_quantity_has_no_value_stands_below() -> None:
+    """Euler's top is on no torus of three frequencies: a dash in the table, the reason among its notes."""
+    given = {"inertia": [0.8, 1.0, 1.3], "field": [0.0, 0.0, 0.0], "omega": [0.3, 0.7, 3.0]}
+    data = compute("properties", Request([body_and_field(None, None)], {"family": "asymmetric", **given}, 6))
+    assert {row[1]: (row[2], row[5]) for row in data.rows}["`frequencies`"] == ("–", "")
+    assert any("frequencies" in note and "Euler" in note for note in data.notes)
+
+
 def test_each_root_has_a_row_of_its_own() -> None:
     """Real ones are numbers with a unit, a complex one is a text with its i."""
     for ratio, complex_ones in ((1.3, 0), (0.5, 2)):

@@ -31,6 +31,9 @@ BEYOND = 14.0
 PHASE, MOST, FASTEST = 1.0, 10000, 10.0
 """Radians at the end between nutations that are tried, how many they are at most, and how fast, in rates."""
 
+EVEN = 1e-3
+"""Part of a step by which steps of time differ that show no more than frequencies up to Nyquist's."""
+
 PEAKS = 6
 """How many of them are followed."""
 
@@ -255,12 +258,14 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
         return 0, []  # the size of the field is seen, or there is no such angle
     ratio = problem.params["ratio"]
     r = np.linspace(ratio.min, ratio.max, FINE)[1:-1] if ratio.vary else np.array([values["ratio"]])
-    fastest = max(FASTEST * problem.rate, 2 * np.pi * data.t.size / span)
+    nyquist, steps = np.pi * data.t.size / span, np.diff(data.t)
+    even = np.ptp(steps) < EVEN * steps.mean()
+    fastest = nyquist if even else max(FASTEST * problem.rate, 2 * nyquist)
     with np.errstate(all="ignore"):
         lines = [steady.modes(r)]
         if data.kind == "axis":
             body = float(np.clip(values["ratio"], *MODERATE)) if ratio.vary else values["ratio"]
-            lines.append(steady.modes(np.array(body), np.linspace(-0.5, 0.5, FINE) * fastest / body))
+            lines.append(steady.modes(np.array(body), np.linspace(-1.0, 1.0, FINE) * nyquist / body))
     spaced = [part for line in lines for part in _spaced(line, fastest, span)]
     if not spaced:
         return 0, []
