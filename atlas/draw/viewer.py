@@ -17,7 +17,7 @@ from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 from matplotlib.transforms import Bbox
 
-from atlas.draw.glass import distinct
+from atlas.draw.glass import distinct, thinned
 from atlas.draw.panels import places
 from atlas.draw.style import HEAD_LENGTH, HEAD_WIDTH, context, style_of
 from atlas.draw.text import extent, line, points, typeset
@@ -132,7 +132,7 @@ def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
     """Yield the lines, wires, arrows and dots of a layer, each with its kind."""
     if isinstance(layer, Surface):
         yield from (
-            ("wires", [style_of("wire").colour, style_of("wire").tube, _packed(_thinned(wire, _NEAR / view.scale))])
+            ("wires", [style_of("wire").colour, style_of("wire").tube, _packed(thinned(wire, _NEAR / view.scale))])
             for wire in layer.wires
         )
         for rim in layer.rims:
@@ -156,20 +156,7 @@ def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, li
     for dash in dashes(curve, look, view) if look.tube > 0.0 else ():
         fine = distinct(dash)
         if len(fine) > 1:
-            yield "lines", [look.colour, look.tube, _packed(_thinned(fine, _NEAR / view.scale))]
-
-
-def _thinned(curve: FloatArray, near: float) -> FloatArray:
-    """Return a line without every second point where that is as near as that to the chord, three times over."""
-    for _ in range(3):
-        before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
-        chord = after - before
-        share = np.sum((middle - before) * chord, axis=1) / np.maximum(np.sum(chord * chord, axis=1), 1e-300)
-        off = np.linalg.norm(middle - before - np.clip(share, 0.0, 1.0)[:, None] * chord, axis=1)
-        keep = np.ones(len(curve), dtype=bool)
-        keep[1:-1:2] = off > near
-        curve = curve[keep]
-    return curve
+            yield "lines", [look.colour, look.tube, _packed(thinned(fine, _NEAR / view.scale))]
 
 
 def _packed(curve: FloatArray) -> str:
