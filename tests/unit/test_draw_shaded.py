@@ -133,6 +133,17 @@ def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Pat
     assert reach[outside].max() == pytest.approx(0.5 * thick, abs=1.5)
 
 
+def test_a_circle_of_chords_is_as_round_as_its_points(tmp_path: Path) -> None:
+    """Of 64 chords those are left out that a pixel does not show: the ink is as far from the middle in all directions."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 65)
+    circle = np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
+    ink = 255.0 - shown([Curve(circle, "field")], tmp_path / "circle.png").mean(axis=-1)
+    y, x = np.indices(ink.shape) - 0.5 * (np.array(ink.shape) - 1.0)[:, None, None]
+    sector = np.floor((np.arctan2(y, x) / (2.0 * np.pi) % 1.0) * 32).astype(int)
+    sums = [np.bincount(sector.ravel(), (ink * weight).ravel()) for weight in (np.hypot(x, y), np.ones_like(ink))]
+    assert np.ptp(sums[0] / sums[1]) < 1.0  # pixels; light shifts the ink by some
+
+
 @pytest.mark.parametrize("name", ["hyp_b", "loop", "motion_sphere"])
 def test_plates_can_be_shaded(tmp_path: Path, name: str) -> None:
     """The default figures are drawn, with both sides of the surface in their colours."""
