@@ -1,10 +1,7 @@
 """Shaded pictures: translucent surfaces, and labels where the things are."""
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -101,22 +98,6 @@ def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
     assert sizes[0] == sizes[1]
 
 
-@pytest.mark.slow
-def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path: Path) -> None:
-    """A figure has the same bytes as the first of a process and after another one, of another size."""
-    program = (
-        "import sys\n"
-        "from drawing import draw\n"
-        "from atlas.scene import recipes\n"
-        "for n, name in enumerate(sys.argv[2:]):\n"
-        "    draw(recipes.load(name).scene(), f'{sys.argv[1]}/{n}.png', renderer='shaded', dpi=90)\n"
-    )
-    environment = dict(os.environ, PYTHONPATH=str(Path(__file__).parents[1]))
-    words = [sys.executable, "-c", program, str(tmp_path), "loop", "motion_sphere", "loop"]
-    subprocess.run(words, env=environment, check=True)
-    assert (tmp_path / "0.png").read_bytes() == (tmp_path / "2.png").read_bytes()
-
-
 def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Path) -> None:
     """A right angle of the heaviest line: its two sides are 5 points thick, and so is the corner across."""
     sides = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0]])
@@ -134,7 +115,7 @@ def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Pat
 
 
 def test_a_circle_of_chords_is_as_round_as_its_points(tmp_path: Path) -> None:
-    """Of 64 chords those are left out that a pixel does not show: the ink is as far from the middle in all directions."""
+    """Of 64 chords those that no pixel shows are left out: in all directions the ink is as far from the middle."""
     angle = np.linspace(0.0, 2.0 * np.pi, 65)
     circle = np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
     ink = 255.0 - shown([Curve(circle, "field")], tmp_path / "circle.png").mean(axis=-1)

@@ -95,10 +95,3 @@ def test_the_fingerprint_follows_what_a_proof_builds_on(monkeypatch: pytest.Monk
     monkeypatch.setattr(recorded, "_normal", normal)
     assert touched == {"decide": set(before), "quadric": {"(72)", "(84)", "(51)"}}
     assert recorded.source("(72)") == before["(72)"]
-
-
-def test_comments_and_blank_lines_do_not_count() -> None:
-    """The text that is fingerprinted holds neither."""
-    text = recorded._normal("decide")
-    assert "\n\n" not in text
-    assert not any(line.lstrip().startswith("#") for line in text.splitlines())

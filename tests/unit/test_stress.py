@@ -26,9 +26,7 @@ from stress.run import PROMISES, SHORT, Result, stress
 from stress.worst import WorstErrors
 from ulps import UNDERFLOW, error, of_length, own, ulp
 
-from atlas.core.arithmetic import phase
 from atlas.core.motions.elementary import ElementaryMotion
-from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 
 TESTS = Path(__file__).parents[1]
@@ -77,20 +75,6 @@ def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result
     assert again == pytest.approx(worst.ulps, abs=0.6)  # a lone time may take another path through a matrix product
 
 
-def test_a_phase_that_loses_its_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the second word of the frequencies dropped, long times break the promise by orders of magnitude."""
-    make = phase.Phases.__init__
-
-    def without_second_word(self: Any, *arguments: Any, **named: Any) -> None:
-        make(self, *arguments, **named)
-        self.words[1:] = 0.0
-
-    monkeypatch.setattr(phase.Phases, "__init__", without_second_word)
-    found = WorstErrors()
-    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", found)  # noqa: S311  reproducible, not secret
-    assert found.worst["R", "ordinary, long times"].ulps > 1e3
-
-
 @pytest.mark.parametrize(("first", "seen"), [(1.0, False), (0.7, True)])
 def test_small_entries_are_promised_before_they_are_large(
     first: float, seen: bool, monkeypatch: pytest.MonkeyPatch
@@ -115,19 +99,6 @@ def test_arrays_of_elementary_motions_keep_the_promises() -> None:
     assert {name for name, _ in worst} == {"omega3", "k", "phi", "R", "R orthogonality", "R determinant"}
     for (name, _), one in worst.items():
         assert one.ulps <= (0.5 if name in {"omega3", "k", "phi"} else PROMISES[name]), name
-
-
-def test_a_refusal_is_kept_with_its_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A kernel that will not answer is on record with what it said."""
-
-    def refuse(*_: Any) -> None:
-        raise AtlasError("not today")
-
-    monkeypatch.setattr(ElementaryMotion, "rotation", refuse)
-    found = WorstErrors()
-    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", found)  # noqa: S311  reproducible, not secret
-    assert [r.reason for r in found.refusals] == ["not today"]
-    assert "B2" in found.refusals[0].input
 
 
 def draws() -> Iterator[extreme.Motion]:

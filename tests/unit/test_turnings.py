@@ -7,7 +7,6 @@ from flint import arb, ctx
 from stress import extreme
 from stress.regimes import REGIMES
 
-from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.motions.ball import BallMotion
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.core.motions.particle import ParticleMotion
@@ -170,17 +169,6 @@ def test_rates_at_the_ends_of_the_doubles_turn_as_others_do(power: int) -> None:
     unit = np.where(np.arange(8) % 2, 2.0**power, 1.0)
     found = ElementaryMotion(I, (B2 * unit, B3 * unit), w2 * unit).rotation(t / unit)
     assert np.abs(found - ElementaryMotion(I, (B2, B3), w2).rotation(t)).max() <= 8 * ULP1
-
-
-def test_no_motion_is_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A thousand ordinary motions at a time each make not one by itself."""
-    made = []
-    monkeypatch.setattr(DoubleRotation, "__init__", lambda *_, **__: made.append(1))
-    r = np.random.default_rng(0)
-    many = ElementaryMotion(r.uniform(0.1, 2, 1000), r.normal(size=(2, 1000)), r.normal(size=1000))
-    many.rotation(r.uniform(-1e3, 1e3, 1000))
-    assert many.k.shape == (1000,)
-    assert not made
 
 
 def test_quadrics_and_hyperbolas_in_arrays_have_the_bits_of_one_by_one() -> None:
