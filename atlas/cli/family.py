@@ -60,6 +60,11 @@ CHARGE = ("mass", "charge")
 OF_BODY = ("inertia", "field")
 """Parameters for which bodies with three moments have options of their own."""
 
+OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
+THIRD = dict.fromkeys(("free", "elementary", "general"), ", the last that of symmetry")
+THIRD |= {"ball": ", the last along the field at t = 0"}
+"""What is known of the last of the axes of a motion's class."""
+
 UNITS = {
     "natural": {},
     "gaussian": {"1/time": "rad/s", "length/time": "cm/s", "length": "cm"},
@@ -134,6 +139,11 @@ def family_of(args: Sequence[str]) -> str:
             "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
         )
     if typed & {"--omega2", "--omega3"}:
+        if other := sorted(typed & {"--omega", "--spin", "--curve", "--attitude", "--tensor"}):
+            raise click.UsageError(
+                f"{other[0]} does not go with --omega2 and --omega3, which are of an elementary motion about e3: any "
+                "other starts from --omega W1 W2 W3 or --spin W3."
+            )
         if "--omega2" not in typed:
             raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
         return "elementary"
@@ -157,7 +167,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
 
         def floats() -> dict[str, Any]:
             motion = family.kernels()(*values_of(family, options, exact=False))
-            columns = {s.name: along(s.method_of(motion), times) for s in sampled}
+            columns = _columns(sampled, motion, times)
             lines = _spectrum(motion, options)
             return named | _quantities(family, motion, times, columns, exact=False) | _recorded(lines)
 
@@ -253,7 +263,7 @@ def _with_sigma(
         motion = motion_in_given_axes(values) if family.name == "asymmetric" else None
         answering = family if motion is None else FAMILIES[motion.family]
         motion = answering.kernels()(*values_of(answering, values, exact=False)) if motion is None else motion
-        columns = {s.name: along(s.method_of(motion), times) for s in sampled if hasattr(motion, s.method)}
+        columns = _columns([s for s in sampled if hasattr(motion, s.method)], motion, times)
         answers = {"family": answering.name} if described.name == "motion" else {}
         if values is not options:  # a proof that is a sentence is said once
             answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
@@ -352,7 +362,7 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
         )
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-    columns = {s.name: along(s.method_of(motion), times) for s in sampled}
+    columns = _columns(sampled, motion, times)
     record, lines = (
         {"family": family.name} | _quantities(family, motion, times, columns, exact=False),
         _spectrum(motion, options),
@@ -364,12 +374,27 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
-        show(_printout(family, described, texts, options, IN_DOUBLES))
+        printout = _printout(family, described, texts, options, IN_DOUBLES)
+        axes, third = in_principal_axes(motion).axes, THIRD.get(motion.family, "")
+        if axes != OWN_AXES:
+            says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
+            printout = replace(printout, notes=[says, *printout.notes])
+        show(printout)
         _show_lines(family, options, motion)
 
 
+def _columns(sampled: Sequence[Sampled], motion: Any, times: Sequence[float]) -> dict[str, Any]:
+    """Return what a motion has at the times by name; in given axes m is that of the body, not over I2 as in tables."""
+    columns = {s.name: along(s.method_of(motion), times) for s in sampled}
+    own = getattr(motion, "own", None)
+    I2 = getattr(own.arguments.get("ratio"), "I2", 1.0) if own else 1.0
+    return columns | {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}
+
+
 def _check_spectrum(options: dict[str, Any]) -> None:
-    """Raise UsageError for lines of a motion and proven digits at once."""
+    """Raise click.UsageError for lines of a motion and proven digits at once, and for no least amplitude."""
+    if options.get("spectrum") and not 0 < options["least"] < 1:
+        raise click.UsageError(f"--least is a part of the whole, between 0 and 1, not {options['least'].text}.")
     if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
         raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
 
@@ -486,13 +511,7 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
 
 def _charge_to_mass(options: dict[str, Any], *, exact: bool) -> Any:
     """Return mu of a point charge, as it was typed or from its charge and mass."""
-    mu = body.charge_to_mass_of(options, "A point charge")
-    if not exact:
-        return mu
-    if options["mu"] is not None:
-        return exactly(options["mu"], options)
-    charge, mass = exactly([options["charge"], options["mass"]], options)
-    return charge / mass
+    return (body.exact_charge_to_mass if exact else body.charge_to_mass_of)(options, "A point charge")
 
 
 def _speed_of_light(units: str) -> float:
@@ -569,7 +588,7 @@ def _printout(
     units = _units(family, options)
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
-    lines += _in_hertz(shown, texts, options) if units else []
+    lines += _in_hertz(family, shown, texts, options) if units else []
     rows = in_threes(texts.get("samples", []))
     heading = [
         head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
@@ -604,10 +623,12 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
         yield Line(symbol, words, "-" if component is None else q.text(component), unit, equation)
 
 
-def _in_hertz(shown: Sequence[Quantity], texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
+def _in_hertz(
+    family: Family, shown: Sequence[Quantity], texts: dict[str, Any], options: dict[str, Any]
+) -> Iterator[Line]:
     """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits."""
     rates = {q.name: float(texts[q.name]) for q in shown if q.unit == RATE and _is_number(texts[q.name])}
-    if options.get("magnetic") is not None and "direction" not in options:
+    if in_field(family) and options["magnetic"] is not None:
         larmor = hypot(*body.chosen_field(options))
         yield Line("larmor", "Larmor frequency |B'|, rounded", f"{larmor:.6g}", "1/s", "(27)")
         rates["larmor"] = larmor

@@ -47,7 +47,7 @@ FAMILY = Family(
             text=in_brackets, checked="elliptic omega", certified=True,
         ),
         Quantity("period", "period of K", TIME, checked="elliptic period", certified=True),
-        Quantity("precession_per_period", "turn about B in one period", missing="no period", certified=True),
+        Quantity("precession_per_period", "turn about B in one period", "rad", missing="no period", certified=True),
         Quantity("modulus", "of the elliptic functions", certified=True),
         Quantity("nome", "of the elliptic functions", certified=True),
     ),

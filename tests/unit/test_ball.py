@@ -77,6 +77,14 @@ def test_momentum_precesses_with_the_larmor_frequency() -> None:
     assert np.abs(m[:, 0] - 0.3 * np.sin(0.5 * t)).max() <= 8 * ULP1
 
 
+def test_the_field_in_the_body_turns_against_the_ball() -> None:
+    """K = R^T B' of (32), for arrays of balls at several times; so the spectrum of a ball has that of its field."""
+    larmor, t = np.array([0.5, -2.0]), np.linspace(-3, 3, 7)[:, None]
+    balls = BallMotion(2.0, larmor, (0.3, -0.4))
+    true = np.einsum("...ij,...i->...j", balls.rotation(t), np.stack([0 * larmor, 0 * larmor, larmor], -1))
+    assert np.abs(balls.field_in_body(t) - true).max() <= 4 * ULP1
+
+
 def test_where_equation_29_is_undefined_the_ball_turns_back_with_the_field() -> None:
     """At m2 = 0, m3 = -alpha I0, where (29) is 0/0, gamma = 0 and R = R_z(-alpha t)."""
     ball = BallMotion(2.0, 0.5, (0.0, -1.0))

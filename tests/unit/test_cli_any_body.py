@@ -52,6 +52,19 @@ def numbers(*words: str) -> dict[str, Any]:
     return {name: value for name, value in json.loads(out).items() if name != "parameters"}
 
 
+def test_a_symmetric_body_is_told_in_its_own_axes_and_in_those_given() -> None:
+    """The table has m over I2 in any axes; where the axis is not e3, it is said along which axes Omega3 is."""
+    start = "--omega 1 2 3 --times 0".split()
+    for inertia in ("--inertia 2 2 3", "--shape ring --radius 2"):
+        words = "motion", *inertia.split(), *start
+        m = [numbers(*words, "--field", *B.split(), "--json")["samples"][0]["m"] for B in ("0 1 2", "1e-30 1 2")]
+        plane = numbers("motion", *inertia.replace("2 2 3", "2 3").split(), *start, "--field", "1", "2", "--json")
+        assert np.allclose(m, plane["samples"][0]["m"], rtol=1e-14)
+    upright, lying = (run("motion", *f"--inertia {J} --field 0 1 2".split(), *start)[1] for J in ("1 1 .5", ".5 1 1"))
+    assert "are along the axes" not in upright
+    assert "(1, 0, 0) of the body, the last that of symmetry; columns along the axes given." in lying
+
+
 @pytest.mark.slow
 def test_points_and_tesla_are_moments_and_rates(tmp_path: Path) -> None:
     """Moved as a whole the points have their moments; B of 100, 200, 2000 T at 1e-3 C/kg is B' = (0.05, 0.1, 1) /s."""

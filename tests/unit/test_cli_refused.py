@@ -226,6 +226,8 @@ CASES = [
     ("particle --mass 2 --charge 1 --mu 1", "--mass has no place beside it"),
     ("particle --mass 0 --charge 1", "mass must be positive"),
     (f"motion {BODY} --omega2 -1 --times 0", "-1"),
+    (f"motion {BODY} --omega2 1 --omega 1 2 3", "--omega does not go with --omega2"),
+    (f"motion {BODY} --omega 1 2 3 --spectrum --least 0", "--least is a part of the whole"),
     (f"motion {BODY} --omega2 1 --times", "--times"),
     (f"motion {BODY} --omega2 1e3 --times 1e30 --json", "2^50"),
     (f"motion {BODY} --omega2 0.3 --times 1(1)", "nothing follows"),

@@ -90,6 +90,13 @@ class BallMotion(DoubleTurn[Ball]):
         """
         return self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,))
 
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body, B' = (0, 0, alpha), (32); shape (..., 3), each within 1e-15 of |alpha|.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(np.asarray(self.larmor)[..., None] * self.rotation(t)[..., 2, :])
+
     def _groups(self) -> list[Group]:
         return [(turning, slice(None), self._inputs)]
 
