@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from atlas.cli.measured import RATE, WANTED
-from atlas.cli.options import FILE, REAL, Measured, Typed, exactly, stack
+from atlas.cli.options import FILE, REAL, Inclined, Measured, Typed, exactly, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.errors import nearest
 
@@ -321,6 +321,19 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
     return charge_to_mass(options["charge"], mass)
 
 
+def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> Any:
+    """Return the ratio of `charge_to_mass_of` for the certified floor: what was typed, nothing rounded."""
+    from atlas.exact.inputs import rational
+
+    mu = charge_to_mass_of(options, needs)
+    if options.get("points") is not None:
+        return rational(mu, "mu")
+    if options["mu"] is not None:
+        return rational(exactly(options["mu"], options), "mu")
+    charge, mass = exactly([options["charge"], mass_of(options)], options)
+    return rational(charge, "the charge") / rational(mass, "the mass")
+
+
 def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
     """Return (B2, B3) or (B1, B2, B3) of B' in 1/time, from --field, or from --magnetic and the charge-to-mass ratio.
 
@@ -343,10 +356,18 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
 
 
 def exact_field(options: dict[str, Any]) -> Any:
-    """Return the field of `chosen_field` for the certified floor."""
-    if options["decimal"] and options["field"] is None:
-        raise click.UsageError("--decimal goes with --field, not with --magnetic.")
-    return exactly(chosen_field(options), options)
+    """Return the field of `chosen_field` for the certified floor: what was typed, nothing rounded."""
+    if options["decimal"] and (options["field"] is None or isinstance(options["field"], Inclined)):
+        raise click.UsageError("--decimal goes with --field and its components, not with --magnetic or --angle.")
+    field = chosen_field(options)
+    if options["magnetic"] is None:
+        return exactly(field, options)
+    from atlas.core.bodies.units import GAUSSIAN
+    from atlas.exact.inputs import rational
+
+    c = GAUSSIAN.c if system_of(options) == "gaussian" else 1
+    factor = exact_charge_to_mass(options) / (2 * rational(c, "c"))
+    return [factor * rational(B, "B") for B in options["magnetic"]]
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:

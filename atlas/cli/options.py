@@ -184,10 +184,9 @@ class Command(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
-        inclined: dict[str, Inclined] = {}
+        option, field = "", None
         if "--angle" in args:
             args, option, field = _inclined(args, ctx)
-            inclined = {option.removeprefix("--"): field} if any(x.sigma for x in field.parts) else {}
         several = [param for param in self.params if isinstance(param, Many)]
         many = {name for param in several for name in param.opts}
         numbers = {name for param in several if param.type is REAL for name in param.opts}
@@ -208,7 +207,9 @@ class Command(click.Command):
             if hint:
                 raise click.UsageError(f"{error.format_message().rstrip('.')}: {hint}", ctx) from error
             raise
-        ctx.params |= inclined
+        if field:
+            name, known = option.removeprefix("--"), not any(x.sigma for x in field.parts)
+            ctx.params[name] = Inclined(field.parts, ctx.params[name]) if known else field
         return rest
 
 
@@ -217,11 +218,11 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
 
     parts: tuple[Typed, ...]
 
-    def __new__(cls, parts: Sequence[Typed]) -> Self:
-        """Take the components across and along the axis."""
+    def __new__(cls, parts: Sequence[Typed], sides: Sequence[Typed] = ()) -> Self:
+        """Take the components across and along the axis, as they are known or of the parts."""
         strength, angle = parts
         number = super().__new__(
-            cls, (strength.moved(strength * x, sigma=0.0) for x in (math.sin(angle), math.cos(angle)))
+            cls, sides or [strength.moved(strength * x, sigma=0.0) for x in (math.sin(angle), math.cos(angle))]
         )
         number.parts = tuple(parts)
         return number
@@ -430,7 +431,7 @@ def exactly(value: Any, options: dict[str, Any]) -> Any:
 
 
 def chosen_times(options: dict[str, Any]) -> list[float]:
-    """Return the times of --times or --grid, none when neither is given.
+    """Return the times of --times or --grid, with what they are exactly, none when neither is given.
 
     Raises click.UsageError when both are given or the count is not a natural number.
     """
@@ -441,4 +442,9 @@ def chosen_times(options: dict[str, Any]) -> list[float]:
     start, step, count = options["grid"]
     if count != int(count) or not 0 < count <= 1e6:
         raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
-    return [start + step * index for index in range(int(count))]
+    whole = start.exactly().denominator * step.exactly().denominator
+    first, by = int(start.exactly() * whole), int(step.exactly() * whole)
+    try:
+        return [start.moved(t / whole, text=f"{t}/{whole}") for t in (first + by * i for i in range(int(count)))]
+    except (OverflowError, ValueError):  # beyond floats, or of more digits than Python writes
+        return [start + step * i for i in range(int(count))]

@@ -130,6 +130,12 @@ def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
     raise TypeError(f"no JSON for {type(value).__name__}")
 
 
+ROUNDED = {
+    "points": "what follows from the points", "density": "the mass of the density",
+    **dict.fromkeys(("heavy", "charged", "coat"), "the moments and couplings of the top"),
+}  # fmt: skip
+"""What is computed in doubles from an option before anything is proven, by the name of that option."""
+
 TABLE_DIGITS = 10
 """Significant digits of a table when --digits does not say otherwise."""
 
@@ -156,15 +162,26 @@ def answer(
     texts: dict[str, Any] = certified(balls, options["digits"] or TABLE_DIGITS, spare=spare)
     if not options["as_json"]:
         return texts
-    taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
-    dump({"parameters": parameters, "certified_digits": options["digits"], "inputs": taken, **texts})
+    dump({"parameters": parameters, "certified_digits": options["digits"], "inputs": _inputs(options), **texts})
     return None
 
 
 def certificate(options: dict[str, Any]) -> str:
     """Return the sentence under a table that says what its digits are worth."""
+    return f"All digits printed are proven; inputs: {_inputs(options)}."
+
+
+def _inputs(options: dict[str, Any]) -> str:
+    """Return what digits are proven of: the numbers as typed, and those that are computed from them in doubles."""
+    from atlas.cli.options import Inclined, Measured
+
+    several = [x for value in options.values() for x in (value if isinstance(value, tuple) else (value,))]
+    found = {name for name, value in options.items() if value is not None}
+    rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in found))
+    rounded += ["the components of a field at an angle"] * any(isinstance(x, Inclined) for x in options.values())
+    rounded += ["turns and degrees"] * any(isinstance(x, Measured) and x.exact is None for x in several)
     taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
-    return f"All digits printed are proven; inputs: {taken}."
+    return taken + (f", and, rounded to doubles, {' and '.join(rounded)}" if rounded else "")
 
 
 IN_DOUBLES = "Computed in doubles: no digit is proven in axes that are not principal ones, or from another attitude."

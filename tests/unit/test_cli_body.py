@@ -39,13 +39,15 @@ def test_a_family_without_a_field_may_have_a_command(monkeypatch: pytest.MonkeyP
 
 
 def test_the_shell_of_a_report_is_the_same_in_a_command() -> None:
-    """Shape, mass, charge and B of short_solenoid in options give its quadric, digit by digit, rates in 1/s."""
+    """Shape, mass, charge and B of short_solenoid in options give its quadric, of B' not rounded, rates in 1/s."""
     known = load(find("short_solenoid")).parameters
     case = body_and_field(known.bodies["shell"], known.fields["magnet"])
     from atlas.exact.digits import certified
     from atlas.exact.surfaces.quadric import Quadric
 
-    quadric = Quadric(case.exact, case.components)
+    field = [Fraction(2e-15) / Fraction(1.5e-15) * Fraction(B) / 2 for B in (0.75, 1.3)]
+    assert [float(x) for x in field] == pytest.approx(case.components, rel=1e-15)
+    quadric = Quadric(case.exact, field)
     found = record("classify", *SHELL.split(), "--digits", "40")
     assert found["semi_axes"] == certified(lambda: list(quadric.semi_axes), 40)
     assert found["parameters"]["units"] == "si"

@@ -1,8 +1,9 @@
 """Floats and certified digits come from two floors that share no code; they must say the same."""
 
 import json
-from decimal import Decimal
+from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -103,11 +104,50 @@ def test_decimals_are_taken_as_typed_when_asked() -> None:
 
 
 def test_the_ratio_of_a_charge_to_a_mass_is_exact_in_decimals() -> None:
-    """0.1/0.3 is 1/3 with --decimal, and else the double that the floats go on from."""
+    """0.1/0.3 is 1/3 with --decimal, and else the quotient of the two doubles, not rounded."""
     words = "particle --mass 0.3 --charge 0.1 --magnetic 0 0 1 --digits 25"
     assert answer(f"{words} --decimal")["cyclotron_frequency"] == "0.3333333333333333333333333"
-    assert answer(words)["cyclotron_frequency"] == f"{Decimal(0.1 / 0.3):.25f}"
+    assert answer(words)["cyclotron_frequency"] == "0.3333333333333333641728618"
     assert answer("particle --mu 0.1 --magnetic 0 0 1 --digits 25 --decimal")["cyclotron_frequency"].strip("0") == ".1"
+
+
+@pytest.mark.parametrize(
+    ("units", "c"), [("--mu 3", 1), ("--mass 1 --charge 3", 1), ("--mu 3 --units gaussian", 29979245800)]
+)
+def test_the_field_of_a_charge_is_exact(units: str, c: int) -> None:
+    """B' = mu B/(2c) is that of the doubles typed for mu and B; the pole of the hyperbola is -B2."""
+    found = answer(f"hyperbola --ratio 0.5 --magnetic 0.1 0.2 {units} --digits 40")
+    assert abs(Fraction(found["pole"]) / (3 * Fraction(0.1) / (2 * c)) + 1) < Fraction(1, 10**39)
+    assert found["inputs"] == "the doubles nearest to what was typed"
+
+
+def test_numbers_that_are_rounded_from_what_was_typed_are_said_to_be(tmp_path: Path) -> None:
+    """The sentence on the inputs names what is computed in doubles first, in a table as in JSON; none is a decimal."""
+    (tmp_path / "ring.csv").write_text("x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n", encoding="utf-8")
+    start = "motion --omega2 0.1 --digits 40"
+    for words, says in (
+        ("--ratio 1.5 --field 2 --angle 1", "the components of a field at an angle"),
+        ("--ratio 1.5 --magnetic 2 --mu 1 --angle 30deg", "the components of a field at an angle"),
+        ("--ratio 1.5 --field 1Hz 2", "turns and degrees"),
+        (f"--points {tmp_path / 'ring.csv'} --field 1 2", "what follows from the points"),
+        ("--shape sphere --radius 1 --density 2 --charge 1 --magnetic 1 2", "the mass of the density"),
+    ):
+        whole = f"the doubles nearest to what was typed, and, rounded to doubles, {says}"
+        assert answer(f"{start} {words}")["inputs"] == whole
+        assert f"inputs: {whole}." in CliRunner().invoke(command, [*start.split(), *words.split()]).stdout
+    angle = CliRunner().invoke(command, [*start.split(), *"--ratio 1.5 --field 2 --angle 1 --decimal".split()])
+    assert "or --angle" in angle.output
+    heavy = "top --inertia 1 0.5 --mass 1 --heavy 9.81 0.5 --direction 0 1 --omega 0 0 9 --digits 20"
+    assert answer(heavy)["inputs"].endswith("the moments and couplings of the top")
+
+
+def test_times_by_a_step_are_exact() -> None:
+    """The last of four times by a step of 0.1 is 0.3, to the last digit; of one third it is 1."""
+    words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --decimal --digits 25"
+    for grid, times in (("0 0.1 4", "0:0.3:4"), ("0 1/3 4", "0 1/3 2/3 1")):
+        assert answer(f"{words} --grid {grid}")["samples"] == answer(f"{words} --times {times}")["samples"]
+    large = CliRunner().invoke(command, [*words.split(), *"--grid 1e308 1e308 4".split()])
+    assert "must be finite" in str(large.exception)
 
 
 @pytest.mark.parametrize(
