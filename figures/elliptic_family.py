@@ -12,7 +12,7 @@ import numpy as np
 
 from atlas.core.bodies.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, DomainError
 from atlas.formulas.elliptic import splitting
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector, title
@@ -36,6 +36,9 @@ def scene(
     """Draw the curves of the bodies (``first``, 1, ``ratio``) with the hyperbola of (1, 1, ``ratio``)."""
     if not 0 < len(first) <= 3:
         raise AtlasError(f"first must hold one to three values of I1, not {len(first)}.")
+    for I1 in first:
+        if len({I1, 1.0, ratio}) < 3:
+            raise DomainError(f"figure elliptic_family needs three different moments, not {(I1, 1.0, ratio)}.")
     view, across = window(field, reach), WIDTH / len(first) - MARGIN
     panels = tuple(
         panel(f"({letter}) $I_1={tex(I1)}$", (I1, 1.0, ratio), field, view, across, unit)

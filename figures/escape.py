@@ -38,8 +38,8 @@ def scene(
             f"figure escape needs an unstable elementary motion; omega2 = {omega2} is stable, as its nutation "
             f"frequency squared is {squared:g}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
         )
-    if not 1 <= len(pushes) <= 5:
-        raise DomainError(f"figure escape takes one to five pushes, not {len(pushes)}.")
+    if not 1 <= len(pushes) <= 5 or not all(pushes):
+        raise DomainError(f"figure escape takes one to five pushes, none of them zero, not {pushes}.")
     omega3 = float(hyperbola.omega3(omega2))
     growth = float(np.sqrt(-squared))
     motions = [GeneralMotion(ratio, field, (push, omega2, omega3)) for push in pushes]

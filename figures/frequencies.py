@@ -14,7 +14,7 @@ from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex_equals, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, tex, tex_equals, tex_setting, title
 from atlas.scene.hyperbola_plane import Window, components, graph
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
@@ -54,7 +54,8 @@ def scene(
         rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
         + (rf" Dots: motions that repeat themselves after {counted(order)} of the precession." if motions else "")
         if free
-        else r"the proper rotation $\phi$, (72), which is zero on the whole curve. (b) Their quotient, (86)."
+        else r"the proper rotation $\phi$, (72), which is zero on one line of the curve (67) and takes every value on "
+        rf"the other, $\omega_2=-B'_2={tex(-B2)}$, drawn upright: there $\phi=\omega_3+B'_3$. (b) Their quotient, (86)."
     )
     return Scene(
         title=title(__doc__),
@@ -69,7 +70,8 @@ def scene(
                 f"two branches with a pole at omega 2 = {plain(-B2)} and zeros at 0 and {plain(-2 * B2)}; and the "
                 f"quotient phi over k, two branches that level out at {plain(free)}, the value of the free body."
                 if free
-                else "which is zero throughout; and the quotient phi over k, zero too."
+                else "which is zero, but takes every value on an upright line at "
+                f"omega 2 = {plain(-B2)}; and the quotient phi over k, which does so too."
             )
         ),
         panels=(
@@ -128,7 +130,7 @@ def frequencies(
         layers.append(Curve(view.upright(-B2), "pole"))
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))
     else:
-        pieces = (view.level(0.0),)
+        pieces = (view.level(0.0), view.upright(-B2))
     layers += [Curve(piece, "main", "" if order else r"$\phi$") for order, piece in enumerate(pieces)]
     side = float(np.copysign(1.0, B2))
     marks = [m for m in motions.values() if ends[0] < m.omega2 < ends[1] and abs(m.phi) < top]
@@ -163,7 +165,7 @@ def quotients(
         pieces = graph(quotient, B2, view, 0.1, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
         layers += [Curve(piece, "main") for piece in pieces]
     else:
-        layers.append(Curve(view.level(0.0), "main"))
+        layers += [Curve(piece, "main") for piece in (view.level(0.0), view.upright(-B2))]
     named = [np.full(2, np.inf)]
     for r, motion in motions.items():
         place = np.array([motion.omega2, float(r)])

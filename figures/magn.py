@@ -1,6 +1,6 @@
 """Laboratory system of a charged particle.
 
-The paper's Figure Magn: z points along B, and E lies in the plane of y and z, so that [E, B] points along x. A path of
+The paper's Figure Magn: z points along B, and E lies in the plane of y and z, so that [E, B] lies along x. A path of
 the particle, (93) and (98), drifts along [E, B] while it goes round B and is drawn along B.
 """
 
@@ -63,7 +63,8 @@ def scene(
         offset = (0.0, -8.0) if E[0] else (-16.0, 0.0)
         tip = 0.9 * reach * in_plane(float(np.sign(E[0])), float(np.sign(E[1])))
         layers.append(Arrow(O, tip, "electric", name, offset=offset))
-    drift = r" and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis $x$" if E[0] else ""
+    side = "along" if E[0] * B > 0 else "against"
+    drift = rf" and drifts along $[\mathbf{{E}}, \mathbf{{B}}]$, {side} the axis $x$" if E[0] else ""
     vector = tex_vector((0.0, *E))
     return Scene(
         title(__doc__),
@@ -72,7 +73,7 @@ def scene(
         rf"$z$. The path begins at the origin{drift}. The arrows of the fields are not to scale.",
         f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, E = {plain_vector((0.0, *E))} in "
         f"the plane of y and z{' with its two components' if all(E) else ''}, and the spiral path of a particle"
-        f"{' that drifts along x' if E[0] else ''}.",
+        f"{f' that drifts {side} x' if E[0] else ''}.",
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 88.0),
     )

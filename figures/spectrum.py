@@ -37,7 +37,7 @@ def scene(
     top = 1.2 * float(max(axis.frequencies.max(initial=0.0), spin.frequencies.max(initial=0.0))) or 1.0
     along_field, along_axis = (r"along $\mathbf{B}$", r"across $\mathbf{B}$"), ("along the axis", "across it")
     symbols = {"nutation": "M", "precession": "p", "spin": "s"}
-    told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items())
+    told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
         title=title(__doc__),
         caption=(
@@ -49,8 +49,13 @@ def scene(
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "
             f"{plain_setting(ratio, field)} from the angular velocity {plain_vector(omega)}: of the body's axis and of "
-            "the angular velocity in the body. They become lower by about the same factor from one multiple of the "
-            f"nutation, {plain(rates.get('nutation', 0.0))}, to the next."
+            "the angular velocity in the body."
+            + (
+                " They become lower by about the same factor from one multiple of the nutation, "
+                f"{plain(rates['nutation'])}, to the next."
+                if "nutation" in rates
+                else ""
+            )
         ),
         panels=(
             stems(r"(a) the body's axis, $(m,l)$ at $mM+lp$", axis, along_field, least, names, top, ""),

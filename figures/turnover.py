@@ -31,6 +31,10 @@ def scene(
         raise DomainError(
             f"figure turnover takes one to three pushes, from 0 to 1, and a field, not {pushes} and {field}."
         )
+    if len(set(inertia)) == 1:
+        raise DomainError(
+            f"figure turnover needs moments that are not all equal, not {inertia}: a ball does not run away."
+        )
     smallest = min(pushes, key=abs)
     curves = [(push, departure(inertia, field, push, reach)) for push in pushes]
     farthest = float(dict(curves)[smallest][:, 1].max())

@@ -278,12 +278,17 @@ def test_drawn_frequencies_obey_their_equations(ratio: float, field: tuple[float
 
 
 @pytest.mark.parametrize(("ratio", "field"), [(1.0, (1.0, 2.0)), (1.5, (1.0, 0.0))])
-def test_without_a_free_part_the_quotient_is_zero(ratio: float, field: tuple[float, float]) -> None:
-    """Phi vanishes for a ball and for a field across the axis, (72)."""
-    _, lower = load("frequencies").scene(ratio=ratio, field=field).panels
-    (line,) = curves(lower, "main")
-    assert not line[:, 1].any()
+def test_without_a_free_part_the_quotient_is_zero_on_one_line_and_free_on_the_other(
+    ratio: float, field: tuple[float, float]
+) -> None:
+    """Phi vanishes for a ball and for a field across the axis, (72), but is omega3 + B3 where omega2 = -B2, (67)."""
+    for panel in load("frequencies").scene(ratio=ratio, field=field).panels:
+        level, upright = curves(panel, "main")
+        assert not level[:, 1].any()
+        assert (upright[:, 0] == -field[0]).all()
     assert Hyperbola(ratio, field).frequencies(0.7)[1] == 0.0
+    motion = ElementaryMotion(ratio, field, -field[0], omega3=0.5)
+    assert motion.phi == pytest.approx(0.5 + field[1], rel=8 * EPS)
 
 
 def test_quotient_levels_out_at_the_free_body() -> None:

@@ -30,6 +30,8 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("cusps", {"omega2": (-0.5, 0.0, 0.25, 0.5)}, "1 to 3 pushes"),
     ("cusps", {"direction": (1.0, 0.0), "omega3": 4.0, "omega2": (0.5,)}, "a steady precession"),
     ("elliptic_family", {"first": (1.3, 1.03, 0.97, 0.8)}, "one to three"),
+    ("elliptic_family", {"first": (1.3, 0.5)}, "three different moments"),
+    ("elliptic_family", {"ratio": 1.0}, "three different moments"),
     ("energy_momentum", {"b": (0.0,)}, "b > 0"),
     ("energy_momentum", {"b": (-1.0,)}, "figure energy_momentum"),
     ("energy_momentum", {"ratios": ()}, "1 to 40"),
@@ -38,6 +40,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("energy_momentum", {"b": (1.0, 1.0, 1.0)}, "for all or for each"),
     ("escape", {"omega2": 0.7}, "escape"),
     ("escape", {"pushes": (0.1,) * 6}, "one to five"),
+    ("escape", {"pushes": (0.1, 0.0)}, "none of them zero"),
     ("film_strip", {"field": (0.0, 0.0)}, "free body"),
     ("film_strip", {"count": 1}, "count"),
     ("film_strip", {"count": 25}, "count"),
@@ -52,6 +55,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("frequencies", {"order": 9}, "order"),
     ("frequencies", {"field": (0.0, 1.0)}, "B2 = 0"),
     ("turnover", {"pushes": (0.0,)}, "from 0 to 1"),
+    ("turnover", {"inertia": (1.0, 1.0, 1.0)}, "not all equal"),
     ("geometric_phase", {"shown": -0.6}, "shown between"),
     ("geometric_phase", {"z": (-0.01, -0.495)}, "from low to high"),
     ("geometric_phase", {"z": (-0.3, -0.3)}, "from low to high"),
@@ -201,3 +205,18 @@ def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple
     caption = made("hyperbola", ratio=ratio, field=field).caption
     assert says in caption
     assert bool(says) == ("With $B'" in caption)
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "says"),
+    [
+        ("magn", {}, "$, along the axis $x$"),
+        ("magn", {"B": -1.0}, "$, against the axis $x$"),
+        ("magn", {"B": -1.0, "E": (-0.12, 0.012)}, "$, along the axis $x$"),
+        ("spectrum", {"omega": (0.0, 0.0, 0.0)}, ": all at zero. (a)"),
+        ("spectrum", {"field": (0.0, 1.0), "omega": (0.0, 0.0, 1.0)}, ": all at zero. (a)"),
+    ],
+)
+def test_a_caption_says_what_is_drawn(name: str, parameters: dict[str, Any], says: str) -> None:
+    """On which side a path drifts; that nothing turns; which lines, planes and axes there are."""
+    assert says in made(name, **parameters).caption
