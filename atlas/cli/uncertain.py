@@ -1,7 +1,6 @@
 """Numbers typed with an uncertainty, 5000(200)e: what it does to each number that a command prints."""
 
 import math
-import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -12,14 +11,17 @@ from atlas.errors import DomainError
 STEP = 1 / 8
 """Part of a standard deviation over which a derivative is taken, by differences on both sides."""
 
-BENT = 0.1
-"""Part of an uncertainty up to which an input a standard deviation off may miss the straight line."""
+BENT = 0.03
+"""Part of the uncertainty of a number by which second and third derivatives may change it: that of one by sampling."""
 
 NONE = 1e-12
 """Part of a number, or of the largest component of a vector or a matrix, that is rounding and no uncertainty."""
 
-DRAWS, LEAST, SECONDS = 1000, 50, 3.0
-"""Draws of the inputs, as many as these seconds of processor time allow, and at least some."""
+DRAWS, NUMBERS, LEAST = 500, 2_000_000, 25
+"""Draws of the inputs, fewer where they had more numbers in all, and how many a number must be in to have a deviation.
+
+The clock has no part in it, so that the digits are the same each time.
+"""
 
 Numbers = dict[tuple[Any, ...], float]
 """Numbers of an answer by their place in it."""
@@ -27,21 +29,25 @@ Numbers = dict[tuple[Any, ...], float]
 
 @dataclass(frozen=True)
 class Spread:
-    """An answer with the standard deviations of its numbers, and what is to be said of them."""
+    """An answer with the standard deviations of its numbers, the errors of sampled ones, and what is to be said."""
 
     found: dict[str, Any]
     sigma: Numbers
+    error: Numbers
     notes: list[str]
 
     def texts(self) -> Any:
         """Return the answer with its numbers as texts, 12.57(3): in brackets the uncertainty of the last digits."""
-        return mapped(self.found, lambda x, place: concise(x, self.sigma.get(place, 0.0)))
+        return mapped(self.found, lambda x, place: concise(x, self.sigma.get(place, 0.0), self.error.get(place, 0.0)))
 
     def rates(self, names: list[str]) -> dict[str, str]:
         """Return rates among the numbers, by name, in turns a second."""
-        known = {name: self.found[name] for name in names if isinstance(self.found.get(name), float)}
-        turn = 2 * math.pi
-        return {name: concise(x / turn, self.sigma.get((name,), 0.0) / turn) for name, x in known.items()}
+        known = {
+            name: (self.found[name], self.sigma.get((name,), 0.0), self.error.get((name,), 0.0))
+            for name in names
+            if isinstance(self.found.get(name), float)
+        }
+        return {name: concise(*(x / (2 * math.pi) for x in three)) for name, three in known.items()}
 
     def record(self) -> dict[str, Any]:
         """Return the answer, and under sigma the same with the standard deviations in the place of its numbers."""
@@ -62,41 +68,48 @@ def _parts(value: Any) -> tuple[Any, ...]:
 def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> Spread:
     """Return the answer to options with uncertainties, which are independent of one another.
 
-    They are carried to first order, by derivatives. Where an input a standard deviation off is not on the straight line
-    or has no answer, they are carried by sampling.
+    They are carried to first order, by derivatives, and by sampling to a number whose deviation terms of second and
+    third order would change, or that is not there where one input, or all together, are a standard deviation off.
     """
     inputs = uncertain(options)
     answers = answer(options)
     middle = dict(_numbers(answers))
     sizes = _sizes(middle)
-    lines, curved = [], set[tuple[Any, ...]]()
-    for name in inputs:
+    ways: list[Mapping[tuple[str, int, Typed], float]] = [{name: 1.0} for name in inputs]
+    together = [dict.fromkeys(inputs, len(inputs) ** -0.5)] if len(inputs) > 1 else []
+    lines, parts, curved = list[Numbers](), list[Numbers](), set[tuple[Any, ...]]()
+    for way in [*ways, *together]:
         try:
-            near, far = (
-                [dict(_numbers(answer(_moved(options, {name: step_of_input})))) for step_of_input in (step, -step)]
-                for step in (STEP, 1.0)
-            )
+            four = [
+                dict(_numbers(answer(_moved(options, {name: step * x for name, x in way.items()}))))
+                for step in (STEP, -STEP, 1.0, -1.0)
+            ]
         except DomainError:
             curved |= set(middle)
             continue
-        slope = {key: (near[0][key] - near[1][key]) / (2 * STEP) for key in middle if _in_all(key, near)}
-        lines.append(slope)
-        curved |= {key for key in middle if key not in slope or not _in_all(key, far)}
-        for key in slope.keys() - curved:
-            off = max(abs(far[0][key] - middle[key] - slope[key]), abs(far[1][key] - middle[key] + slope[key]))
-            if off > BENT * abs(slope[key]) + NONE * sizes[key]:
-                curved.add(key)
-    sigma = {key: math.hypot(*(line.get(key, 0.0) for line in lines)) for key in middle}
+        known = {key: [numbers[key] for numbers in four] for key in middle if all(key in numbers for numbers in four)}
+        curved |= middle.keys() - known.keys()
+        parts.append({key: (after + before - 2 * middle[key]) / 2**0.5 for key, (_, _, after, before) in known.items()})
+        if way not in together:
+            lines.append({key: (near - far) / (2 * STEP) for key, (near, far, _, _) in known.items()})
+            parts.append({key: 1.5 * (x[2] - x[3]) - 2 * lines[-1][key] for key, x in known.items()})
+    sigma, bent = (
+        {key: math.hypot(*(part.get(key, 0.0) for part in several)) for key in middle} for several in (lines, parts)
+    )
+    curved |= {key for key in middle if abs(bent[key] - sigma[key]) > BENT * sigma[key] + NONE * sizes[key]}
+    error = Numbers()
     notes = ["In brackets one standard deviation, in the last digits; of first order, by derivatives."]
     if curved:
-        draws, failed = _draws(answer, options, inputs)
-        sigma |= {key: _deviation([draw[key] for draw in draws if key in draw]) for key in curved}
+        count = min(DRAWS, max(NUMBERS // len(middle), 4 * LEAST))
+        draws, failed = _draws(answer, options, inputs, curved, count)
+        for key, values in draws.items():
+            sigma[key], error[key] = _deviation(values)
         names = ", ".join(
             dict.fromkeys(str(key[2] if key[0] == "samples" else key[0]) for key in middle if key in curved)
         )
         lost = f", of which {failed} had no answer" if failed else ""
-        notes.append(f"Of {names} by sampling, {len(draws) + failed} draws{lost}, since they are not of first order.")
-    return Spread(answers, {key: x if x > NONE * sizes[key] else 0.0 for key, x in sigma.items()}, notes)
+        notes.append(f"Of {names} by sampling, {count} draws{lost}, since they are not of first order.")
+    return Spread(answers, {key: x if x > NONE * sizes[key] else 0.0 for key, x in sigma.items()}, error, notes)
 
 
 def _sizes(numbers: Numbers) -> Numbers:
@@ -106,10 +119,6 @@ def _sizes(numbers: Numbers) -> Numbers:
         group = key[:3] if key[0] == "samples" else key
         largest[group] = max(largest.get(group, 0.0), abs(x))
     return {key: largest[key[:3] if key[0] == "samples" else key] for key in numbers}
-
-
-def _in_all(key: tuple[Any, ...], several: list[Numbers]) -> bool:
-    return all(key in numbers for numbers in several)
 
 
 def _moved(options: dict[str, Any], by: Mapping[tuple[str, int, Typed], float]) -> dict[str, Any]:
@@ -122,26 +131,34 @@ def _moved(options: dict[str, Any], by: Mapping[tuple[str, int, Typed], float]) 
 
 
 def _draws(
-    answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any], inputs: list[tuple[str, int, Typed]]
-) -> tuple[list[Numbers], int]:
-    """Return the numbers of normal draws of the inputs, and how many draws had no answer."""
+    answer: Callable[[dict[str, Any]], dict[str, Any]],
+    options: dict[str, Any],
+    inputs: list[tuple[str, int, Typed]],
+    places: set[tuple[Any, ...]],
+    count: int,
+) -> tuple[dict[tuple[Any, ...], list[float]], int]:
+    """Return the numbers at these places for normal draws of the inputs, and how many draws had no answer."""
     import random
 
-    normal, draws, failed, start = random.Random(1).gauss, list[Numbers](), 0, time.process_time()  # noqa: S311
-    while len(draws) + failed < DRAWS and (len(draws) + failed < LEAST or time.process_time() - start < SECONDS):
+    normal, failed = random.Random(1).gauss, 0  # noqa: S311
+    draws: dict[tuple[Any, ...], list[float]] = {key: [] for key in places}
+    for _ in range(count):
         try:
-            draws.append(dict(_numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs})))))
+            for key, x in _numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs}))):
+                if key in draws:
+                    draws[key].append(x)
         except DomainError:
             failed += 1
     return draws, failed
 
 
-def _deviation(values: list[float]) -> float:
-    """Return the standard deviation of draws."""
-    if len(values) < LEAST // 2:
-        return math.inf
-    mean = math.fsum(values) / len(values)
-    return math.sqrt(math.fsum((x - mean) ** 2 for x in values) / (len(values) - 1))
+def _deviation(values: list[float]) -> tuple[float, float]:
+    """Return the standard deviation of draws, and its own: about 1/sqrt(2 N) of it, more where the tails are long."""
+    if len(values) < LEAST:
+        return math.inf, math.inf
+    mean, few = math.fsum(values) / len(values), len(values) - 1
+    second, fourth = (math.fsum((x - mean) ** power for x in values) / few for power in (2, 4))
+    return math.sqrt(second), math.sqrt(max(fourth / second - second, 0.0) / (4 * few)) if second else 0.0
 
 
 def _numbers(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], float]]:
@@ -169,12 +186,15 @@ def mapped(value: Any, function: Callable[[float, tuple[Any, ...]], Any], place:
     return value
 
 
-def concise(value: float, sigma: float) -> str:
-    """Write a number with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06."""
+def concise(value: float, sigma: float, error: float = 0.0) -> str:
+    """Write a number with its standard deviation in its last two digits, 12.57(31) or 1.257(31)e-06.
+
+    In one digit, 12.6(4), where the second is less than the error of the deviation.
+    """
     if not 0 < sigma < math.inf or not math.isfinite(value):
         return f"{value:.10g}" if sigma == 0 else f"{value:.10g}(?)"
     last = math.floor(math.log10(sigma)) - 1
-    if round(sigma / 10.0**last) == 100:
+    if error > 10.0**last or round(sigma / 10.0**last) == 100:
         last += 1
     first = math.floor(math.log10(max(abs(value), sigma)))
     if last <= 0 and -4 <= first < 10:

@@ -18,7 +18,7 @@ from atlas.cli.uncertain import concise
 @pytest.fixture(autouse=True)
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let as few draws be made as make sense."""
-    monkeypatch.setattr(uncertain, "DRAWS", uncertain.LEAST)
+    monkeypatch.setattr(uncertain, "DRAWS", 50)
 
 
 def run(words: str) -> tuple[int, str]:
@@ -82,12 +82,33 @@ def test_families_with_fields_of_their_own_carry_theirs() -> None:
 
 
 def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
-    """At its largest value the angle of the quadric does not depend on the ratio to first order: that is said."""
+    """The modulus is not of first order in a wide omega2: that is said, and it has the same digits each time."""
     status, out = run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")
+    assert (status, out) == run("motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2")
     assert status == 0
     sampled = re.search(r"^Of (.+) by sampling, \d+ draws", out, re.MULTILINE)
     assert sampled is not None
     assert "modulus" in sampled[1]
+
+
+def test_an_input_of_a_negligible_share_does_not_ask_for_sampling() -> None:
+    """The precession's rate hardly depends on B3, and that not to first order: by derivatives it is right."""
+    status, out = run("motion --ratio 1.30(1) --field 1.00(1) 1.60(2) --omega 0.3 0.7 0.2")
+    assert status == 0
+    assert "0.8317(72)" in out
+    assert "by sampling" not in out
+
+
+def test_numbers_that_depend_on_all_inputs_together_have_a_deviation() -> None:
+    """A product of two numbers about zero has that of either times that of the other."""
+    found = numbers("motion --ratio 1.3 --magnetic 0.0(2) 0 --mu 0.0(1) --omega 0.3 0.7 0.2")
+    assert found["sigma"]["larmor"] > 0
+
+
+@pytest.mark.parametrize(("error", "text"), [(0.0, "12.57(31)"), (0.009, "12.57(31)"), (0.02, "12.6(3)")])
+def test_a_digit_below_the_error_of_a_deviation_is_not_printed(error: float, text: str) -> None:
+    """A deviation by sampling has as many digits as are known of it."""
+    assert concise(12.5663, 0.31, error) == text
 
 
 @pytest.mark.parametrize(
