@@ -39,18 +39,17 @@ def composed(
 
     Raises AtlasError for a mistake in the report and for a figure that fails.
     """
-    from atlas.build.report import document_of
+    from atlas.build.report import check_style, document_of
     from atlas.draw import gl
     from atlas.report.load import load
     from atlas.report.pictures import pictures
 
     file = find(str(name))
     report = load(file)
+    check_style(style := style or report.style or None)
     cache, wanted = Cache(cache_folder(out)), pictures(report)
     builds = {
-        FigureBuild(
-            drawing.recipe, drawing.parameters, drawing.renderer, kinds(drawing), style or report.style or None, targets
-        ): drawing
+        FigureBuild(drawing.recipe, drawing.parameters, drawing.renderer, kinds(drawing), style, targets): drawing
         for drawing in wanted.values()
         if not drawing.failure
     }

@@ -145,10 +145,11 @@ def _build(
     sources.closure([file])  # as it is read now
     report = load(file)
     _check(report.name, file)
+    check_style(style := style or report.style or None)
     cache.prune()
     drawings = pictures(report)
     cards = on_cards(report) if "html" in formats and len(report.pages) > 1 else ()
-    wanted = _figures(drawings, formats, style or report.style or None, gl.library(), cards)
+    wanted = _figures(drawings, formats, style, gl.library(), cards)
     figures.find(list(wanted), cache, sources, gl.library())
     times["look"] = time.perf_counter()
     steps, jobs = len(wanted) + 2, jobs or figures.cores()
@@ -223,6 +224,15 @@ def _check(name: str, file: Path) -> None:
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     if name != file.stem:
         raise AtlasError(f"{file}: the report's name is {name!r}, but the file is called {file.stem!r}.")
+
+
+def check_style(style: str | None) -> None:
+    """Refuse a style sheet that can't be used before anything is drawn."""
+    if style is not None:
+        from atlas.draw.style import context
+
+        with context(style):
+            pass
 
 
 def _figures(

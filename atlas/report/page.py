@@ -1,5 +1,6 @@
 """The report of one object: its properties, figures, neighbours, and how to get the same numbers, as a report file."""
 
+import inspect
 import re
 import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -88,7 +89,7 @@ def _texts(value: Any) -> tuple[str, ...]:
 SEEN = 1e-3
 """Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
 
-FIGURES = "## Figures\n\nThose that fit it, each with the command that draws it."
+FIGURES = "## Figures\n\nThose that fit it."
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
     "# Change it as you like, and build it by `atlas report {name}.toml --format single pdf`.\n\n"
@@ -307,11 +308,14 @@ def _of_other_bodies(asked: Asked) -> Iterator[tuple[str, Asked]]:
 def _reproduce(asked: Asked) -> str:
     """Say how to get the same numbers from the command line and from Python."""
     family = asked.family
-    name = family.kernels().__name__
-    arguments = ", ".join(f"{p.name}={_python(asked, p.name)}" for p in family.parameters if _python(asked, p.name))
+    kernels = family.kernels()
+    values = zip(
+        inspect.signature(kernels).parameters, (_python(asked, p.name) for p in family.parameters), strict=True
+    )
+    arguments = ", ".join(f"{name}={value}" for name, value in values if value)
     shown = [q for q in family.quantities if not q.get and (q.certified or q.printed)]
     digits = ["--digits", str(asked.digits)]
-    lines = ["import atlas", "", f"it = atlas.{name}({arguments})", *(f"print(it.{q.name})" for q in shown)]
+    lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})", *(f"print(it.{q.name})" for q in shown)]
     return "\n".join(
         [
             "## The same numbers elsewhere", "", "On the command line, with the same digits:", "", "```console",

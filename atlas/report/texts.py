@@ -16,7 +16,7 @@ from atlas.report import pandoc
 from atlas.report.pandoc import FormulaError, Target, Tree, mend_all, with_leading
 
 _CITED = re.compile(
-    r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\(\d+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
+    r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\([\w.-]+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
 )
 """A citation, in the first group; formulas and code, in which there is none, are passed over."""
 DEEPEST = 10

@@ -277,6 +277,26 @@ def test_a_point_charge_has_the_units_that_it_was_given_in(
     assert f"{figure['length']}/{figure['unit']}" == names.split()[4]
 
 
+def test_the_code_of_a_page_has_the_names_of_the_class(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """Those of a particle in Python are not those of its options."""
+    record = unbuilt("particle --mu -1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0")
+    (code,) = re.findall(
+        r"```python\n(.*?)```", "".join(b.get("text", "") for b in record["pages"][0]["blocks"]), re.DOTALL
+    )
+    with redirect_stdout(StringIO()) as out:
+        exec(code, {})  # noqa: S102  what the page tells the reader to type
+    assert out.getvalue().split() == ["-1.0", "0.5"]
+
+
+def test_no_heading_stands_above_closed_motions_that_there_are_not(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """A body without a field turns once in each nutation: there is no fraction, and a sentence says why."""
+    texts = [
+        block.get("text", "") for block in unbuilt("--ratio 1.5 --field 0 0 --omega 0.3 0.7 0.2")["pages"][0]["blocks"]
+    ]
+    assert "## Nearest closed motions" not in texts
+    assert "The nearest closed motions: The turns in one nutation are a whole number" in texts[-1]
+
+
 @pytest.mark.parametrize(
     "body", ["--points FILE", "--inertia 2 4 --mu 1", "--shape ring --radius 1 --mass 4 --charge 4"]
 )

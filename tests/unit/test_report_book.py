@@ -174,6 +174,28 @@ def test_a_short_report_has_its_title_first_and_no_empty_head(tmp_path: Path) ->
     assert not any("Abstract" in page for page in pages)
 
 
+def test_a_short_report_names_its_authors_and_counts_only_tables_with_a_caption(tmp_path: Path) -> None:
+    """The authors stand below the title; a table of the text takes no number from those that have one."""
+    said = 'What it says, @tab:here.\\n\\n| a | b |\\n|---|---|\\n| 1 | 2 |" },\n'
+    listing = '  { kind = "listing", id = "here", columns = ["C"], rows = [["d"]], caption = "Listed." },\n'
+    short = SHORT.replace('What it says." },\n', said + listing).replace("[[", 'authors = ["Ada Roe", "B Doe"]\n[[', 1)
+    (tmp_path / "short.toml").write_text(short, encoding="utf-8")
+    built = build_report(tmp_path / "short.toml", tmp_path, formats=("pdf",))
+    text = " ".join(PdfReader(built.pdf).pages[0].extract_text().split())
+    assert text.startswith("A short report Ada Roe, B Doe")
+    assert "Table 1 . Listed" in text.replace("1.", "1 .")
+    assert "Table 2" not in text
+
+
+def test_a_style_that_there_is_not_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    """Typed or in the file: the report that is there stays."""
+    (tmp_path / "short.toml").write_text(SHORT.replace("[[", 'style = "nope.mplstyle"\n[[', 1), encoding="utf-8")
+    for style in (None, "none"):
+        with pytest.raises(AtlasError, match=f"the style '{style or 'nope.mplstyle'}' cannot be used"):
+            build_report(tmp_path / "short.toml", tmp_path / "out", style=style)
+    assert not list((tmp_path / "out").glob("short*"))
+
+
 @pytest.mark.slow
 def test_a_report_has_its_style_wherever_it_is_drawn(tmp_path: Path) -> None:
     """`style` in the file, a sheet beside it, draws what `--style` does, in LaTeX, data and pages; the latter wins."""

@@ -72,6 +72,14 @@ def test_the_cells_of_named_points() -> None:
         assert {row[0] for row in data.rows} == {"", "at rest", r"$\phi=0$", r"$\omega_3=0$"}
 
 
+def test_a_point_at_the_pole_is_told_below() -> None:
+    """It has no row; of others nothing is said."""
+    data = table("points", omega2=[-B2, 0.25])
+    assert len(data.rows) == 4
+    assert data.notes == (r"There is no row for $\omega_2=-1.3$, since $\omega_2=-B'_2$ does not have one $\omega_3$.",)
+    assert not table("points", omega2=[0.25]).notes
+
+
 def test_the_cells_of_the_quadric() -> None:
     """Ratio, both angles, a2, a3, the semi-axes, and the centre -B'."""
     with mp.workdps(40):

@@ -19,7 +19,7 @@ PRINTED = 12
 def closed(request: Request) -> Data:
     """Give the best fractions p/q of phi/k and the closed motion of each, or of the turns in one nutation.
 
-    Raises DomainError for a motion that does not turn.
+    Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
     """
     thing = Thing.of(request)
     elementary = thing.family is FAMILIES["elementary"]
@@ -28,6 +28,8 @@ def closed(request: Request) -> Data:
         raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
     value = certified(lambda: _turns(exact, elementary=elementary), request.digits)
     fractions = list(convergents(value))
+    if not fractions:
+        raise DomainError("The turns in one nutation are a whole number, as far as can be told: each one closes.")
     misses = [quantity(value - _ratio(p, q), 2) for p, q in fractions]
     if elementary:
         return _elementary(thing, value, fractions, misses, request.digits)

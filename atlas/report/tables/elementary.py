@@ -100,6 +100,7 @@ def points(request: Request) -> Data:
     B2 = Fraction(request.case.components[0])
     I = Fraction(int(h.I.p), int(h.I.q))
     chosen: dict[Any, list[str]] = {}
+    left_out = [f"$\\omega_2={plain(value)}$" for value in more if value == -B2]
     for name, omega2 in (
         ("at rest", Fraction(0)),
         (r"$\phi=0$", -2 * B2),
@@ -140,6 +141,9 @@ def points(request: Request) -> Data:
         rows,
         r"Points of the hyperbola @(67), frequencies of precession $k$ and of proper rotation $\phi$, @(72), and the "
         r"square of the frequency of nutation $\nu_n$, @theorem-stability.",
+        tuple(
+            rf"There is no row for {pole}, since $\omega_2=-B'_2$ does not have one $\omega_3$." for pole in left_out
+        ),
     )
 
 

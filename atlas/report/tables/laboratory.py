@@ -145,7 +145,7 @@ def inferred(request: Request) -> Data:
         tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
         f"Standard deviations that {asked.samples} looks at the axis within {asked.seconds:g} s, each with a noise of "
         f"{asked.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
-        ("Two digits, of first order; a dash for what has no effect on the axis.",),
+        ("Two digits, of first order; a dash for what the axis does not tell by itself.",),
     )
 
 
