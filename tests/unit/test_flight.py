@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from oracles.taylor import taylor
+from scipy.spatial.transform import Rotation
 
+import atlas
 from atlas.core.bodies.field import Field
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.motions.flight import AGREEMENT, Flight
@@ -124,6 +126,59 @@ def test_fields_agree_to_what_typed_digits_lose(off: float, agrees: bool) -> Non
         else:
             with pytest.raises(AtlasError, match="must be the same"):
                 Flight(PARTICLE, motion, [1, 0, 0], FRAME)
+
+
+ATTITUDE = Rotation.from_euler("xyz", [0.3, -0.7, 1.1])
+START = (0.1, 0.7, 0.2)
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        atlas.AsymmetricMotion((0.8, 1.0, 1.3), FIELD.prime, START),
+        atlas.EllipticMotion((0.8, 1.0, 1.3), FIELD.prime, 1.7),
+        atlas.GeneralMotion.in_laboratory(1.3, FIELD.prime, ATTITUDE.as_matrix(), START),
+        atlas.motion(1.3, FIELD, START, ATTITUDE),
+        atlas.motion((0.8, 1.0, 1.3), FIELD, START, ATTITUDE),
+        atlas.motion(np.array([1.3, 1.2]), FIELD, START),
+    ],
+)
+def test_any_body_flies_in_its_field_and_in_no_other(motion: Any) -> None:
+    """Its point starts where it is put, in any attitude, and moves as its velocity says; another field is refused."""
+    flight = Flight(PARTICLE, motion, [0.3, -0.1, 0.7])
+    assert np.abs(flight.position(0.0) - PARTICLE.y0 - [0.3, -0.1, 0.7]).max() <= 4 * EPS
+    positions = np.array([flight.position(t) for t in AROUND])
+    assert np.abs(flight.velocity(AROUND[3]) - slope(positions)).max() < 1e-11
+    with pytest.raises(AtlasError, match="must be the same"):
+        Flight(atlas.ParticleMotion(1.0, FIELD.E, 2 * FIELD.B, [1, 2, 3], [0, 0, 0]), motion, [0.3, -0.1, 0.7])
+
+
+def test_the_field_of_a_turned_body_is_that_of_the_laboratory() -> None:
+    """Components along the axes of the class, which are as those of the centre's field, are not taken for it."""
+    field = Field((0, 1.0, 2.0), mu=2.0)
+    motion = atlas.motion(1.3, ATTITUDE.apply((0, 1.0, 2.0)), START, ATTITUDE)
+    with pytest.raises(AtlasError, match="must be the same"):
+        Flight(atlas.ParticleMotion.in_field(field, (0, 0, 0), (1, 0, 0)), motion, (0.1, 0, 0))
+
+
+def test_a_top_may_fly_anywhere() -> None:
+    """Its direction, which is given as a field is, is none."""
+    top = atlas.TopMotion.in_laboratory((1, 0.5), (0, 0, 1), ATTITUDE, START, coupling=(0, 0), linear=1.0)
+    assert np.abs(Flight(PARTICLE, top, [0, 0, 1]).position(0.0) - PARTICLE.y0 - [0, 0, 1]).max() <= 4 * EPS
+
+
+def test_a_flight_keeps_its_own_point() -> None:
+    """An array that is changed later does not change what the flight says it was made of."""
+    point = np.array([0.3, -0.1, 0.7])
+    flight = Flight(PARTICLE, Tabulated(), point)
+    point[0] = 7.0
+    assert np.asarray(flight.arguments["point"]).tolist() == [0.3, -0.1, 0.7]
+
+
+def test_particles_motions_and_points_broadcast() -> None:
+    """Two motions and three points do not."""
+    with pytest.raises(AtlasError, match="do not broadcast"):
+        Flight(PARTICLE, ElementaryMotion([1.5, 1.2], FRAME.field, 0.7), np.eye(3), FRAME)
 
 
 def test_many_points_fly_at_once() -> None:

@@ -5,9 +5,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from atlas.core.bodies.field import LaboratoryFrame
-from atlas.core.inputs import FloatArray, vectors
+from atlas.core.inputs import FloatArray, common_shape, kept, vectors
 from atlas.core.motions.euler_poisson import bracket
 from atlas.core.motions.particle import ParticleMotion
+from atlas.core.motions.turned import Turned
 from atlas.core.quantities import LENGTH
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError
@@ -27,15 +28,15 @@ class Rotation(Protocol):
 
 
 class Flight(Shown):
-    """Path of the point N of a body, y_N(t) = y_0(t) + R(t) x_N(0), as below (18), in the user's frame.
+    """Path of the point N of a body, y_N(t) = y_0(t) + R(t) R(0)^T x_N(0), as below (18), in the user's frame.
 
     `particle` moves as the centre of mass, in the user's frame. `motion` is the body's rotation, in the laboratory
     `frame`; without one the user's frame is the laboratory. `point` (..., 3) is x_N(0), from the centre of mass to the
     point at t = 0, in the user's frame; many points broadcast with the times.
 
-    Both must move in one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the frame by
-    `Field.frame`, and give `frame.field` to the motion. A motion that knows its `field` (B2, B3) is held against the
-    particle's B', and AtlasError raised if they differ by more than AGREEMENT.
+    Both must move in one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the motion by
+    `atlas.motion`; or the frame by `Field.frame`, and give `frame.field` to a motion of its class. The field that a
+    motion knows is held against the particle's B', and AtlasError raised if they differ by more than AGREEMENT.
     """
 
     def __init__(
@@ -43,9 +44,14 @@ class Flight(Shown):
     ) -> None:
         self.particle, self.motion, self.point = particle, motion, vectors(point, "The point", LENGTH)
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
-        self._arm = self.point @ self._to_user
-        self.arguments = {"particle": particle, "motion": motion, "point": point, "frame": frame}
+        self.arguments = {"particle": particle, "motion": motion, "point": self.point, "frame": frame}
+        common_shape(particle.shape, getattr(motion, "shape", ()), self.point.shape[:-1])
         self._compare_fields()
+
+    @kept
+    def _arm(self) -> FloatArray:
+        """The point from the centre of mass, along the axes of the body in which R(0) is."""
+        return np.asarray(np.vecmat(self.point @ self._to_user, self.motion.rotation(0.0)))
 
     def rotation(self, t: Any) -> FloatArray:
         """R(t) of the body in the user's frame, shape (..., 3, 3).
@@ -55,7 +61,7 @@ class Flight(Shown):
         return np.asarray(self._to_user @ self.motion.rotation(t) @ self._to_user.T)
 
     def arm(self, t: Any) -> FloatArray:
-        """Vector x_N(t) = R(t) x_N(0) from the centre of mass to the point, shape (..., 3).
+        """Vector x_N(t) = R(t) R(0)^T x_N(0) from the centre of mass to the point, shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
@@ -69,7 +75,7 @@ class Flight(Shown):
         return self.particle.position(t) + self.arm(t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by (12); shape (..., 3).
+        """Velocity dy_N/dt = dy_0/dt + R [Omega, R(0)^T x_N(0)], by (12); shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
@@ -78,13 +84,22 @@ class Flight(Shown):
 
     def _compare_fields(self) -> None:
         """Raise AtlasError if the body turns in another field than the one in which its centre flies."""
-        turning = getattr(self.motion, "field", None)
+        turning = _field_of(self.motion)
         if turning is None:
             return
         flying = self.particle.prime @ self._to_user
-        apart = np.abs(np.stack(np.broadcast_arrays(0.0, *turning), axis=-1) - flying).max()
-        if apart > AGREEMENT * np.abs(flying).max():
+        if (np.abs(turning - flying).max(-1) > AGREEMENT * np.abs(flying).max(-1)).any():
             raise AtlasError(
                 f"The centre of mass flies in the field B' = {flying.tolist()} of the laboratory frame, "
-                f"but the body turns in (B2, B3) = {turning}: they must be the same."
+                f"but the body turns in B' = {turning.tolist()}: they must be the same."
             )
+
+
+def _field_of(motion: Any) -> FloatArray | None:
+    """Return the field B' in the laboratory in which a motion turns, shape (..., 3); None where it does not tell it."""
+    if isinstance(motion, Turned):
+        return None if motion.family == "top" else motion.given[1]
+    field = getattr(motion, "field", None)
+    if field is None:
+        return None
+    return np.stack(np.broadcast_arrays(*(0.0, *field)[-3:]), axis=-1)
