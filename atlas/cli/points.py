@@ -1,13 +1,21 @@
 """Columns of numbers of a CSV file with a heading; point masses and charges of one as the body of a command."""
 
 import csv
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
+from atlas.cli.measured import WANTED, in_si
+from atlas.errors import AtlasError
+
 SYMMETRIC = 1e-9
 """By how much moments about the axis may differ, and how large products may be, in parts of the largest moment."""
+OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", "charge": "charge"}
+"""Options that have the units of point masses, by the names of the columns."""
 
 
 class Points(NamedTuple):
@@ -119,7 +127,18 @@ def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
 
 
 def columns_of(path: Path) -> dict[str, list[float]]:
-    """Return the columns of a CSV file, named by its first line. Raises click.UsageError, with the line."""
+    """Return the columns of point masses, as `measured_columns` does."""
+    return measured_columns(path, OF_POINTS, {})[0]
+
+
+def measured_columns(
+    path: Path, options: Mapping[str, str], plain: Mapping[str, tuple[str, ...]]
+) -> tuple[dict[str, list[float]], set[str]]:
+    """Return the columns of a CSV file, named by its first line, and the units there, as in omega2 [Hz].
+
+    What has a unit is converted to that of its option in `options`, but for the units in `plain`, which are taken as
+    they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
+    """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.reader(file)
@@ -130,16 +149,31 @@ def columns_of(path: Path) -> dict[str, list[float]]:
         raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
     except csv.Error as error:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
-    names = [name.partition("[")[0].strip() for name in heading]  # k [1/time] is k
+    parts = [name.partition("[") for name in heading]  # k [1/time] is k
+    names, units = [name.strip() for name, *_ in parts], [unit.strip(" ]") for *_, unit in parts]
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
+    meant = [
+        None if unit in ("", "1", *plain.get(name, ())) else options.get(name)
+        for name, unit in zip(names, units, strict=True)
+    ]
     columns: dict[str, list[float]] = {name: [] for name in names}
     for number, line in lines:
         if len(line) != len(names):
             raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(names)}.")
-        for name, cell in zip(names, line, strict=True):
+        for name, unit, option, cell in zip(names, units, meant, line, strict=True):
             try:
-                columns[name].append(float(cell))
-            except ValueError:
-                raise click.UsageError(f"{path}: line {number}: {cell!r} under {name} is not a number.") from None
-    return columns
+                x = float(cell)
+                columns[name].append(float(Fraction(x) * _size(unit, option)) if option else x)
+            except (ValueError, OverflowError, AtlasError) as error:
+                right = f" in {WANTED[option]}, or what can be made of it" if option in WANTED else " without a unit"
+                under = f"{name} [{unit}] is not a number{right}" if option else f"{name} is not a number"
+                raise click.UsageError(f"{path}: line {number}: {cell!r} under {under}.") from error
+    return columns, {*units}
+
+
+@cache
+def _size(unit: str, option: str) -> Fraction | float:
+    """Return how many of the unit of an option a unit is. Raises AtlasError for one of something else."""
+    size, exact = in_si(Fraction(1), unit.removeprefix("1"), option)
+    return size if exact is None else exact

@@ -12,9 +12,10 @@ from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
 from atlas.cli.measured import split
 from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, pair, stack
-from atlas.cli.points import columns_of
+from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.families import FAMILIES
+from atlas.families.family import TIME
 
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
@@ -27,9 +28,6 @@ folder or an address, as s3://bucket/table.parquet (with the package of fsspec f
 that pandas and Dask read as one table. Beside a file that you edited, or put there, the table is OUT.new.csv, and then
 the exit status is 2.
 """
-
-OPTIONS = {"I": "inertia", "B": "field", "omega": "omega"}
-"""Options by the names of their components in a table."""
 
 MOST = 10**7
 """Values of one parameter that a range may have."""
@@ -97,9 +95,10 @@ def swept(
     if toml is None:
         if family is None:
             raise click.UsageError(f"name the family to sweep: {NAMES}.")
-        fixed, pairs = _body(options), [_setting(text) for text in settings]
-        _once([*fixed, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(fixed))
-        family = _meant(family, {*fixed, *(name for name, _ in pairs)})
+        fixed, pairs = _body(options), [pair(text, "NAME=VALUES, as in ratio=0.5:2:100") for text in settings]
+        names = [*fixed, *(name.strip() for name, _ in pairs)]
+        _once(names, "--set" + " and the options of body and field" * bool(fixed))
+        family = _meant(family, {*names})
         known = {name for p in FAMILIES[family].parameters for name in p.names} if family in FAMILIES else {"I1"}
         if "I1" in fixed and "I1" not in known:
             components = {"inertia": "I2 I3", "magnetic": "B2 B3", "field": "B2 B3"}
@@ -109,15 +108,16 @@ def swept(
                 + f"in the family {family}; a body with three moments of inertia is the family asymmetric, with "
                 "--set I1=0.8 and so on, or motion, which finds it."
             )
-        wanted = Wanted(family, quantities, fixed | dict(pairs), listing, out, digits, rows)
+        parameters = fixed | {name.strip(): _values(family, name.strip(), values) for name, values in pairs}
+        wanted = Wanted(family, quantities, parameters, listing, out, digits, rows)
     elif family or settings or listing or quantities or digits or rows or body.body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")
     else:
         wanted = read(toml)
         wanted = wanted._replace(out=out or wanted.out)
     typed = [x.strip() for text in settings for x in re.split("[,:]", text.partition("=")[2])]
-    in_seconds = any(map(split, typed))
-    columns = columns_of(wanted.listing) if wanted.listing else {}
+    columns, units = _listed(wanted.family, wanted.listing) if wanted.listing else ({}, set())
+    in_seconds = any(map(split, typed)) or bool(units)
     _once([*columns, *wanted.parameters], f"{wanted.listing} and elsewhere")
     if wanted.out is None:
         raise click.UsageError("--out is missing: name the file that the table goes to.")
@@ -267,7 +267,7 @@ def read(path: Path) -> Wanted:
     return Wanted(
         recipe.family,
         recipe.quantities,
-        {name: _values(name, value) for name, value in recipe.parameters.items()},
+        {name: _values(recipe.family, name, value) for name, value in recipe.parameters.items()},
         None if recipe.listing is None else Path(beside(recipe.listing)),
         None if recipe.out is None else OUT.convert(beside(recipe.out), None, None),
         recipe.digits,
@@ -282,19 +282,28 @@ def _once(names: Sequence[str], where: str) -> None:
             raise click.UsageError(f"{name} is given {count} times, by {where}: give it once.")
 
 
-def _setting(text: str) -> tuple[str, Any]:
-    """Read NAME=VALUES."""
-    name, values = pair(text, "NAME=VALUES, as in ratio=0.5:2:100")
-    return name.strip(), _values(name, values)
+def _options(family: str) -> dict[str, tuple[str, str]]:
+    """Return the option and the unit of each parameter of a family, then of the others, by its name in a table."""
+    known = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
+    return {name: (p.name, p.unit) for p in known for name in p.names} | {"t": ("times", TIME)}
 
 
-def _values(name: str, value: Any) -> Any:
+def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
+    """Return the columns of a list, and the units of SI in its heading; those of tables without such stay."""
+    known = _options(family)
+    plain = {name: (unit, unit.replace(TIME, "s")) for name, (_, unit) in known.items()}
+    columns, units = measured_columns(path, {name: option for name, (option, _) in known.items()}, plain)
+    return columns, units - {"", "1", *(unit for _, unit in known.values())}
+
+
+def _values(family: str, name: str, value: Any) -> Any:
     """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
     from atlas.study.sweep.plan import Range
 
     if not isinstance(value, str):
         return value
-    option = click.Option([f"--{OPTIONS.get(name.strip().rstrip('123'), name.strip())}"])  # which says the unit
+    option = click.Option([f"--{_options(family).get(name, (name, ''))[0]}"])  # which says the unit
+    option.opts = [name]
     if ":" not in value:
         return [float(REAL.convert(x.strip(), option, None)) for x in value.split(",")]
     start, stop, *rest = value.split(":")

@@ -12,11 +12,13 @@ from pathlib import Path
 
 import mpmath
 import pytest
+from click import UsageError
 from click.testing import CliRunner
 
 from atlas.cli.app import atlas as command
 from atlas.cli.figure import setting
 from atlas.cli.options import Typed
+from atlas.cli.points import points
 
 ATLAS = [sys.executable, "-m", "atlas"]
 EPS = 2.0**-52
@@ -96,6 +98,20 @@ def test_floats_in_json_read_back_the_same() -> None:
     assert out["parameters"]["ratio"] == 0.1
     assert out["parameters"]["field"] == [0.3, 1e-5]
     assert out["samples"][0]["t"] == 1000.0
+
+
+def test_point_masses_may_have_units_in_their_heading(tmp_path: Path) -> None:
+    """They are converted; a unit of something else is refused."""
+    file = tmp_path / "points.csv"
+    for scale, heading in ((1, "x,y,z,mass,charge"), (1000, "x [mm],y [mm],z [mm],mass [g],charge [mC]")):
+        rows = [(1, 0, 0, 1, 2), (-1, 0, 0, 1, 2), (0, 1, 0, 1, 2), (0, -1, 0, 1, 2), (0, 0, 1, 1, 2), (0, 0, -1, 1, 2)]
+        file.write_text("\n".join([heading, *(",".join(str(x * scale) for x in row) for row in rows)]))
+        read = points(file)
+        assert (read.mass, read.mu) == (6, 2)
+        assert read.body.inertia == (4, 4, 4)
+    file.write_text("x,y,z [kg],mass\n0,0,1,1\n")
+    with pytest.raises(UsageError, match=r"points\.csv: line 2: '1' under z \[kg\] is not a number in m, "):
+        points(file)
 
 
 def test_a_wrong_input_gets_one_line_and_status_two() -> None:

@@ -97,6 +97,75 @@ def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) 
     assert (tmp_path / "u.csv").read_bytes() == out.read_bytes()
 
 
+def listed(place: Path, family: str, heading: str, row: str, quantity: str) -> tuple[int, list[str]]:
+    """Return the status of a sweep over a list of one row, and its table, or what is told."""
+    (place / "l.csv").write_text(f"{heading}\n{row}\n")
+    words = ["sweep", family, "--list", place / "l.csv", "--quantity", quantity, "--out", place / "t.csv", "-j1"]
+    result = CliRunner().invoke(program, [str(word) for word in words])
+    told = (place / "t.csv").read_text() if result.exit_code == 0 else result.output + str(result.exception)
+    return result.exit_code, told.splitlines()
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor", "time"),
+    [
+        ("Hz", 2 * np.pi, "s"), ("1/ms", 1e3, "s"), ("rad/s", 1, "s"), ("1/s", 1, "s"), ("1/time", 1, "time"),
+        ("", 1, "time"), ("1", 1, "time"),
+    ],
+)  # fmt: skip
+def test_a_unit_in_the_heading_of_a_list_is_that_of_its_column(
+    tmp_path: Path, unit: str, factor: float, time: str
+) -> None:
+    """A rate in Hz is turns a second, and the table is in seconds then; what the atlas writes is taken as it is."""
+    status, lines = listed(tmp_path, "elementary", f"ratio,B2,B3,omega2 [{unit}]", "1.5,1,2,0.5", "k")
+    assert (status, lines[0]) == (0, "ratio,B2 [1/time],B3 [1/time],omega2 [1/time],k [1/time]".replace("time", time))
+    assert float(lines[1].split(",")[3]) == 0.5 * factor
+
+
+def test_the_heading_of_a_list_of_particles_is_in_si_or_as_it_is_written(tmp_path: Path) -> None:
+    """Its B is the magnetic field itself, in T; a table that was written in seconds is a list again."""
+    status, lines = listed(tmp_path, "particle", "mu [e/u],B3 [mT],v1 [km/s],t [us]", "1,1.5,2,4", "radius")
+    assert status == 0
+    assert [float(x) for x in lines[1].split(",")[1:4]] == [1.5e-3, 2e3, 4e-6]
+    assert listed(tmp_path, "particle", lines[0].rpartition(",")[0], lines[1].rpartition(",")[0], "radius") == (
+        0,
+        lines,
+    )
+
+
+@pytest.mark.parametrize(
+    ("heading", "says"),
+    [
+        (
+            "ratio,B2,B3,omega2 [banana]",
+            "'0.3' under omega2 [banana] is not a number in rad/s, or what can be made of it",
+        ),
+        ("ratio,B2,B3 [mT],omega2", "B3 [mT] is not a number in rad/s"),
+        ("ratio [m],B2,B3,omega2", "ratio [m] is not a number without a unit"),
+    ],
+)
+def test_a_unit_of_something_else_in_a_heading_is_refused(tmp_path: Path, heading: str, says: str) -> None:
+    """With status 2, and what would be right."""
+    status, told = listed(tmp_path, "elementary", heading, "1.5,1,2,0.3", "k")
+    assert (status, says in " ".join(told)) == (2, True), told
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("elementary --set ratio=1.5 B2=1 B3=2 omega2=x --quantity k", "'omega2': 'x' is not"),
+        ("elementary --set ratio=1.5 B2=1 B3=2T omega2=1 --quantity k", "'B3': --field is in rad/s"),
+        ("particle --set mu=1 B3=1V v1=1 --quantity radius", "'B3': --magnetic is in T"),
+        ("particle --set mu=1 B3=1.5mT E1=2V/m v1=1km/s t=4us --quantity radius", "1.0,0.0015,2.0,1000.0,4e-06,"),
+    ],
+)
+def test_a_parameter_has_its_name_and_the_unit_of_its_option(tmp_path: Path, words: str, says: str) -> None:
+    """Of a particle B is the magnetic field itself; t is a time."""
+    out = tmp_path / "t.csv"
+    result = CliRunner().invoke(program, ["sweep", *words.split(), "--out", str(out), "-j1"])
+    assert says in (result.output if result.exit_code else out.read_text())
+
+
 def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
     """CSV, NPZ and Parquet read back as the columns that were computed, to the bit."""
     pytest.importorskip("pyarrow")
