@@ -15,7 +15,7 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.cli.app import main
 from atlas.core.motions.elementary import ElementaryMotion
-from atlas.errors import DomainError
+from atlas.errors import AtlasError, DomainError
 from atlas.study.sweep.families import FAMILIES, NAME
 from atlas.study.sweep.tables import csv_part
 
@@ -164,6 +164,24 @@ def test_a_parameter_has_its_name_and_the_unit_of_its_option(tmp_path: Path, wor
     out = tmp_path / "t.csv"
     result = CliRunner().invoke(program, ["sweep", *words.split(), "--out", str(out), "-j1"])
     assert says in (result.output if result.exit_code else out.read_text())
+
+
+@pytest.mark.parametrize("place", ["/proc/x.csv", "/proc/y/x.csv"])
+def test_a_place_that_cannot_be_written_is_named_as_it_was_typed(place: str, capsys: Any) -> None:
+    """With status 2, and none of the files that a sweep has beside its table."""
+    words = f"sweep elementary --set ratio=1.5 B2=1 B3=2 omega2=1 --quantity k --out {place}"
+    with pytest.raises(SystemExit) as end:
+        main(words.split())
+    told = capsys.readouterr().err
+    assert (end.value.code, place in told, "cannot be written" in told, ".lock" in told) == (2, True, True, False)
+
+
+def test_a_row_outside_the_domain_ends_a_sweep_as_its_help_says() -> None:
+    """It has no empty cell, as beta for B = 0: its number and the reason are told."""
+    told = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
+    assert "a row outside the domain, as on a pole or beta for B = 0, ends the sweep with status 2" in told
+    with pytest.raises(DomainError, match=r"In row 1 of the table, .*no angle beta"):
+        atlas.sweep("quadric", {"ratio": 1.5, "B2": [0, 1], "B3": [0, 1]}, ["beta"])
 
 
 def test_every_format_holds_the_same_table(tmp_path: Path) -> None:

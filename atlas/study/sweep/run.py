@@ -72,8 +72,9 @@ def sweep(
     parts or on who computed them. With `digits` the quantities are text with so many certified digits.
     `progress(rows done, rows)` is called after each part. `time` is what headings call the unit of time.
 
-    Where a quantity has no value, as an angle a period on a separatrix, its cell is empty (NaN in the columns and .npz,
-    null in .parquet, no text), and the column `missing` says why.
+    Where an angle a period, or the like, has no value, as on a separatrix, its cell is empty (NaN in the columns and
+    .npz, null in .parquet, no text), and the column `missing` says why. Any other row outside the domain, as on a pole
+    or the quadric's beta for B = 0, ends the sweep: DomainError has its number and the reason.
 
     Raises AtlasError for what is unknown, missing or outside the domain of the family, with the row that it is in; for
     a table that another sweep is writing, with who that is; for a folder that is not of a sweep; and for a file that is

@@ -198,12 +198,15 @@ class Table:
         """Hold the table's lock, that of the system, which ends with this process; `mark` is what its file holds.
 
         The file is removed at the end; one that a killed sweep left behind is no hindrance. Raises AtlasError that says
-        who holds it, or that the file is of another kind.
+        who holds it, that the file is of another kind, or that none can be written there.
         """
         if self.lock.is_symlink() or self._record() is None:
             raise AtlasError(f"{self.lock} is needed for the lock of the sweep, but is something else.")
-        self.lock.parent.mkdir(parents=True, exist_ok=True)
-        lock = self._locked()
+        try:
+            self.lock.parent.mkdir(parents=True, exist_ok=True)
+            lock = self._locked()
+        except OSError as error:
+            raise AtlasError(f"{self.place} cannot be written: {error.strerror}.") from error
         try:
             since = datetime.now().astimezone().isoformat(" ", "seconds")
             record = {MARK: str(self.place), "pid": os.getpid(), "host": socket.gethostname(), "since": since}
