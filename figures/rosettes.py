@@ -4,6 +4,7 @@ An elementary motion closes if phi/k is a rational number p/q, and then after q 
 The trace of a point of the body, at the angle LEAN to its axis, is seen along the field.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ def scene(
     """Show a motion with phi/k = p/q for each of the ``fractions``, and the golden one over ``turns`` turns."""
     if not all(field):
         raise DomainError(f"figure rosettes needs both components of the field, not field = {field}.")
-    hyperbola = Hyperbola(ratio, field)
+    hyperbola, fractions = Hyperbola(ratio, field), tuple(map(reduced, fractions))
     closed = [(rf"$\phi/k={p}/{q}$", hyperbola.closed(p, q), float(q)) for p, q in fractions]
     never = ElementaryMotion(ratio, field, golden(ratio, field))
     motions = [*closed, (r"$\phi/k=(\sqrt{5}-1)/2$", never, turns)]
@@ -49,8 +50,8 @@ def scene(
         caption=(
             r"Seen along $\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
             rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "
-            rf"{listed([str(q) for _, q in fractions])} turns of the precession, with the golden mean never; drawn: "
-            rf"{plain(turns)} turns from $\omega_2={tex(never.omega2)}$."
+            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, with the golden mean never; "
+            rf"drawn: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "
@@ -61,6 +62,13 @@ def scene(
         named={"navy": "body_axis", "teal": "trajectory"},
         size=(SIZE * len(panels), SIZE + 4.0),
     )
+
+
+def reduced(fraction: tuple[int, int]) -> tuple[int, int]:
+    """Return p and q without a common factor, q positive."""
+    p, q = fraction
+    factor = math.copysign(math.gcd(p, q), q) or 1
+    return int(p / factor), int(q / factor)
 
 
 def golden(ratio: Any, field: tuple[float, float]) -> float:

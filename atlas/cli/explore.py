@@ -71,7 +71,9 @@ def started(args: list[str]) -> tuple[str, str]:
         family, values = principal.family, principal.values
     else:
         parts = zip(family.parameters, values_of(family, options, exact=False), strict=True)
-        values = {p.name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for p, x in parts if x is not None}
+        given = {p.name: x for p, x in parts if x is not None}
+        family.kernels()(**given)  # says what no body has before a server starts
+        values = {name: x if isinstance(x, tuple) else (getattr(x, "ratio", x),) for name, x in given.items()}
     numbers = {
         name: float(x) for p in family.parameters for name, x in zip(p.names, values.get(p.name, ()), strict=False)
     }

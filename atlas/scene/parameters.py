@@ -55,8 +55,9 @@ COUNTS = {2: "two", 3: "three", 4: "four"}
 def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tuple[float, float]] = RANGES) -> Any:
     """Return the value of a parameter in the type of its annotation, or of its default where it has none.
 
-    A list becomes a tuple, a whole number a float, one number a list of one where any length will do. Raises
-    AtlasError, which names the parameter and says what would be right.
+    A list becomes a tuple, a whole number a float, one number a list of one where any length will do, and a list is
+    cut into lists of the length that is meant. Raises AtlasError, which names the parameter and says what would be
+    right.
     """
     kind = _kind(default) if hint is None else hint
     try:
@@ -80,16 +81,17 @@ def described(hint: Any, default: Any) -> str:
         return " or ".join(map(str, inner))
     if origin is tuple:
         free, plain = inner[-1] is Ellipsis, inner[0] in _PLAIN and len({*inner} - {Ellipsis}) == 1
-        many = _PLURAL[inner[0]].partition(",")[0] if plain else "lists" if free else "values"
+        many = _PLURAL[inner[0]].partition(",")[0] if plain else "values"
+        if free and get_origin(inner[0]) is tuple:
+            return f"lists of {described(inner[0], None)}, one after the other"
         return f"a list of {many}" if free else f"{COUNTS.get(len(inner), len(inner))} {many}"
     return _PLAIN[float if kind is Any else kind][0].partition(",")[0] if kind in {Any, *_PLAIN} else "a value"
 
 
 def typed(value: Any) -> str:
-    """Write a value as it is typed after ``--set``, lists of lists apart, which can't be: they stand in brackets."""
+    """Write a value as it is typed after ``--set``, the numbers of a list of lists one after the other."""
     if isinstance(value, tuple | list):
-        parts = [f"({typed(item)})" if isinstance(item, tuple | list) else typed(item) for item in value]
-        return ",".join(parts) + ("," if len(value) == 1 else "")
+        return ",".join(map(typed, value)) + ("," if len(value) == 1 and not isinstance(value[0], tuple | list) else "")
     if isinstance(value, bool):
         return str(value).lower()
     return repr(float(value)).removesuffix(".0") if isinstance(value, float | int) else str(value)
@@ -135,9 +137,14 @@ def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
     free = inner[-1] is Ellipsis
     kinds = set(inner) - {Ellipsis}
     plural = _PLURAL.get(inner[0], "values") if len(kinds) == 1 else "values"
-    many = f"a list of 1 to {MOST} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
     if free and not isinstance(value, list | tuple):
         value = (value,)
+    lists = get_args(inner[0]) if get_origin(inner[0]) is tuple else ()
+    if free and lists and Ellipsis not in lists:
+        plural = f"lists of {described(inner[0], None)}"
+        if not any(isinstance(item, list | tuple) for item in value):
+            value = [value[i : i + len(lists)] for i in range(0, len(value), len(lists))]
+    many = f"a list of 1 to {MOST} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
     if not isinstance(value, list | tuple) or not (0 < len(value) <= MOST if free else len(value) == len(inner)):
         raise _Unfit(many)
     try:

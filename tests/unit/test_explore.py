@@ -20,6 +20,7 @@ from click.testing import CliRunner
 
 from atlas import AtlasError, GeneralMotion
 from atlas.cli.app import atlas as command_line
+from atlas.cli.explore import started
 from atlas.core.motions import asymmetric
 from atlas.families import FAMILIES
 from atlas.families.sliders import letters
@@ -271,6 +272,12 @@ def test_what_is_not_there_is_said_before_a_server_starts() -> None:
     """An unknown name is told with the nearest one."""
     with pytest.raises(AtlasError, match="no family or figure 'hyp_c'"):
         subject("hyp_c")
+
+
+def test_a_body_that_cannot_be_is_said_before_a_server_starts() -> None:
+    """As by `atlas motion`."""
+    with pytest.raises(AtlasError, match="the largest is at most the sum of the others"):
+        started("--inertia 0.8 1 3 --field 0.2 1 0.6 --spin 2".split())
 
 
 def test_a_port_that_is_taken_is_said(server: Explorer) -> None:

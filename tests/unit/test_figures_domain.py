@@ -213,6 +213,12 @@ def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple
         ("magn", {}, "$, along the axis $x$"),
         ("magn", {"B": -1.0}, "$, against the axis $x$"),
         ("magn", {"B": -1.0, "E": (-0.12, 0.012)}, "$, along the axis $x$"),
+        ("rosettes", {"fractions": ((4, 2),)}, "equal to $2/1$ the body is back after 1 turn of"),
+        (
+            "rosettes",
+            {"fractions": ((3, 2), (-2, -6))},
+            "equal to $3/2$ and $1/3$ the body is back after 2 and 3 turns",
+        ),
         ("spectrum", {"omega": (0.0, 0.0, 0.0)}, ": all at zero. (a)"),
         ("spectrum", {"field": (0.0, 1.0), "omega": (0.0, 0.0, 1.0)}, ": all at zero. (a)"),
     ],

@@ -93,7 +93,8 @@ RECIPE = '''"""Typed."""
 from typing import Any, Literal
 from atlas.scene import Scene
 RANGES = {"size": (0.5, 2.0)}
-def scene(*, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), levels: tuple[float, ...] = (1.0,),
+def scene(*, pairs: tuple[tuple[int, int], ...] = ((1, 2), (2, 3)), ratio: Any = 1.5,
+          field: tuple[float, float] = (1.0, 2.0), levels: tuple[float, ...] = (1.0,),
           omega3: float | None = None, unit: str = "s", columns: int = 1, size: float = 1, free=(1, "x"),
           names: tuple[str, ...] = ("a",), on: bool = True, side: Literal["left", "right"] = "left") -> Scene:
     return Scene(title="", caption="", alt="", panels=())
@@ -105,6 +106,9 @@ def scene(*, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), levels: 
     [
         ({"field": [1, 2]}, {"field": (1.0, 2.0)}),
         ({"levels": 3}, {"levels": (3.0,)}),
+        ({"pairs": (1, 2)}, {"pairs": ((1, 2),)}),
+        ({"pairs": (1, 2, 3, 4)}, {"pairs": ((1, 2), (3, 4))}),
+        ({"pairs": [[1, 2]]}, {"pairs": ((1, 2),)}),
         ({"omega3": 2}, {"omega3": 2.0}),
         ({"free": [2, "y"]}, {"free": (2, "y")}),
         ({"names": ["b", "c"]}, {"names": ("b", "c")}),
@@ -134,6 +138,7 @@ def test_a_parameter_comes_in_its_type(folder: Path, given: dict[str, Any], fitt
         ({"levels": ()}, "levels must be a list of 1 to 40 numbers"),
         ({"levels": (1.0,) * 41}, "levels must be a list of 1 to 40 numbers"),
         ({"levels": "many"}, "levels must be a list of 1 to 40 numbers"),
+        ({"pairs": (1, 2, 3)}, "pairs must be a list of 1 to 40 lists of two whole numbers, not (1, 2, 3)"),
         ({"omega3": "1"}, "omega3 must be a number, 0 or of a size between 1e-60 and 1e+60, not '1'"),
         ({"unit": 1}, "unit must be a word, not 1"),
         ({"columns": 1.5}, "columns must be a whole number, not 1.5"),
@@ -242,6 +247,7 @@ def test_what_a_parameter_takes_is_said_in_words(tmp_path: Path) -> None:
     hints = recipe.hints()
     said = {name: described(hints.get(name), default) for name, default in recipe.parameters.items()}
     assert said == {
+        "pairs": "lists of two whole numbers, one after the other",
         "ratio": "a number",
         "field": "two numbers",
         "levels": "a list of numbers",
@@ -254,6 +260,7 @@ def test_what_a_parameter_takes_is_said_in_words(tmp_path: Path) -> None:
         "on": "true or false",
         "side": "left or right",
     }
+    assert typed(recipe.parameters["pairs"]) == "1,2,2,3"
     for value in (1.5, (1.0, 2.0), (1.0,), True, "s", 1e-6, ("a", "b")):
         assert setting(f"x={typed(value)}") == ("x", value)
 
