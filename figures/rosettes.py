@@ -50,8 +50,8 @@ def scene(
         caption=(
             r"Seen along $\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
             rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "
-            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, with the golden mean never; "
-            rf"drawn: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$."
+            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, with the "
+            rf"golden mean never; drawn: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "
