@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 import atlas
 
 EPS = 2.0**-52
+FIELD_AND_START = (0.3, 1.0, 2.0), (0.1, 0.7, 0.2)
 
 
 def turn(seed: int) -> Any:
@@ -143,6 +144,43 @@ def test_a_motion_in_given_axes_is_copied_and_says_what_it_is() -> None:
     assert repr(m).startswith("motion(inertia=(1.0, 1.0, 1.5), field=[0.3, -1.0, 2.0], omega=")
     assert m.kind == "nutation, four real roots"
     assert m.period > 0
+
+
+@pytest.mark.parametrize(
+    ("ratio", "field", "omega"),
+    [(1.5, (600.0, 800.0), (3e-13, 1e-13, -2e-13)), (0.5, (1.0, 0.1), (1e-16, -0.5, -0.2))],
+)
+def test_a_start_beside_an_elementary_one_is_not_taken_for_it(ratio: float, field: Any, omega: Any) -> None:
+    """In the axes of its class nothing is rounded: a slow start in a strong field, a push off what is unstable."""
+    found, true = atlas.motion(ratio, (0.0, *field), omega), atlas.GeneralMotion(ratio, field, omega)
+    assert found.family == "general"
+    for t in (100.0, 1e11 if ratio > 1 else 60.0):
+        assert np.array_equal(found.rotation(t), true.rotation(t))
+
+
+def test_what_is_given_broadcasts() -> None:
+    """Arrays of moments in a tuple, of fields that are zero, of attitudes; columns of arrays."""
+    a, b, c = np.array([0.8, 0.7]), np.array([1.0, 1.1]), np.array([1.3, 1.2])
+    moments = atlas.motion((a, b, c), (0.3, 1.0, 2.0), (0.1, 0.7, 0.2))
+    assert np.array_equal(moments.rotation(1.0), atlas.AsymmetricMotion((a, b, c), *FIELD_AND_START).rotation(1.0))
+    fields = atlas.motion(1.3, np.ones((4, 3)), (0.1, 0.7, 0.2))
+    assert np.array_equal(fields.third_axis(1.7), fields.rotation(1.7)[..., 2])
+    assert atlas.motion(1.5, np.zeros((4, 3)), (0.1, 0.2, 0.3)).rotation(1.0).shape == (4, 3, 3)
+    attitudes = Rotation.random(5, random_state=1)
+    free, slow = (atlas.motion(1.5, (0.0, 0.0, b), (0.1, 0.2, 0.3), attitudes) for b in (0.0, 1e-30))
+    assert np.abs(free.rotation(1.0) - slow.rotation(1.0)).max() < 8 * EPS
+
+
+def test_what_was_given_may_change_afterwards() -> None:
+    """Copies are of what was given then; and of an attitude as it was, which is made orthogonal again."""
+    moments, start = np.array([0.8, 1.0, 1.3]), np.array([0.1, 0.7, 0.2])
+    motions = [
+        atlas.motion(moments, *FIELD_AND_START),
+        atlas.TopMotion.in_laboratory((1.0, 0.5), (0.3, 0.1, 0.9), turn(3) + 1e-11, start, coupling=(0.1, 0.2)),
+    ]
+    before = [motion.rotation(1e3) for motion in motions]
+    moments[1] = start[1] = 1.1
+    assert all(np.array_equal(copy.copy(m).rotation(1e3), R) for m, R in zip(motions, before, strict=True))
 
 
 @pytest.mark.parametrize(

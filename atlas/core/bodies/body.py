@@ -79,6 +79,11 @@ class SymmetricBody:
             return NotImplemented
         return np.array_equal(self.I2, other.I2) and np.array_equal(self.I3, other.I3)
 
+    def __repr__(self) -> str:
+        """Return the call that makes it; its axes, where they are not those of the frame."""
+        turned = f", axes={self.axes.tolist()}" * bool((self.axes != np.eye(3)).any())
+        return f"{type(self).__name__}(I2={self.I2!r}, I3={self.I3!r}{turned})"
+
     def _repr_html_(self) -> str:
         """Return the moments of the body and a small picture, for a notebook."""
         html: str = notebook("show").body(self)

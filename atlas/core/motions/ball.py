@@ -50,8 +50,8 @@ class BallMotion(DoubleTurn[Ball]):
         check_ball(inertia)
         larmor = real(larmor, "The Larmor frequency", RATE)
         super().__init__(Ball, inertia, larmor, m2, m3)
-        self.larmor = plain(larmor)
-        self.arguments = {"inertia": plain(inertia), "larmor": self.larmor, "momentum": (plain(m2), plain(m3))}
+        self.inertia, self.larmor, self.momentum = plain(inertia), plain(larmor), (plain(m2), plain(m3))
+        self.arguments = {"inertia": self.inertia, "larmor": self.larmor, "momentum": self.momentum}
 
     @kept
     def gamma(self) -> Any:

@@ -20,7 +20,7 @@ EQUAL = ROUNDING
 """Part of the largest moment up to which two that were found by diagonalization are equal."""
 
 MEMBER = 8 * float(np.finfo(float).eps)
-"""Part of the largest rate by which a start may be off the paper's family by rounding."""
+"""Part of the largest rate of a start by which it may be off the paper's family, where it was turned and so rounded."""
 
 
 class Body(NamedTuple):
@@ -77,10 +77,12 @@ def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) 
     I2, I3 = (plain(np.take_along_axis(I, order[..., i : i + 1], axis=-1)[..., 0]) for i in (0, 2))
     symmetric = I3 if np.all(I2 == 1) else SymmetricBody(I2, I3)
     if not K.any():
-        return FreeMotion(symmetric, _parts(np.matvec(axes, w))), axes
+        start = np.matvec(axes, w)
+        return FreeMotion(symmetric, _parts(np.broadcast_to(start, (*shape, 3)))), axes
     turn, field, omega = _in_plane(axes, K, w)
     if not shape:
-        if elementary := _elementary(symmetric, field, omega):
+        rounded = 0.0 if np.isin(turn, (-1, 0, 1)).all() else MEMBER * max(map(abs, omega))
+        if elementary := _elementary(symmetric, field, omega, rounded):
             return elementary, turn
         if I2 == I3:
             b = float(np.linalg.norm(K))
@@ -113,18 +115,17 @@ def _in_plane(axes: FloatArray, K: FloatArray, w: FloatArray) -> tuple[FloatArra
     return turn, (plain(np.where(turns, size, K2)), K3), _parts(np.matvec(turn, w))
 
 
-def _elementary(body: Any, field: Any, omega: Any) -> ElementaryMotion | None:
-    """Return the elementary motion that starts so, up to rounding, None where there is none."""
+def _elementary(body: Any, field: Any, omega: Any, rounded: float) -> ElementaryMotion | None:
+    """Return the elementary motion that starts so, components `rounded` by as much, None where there is none."""
     w1, w2, w3 = omega
-    size = max(map(abs, (*field, *omega)))
-    if abs(w1) > MEMBER * size:
+    if abs(w1) > rounded:
         return None
     for omega3 in (None, w3):
         try:
             motion = ElementaryMotion(body, field, w2, omega3)
         except DomainError:
             continue
-        return motion if abs(motion.omega3 - w3) <= MEMBER * size else None
+        return motion if abs(motion.omega3 - w3) <= rounded else None
     return None
 
 
@@ -133,8 +134,7 @@ def body_of(inertia: Any) -> Body:
     if isinstance(inertia, SymmetricBody):
         I2, I3 = moments(inertia)
         return _of_moments((I2, I2, I3), inertia.axes)
-    several = isinstance(inertia, tuple | list) and len(inertia) == 3 and np.ndim(inertia[0]) != 1
-    if several and not any(np.ndim(x) > 1 for x in inertia):
+    if isinstance(inertia, tuple) and len(inertia) == 3 and not any(isinstance(x, tuple | list) for x in inertia):
         return _of_moments(components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
     inertia_matrix = real(inertia, "The inertia", "" if np.ndim(inertia) == 0 else INERTIA)
     if inertia_matrix.shape == (3,):
@@ -233,7 +233,7 @@ def in_laboratory(family: type[Any], body: Any, field: Any, attitude: Any, omega
                 f"So no {family.__name__} starts, but one of the family {moving.family}: atlas.motion finds the class."
             )
         return moving
-    arguments = {"body": body, "field": B, "attitude": R, "angular_velocity": omega, **parameters}
+    arguments = {"body": body, "field": B, "attitude": attitude, "angular_velocity": omega, **parameters}
     w = np.asarray(own.angular_velocity(0.0)) @ axes if omega is None else w
     left, made_by = R @ np.swapaxes(axes, -1, -2), f"{family.__name__}.in_laboratory"
     return turned(own, left, axes, known.tensor, B, (R, w), arguments, made_by)

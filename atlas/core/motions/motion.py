@@ -54,6 +54,12 @@ BLOCK = 4096
 """Matrices of several motions made at once."""
 
 
+def check_column(j: Any) -> None:
+    """Raise AtlasError for what is no column of R."""
+    if not isinstance(j, Integral) or not 1 <= j <= 3:
+        raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
+
+
 class Motion(Shown, Generic[Single]):
     """Motions R(t) of the shape of the parameters, which broadcasts with the times.
 
@@ -108,8 +114,7 @@ class Motion(Shown, Generic[Single]):
 
         Raises AtlasError for another j, and for times as `rotation` does.
         """
-        if not isinstance(j, Integral) or not 1 <= j <= 3:
-            raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
+        check_column(j)
         return self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
 
     def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:

@@ -1,6 +1,7 @@
 """A motion seen in other axes: those of the laboratory and of the body that a user has."""
 
 from collections.abc import Mapping
+from copy import deepcopy
 from functools import cache, cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -9,9 +10,10 @@ import numpy as np
 
 from atlas.core.arithmetic.quaternions import of_matrix, product
 from atlas.core.inputs import FloatArray, finite
-from atlas.core.motions.motion import Motion
+from atlas.core.motions.motion import Motion, check_column
 from atlas.core.quantities import TIME, bare
 from atlas.core.shown import made
+from atlas.errors import AtlasError
 
 
 class Turned(Motion[Any]):
@@ -74,7 +76,7 @@ class Turned(Motion[Any]):
         left, right = self._sides
         if right is None:
             return _by(left, self.own.column(j, t))
-        self.own.column(j, ())  # what is no column is refused there
+        check_column(j)
         return np.ascontiguousarray(self.rotation(t)[..., j - 1])
 
     def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
@@ -99,8 +101,10 @@ class Turned(Motion[Any]):
         return np.asarray(finite(np.matvec(self.rotation(t), momentum), "m"))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
-        """Constants of the motion by name, as its class has them."""
-        invariants: dict[str, Any] = getattr(self.own, "invariants")(t)  # noqa: B009  where the class has them
+        """Constants of the motion by name, as its class has them. Raises AtlasError where it has no list of them."""
+        if not hasattr(self.own, "invariants"):
+            raise AtlasError(f"A {type(self).__name__} has no list of its constants.")
+        invariants: dict[str, Any] = self.own.invariants(t)
         return invariants
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
@@ -149,5 +153,5 @@ def turned(
     motion.__dict__.update({name: value for name, value in vars(own).items() if name != "arguments"})
     sides = tuple(None if (x == np.eye(3)).all() else x for x in (left, right))
     motion.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field, _start=start)
-    motion.made_by, motion.arguments = made_by, arguments
+    motion.made_by, motion.arguments = made_by, deepcopy(dict(arguments))  # which a user's arrays may not change
     return motion
