@@ -15,7 +15,7 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.cli.app import main
 from atlas.core.motions.elementary import ElementaryMotion
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import DomainError
 from atlas.study.sweep.families import FAMILIES, NAME
 from atlas.study.sweep.tables import csv_part
 
