@@ -57,6 +57,13 @@ atlas.GeneralMotionn(3)
 atlas.ElementaryMotion(1.5, (1.0, 2.0), omega_2=0.7)
 """
 
+SEQUENCES = """
+import atlas
+
+atlas.Field((0.0, 0.1, 0.2), [0, 0, 1]).B.sum()
+atlas.LaboratoryFrame((0, 0, 1.0), (0.0, 0.1, 0.2)).axis.sum()
+"""
+
 
 def checked(path: Path, text: str) -> str:
     """Return what mypy says of a file, with the cache of `make lint`."""
@@ -87,3 +94,9 @@ def test_a_type_checker_refuses_what_is_not_there(tmp_path: Path) -> None:
     said = checked(tmp_path / "mine.py", WRONG)
     assert "GeneralMotionn" in said
     assert "omega_2" in said
+
+
+@pytest.mark.slow
+def test_a_type_checker_takes_what_is_taken(tmp_path: Path) -> None:
+    """A sequence is a vector, and what it became is an array."""
+    assert "error" not in checked(tmp_path / "mine.py", SEQUENCES)

@@ -37,19 +37,18 @@ class Field:
     """
 
     B: FloatArray
-    E: FloatArray = (0.0, 0.0, 0.0)  # type: ignore[assignment]  # a sequence is made an array
-    mu: float = 1.0
-    c: float = 1.0
+    E: FloatArray
+    mu: float
+    c: float
     prime: FloatArray = attribute(init=False)
     """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B. Its part [1:] is refused for B1 != 0."""
 
-    def __post_init__(self) -> None:
-        """Check the numbers, and make B'."""
-        object.__setattr__(self, "c", positive(self.c, "c"))
+    def __init__(self, B: Any, E: Any = (0.0, 0.0, 0.0), mu: Any = 1.0, c: Any = 1.0) -> None:
+        object.__setattr__(self, "c", positive(c, "c"))
         unit = SI_FIELDS if self.c == 1 else NO_FIELDS
-        object.__setattr__(self, "B", vector(self.B, "B", unit["B"]))
-        object.__setattr__(self, "E", vector(self.E, "E", unit["E"]))
-        object.__setattr__(self, "mu", number(self.mu, "mu", unit["mu"]))
+        object.__setattr__(self, "B", vector(B, "B", unit["B"]))
+        object.__setattr__(self, "E", vector(E, "E", unit["E"]))
+        object.__setattr__(self, "mu", number(mu, "mu", unit["mu"]))
         object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c).view(Prime)))
 
     def __repr__(self) -> str:
@@ -106,9 +105,9 @@ class LaboratoryFrame:
     matrix: FloatArray = attribute(init=False)
     """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
 
-    def __post_init__(self) -> None:
+    def __init__(self, axis: Any, B: Any) -> None:
         """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
-        axis, B = vector(self.axis, "The axis"), vector(self.B, "B", RATE)
+        axis, B = vector(axis, "The axis"), vector(B, "B", RATE)
         n, b = exact(*axis), exact(*B)
         n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
         if n2 == 0:
