@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.draw.style import zoom
+from atlas.draw.style import ground, zoom
 from atlas.draw.text import line, typeset
 from atlas.scene.layers import FloatArray
+from atlas.scene.style import WHITE, readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -163,17 +164,18 @@ def along(points: FloatArray, step: float = 2.0) -> FloatArray:
 def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
     """Write the texts about their centres (points from the lower left corner), as annotations of their anchors.
 
-    Below each lies its white outline, which is no text, or a white box, where the ground is coloured.
+    Below each lies its outline in the colour of the ground, which is no text, or a white box on a coloured image.
     """
     from matplotlib.patheffects import Stroke
 
     corner = axes.get_window_extent().p0
+    face = WHITE if boxed else ground(axes.get_facecolor() if axes.axison else axes.figure.get_facecolor())
     scale = zoom() * axes.figure.dpi / 72.0
     anchors = axes.transData.inverted().transform([corner + scale * np.array(tag.anchor) for tag in tags])
     for tag, anchor, centre in zip(tags, anchors, centres, strict=True):
         _, ascent, descent = line(tag.text, tag.size)
         offset = zoom() * (centre - tag.anchor - (0.0, 0.5 * (ascent - descent)))
-        outline = [] if boxed else [(_HEIGHT, [Stroke(linewidth=zoom() * _HALO, foreground="#ffffff")])]
+        outline = [] if boxed else [(_HEIGHT, [Stroke(linewidth=zoom() * _HALO, foreground=face)])]
         for height, effects in (*outline, (_HEIGHT + 1.0, [])):
             axes.annotate(
                 typeset(tag.text),
@@ -183,9 +185,9 @@ def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray], *, b
                 ha="center",
                 va="baseline",
                 fontsize=zoom() * tag.size,
-                color=tag.colour,
+                color=readable(tag.colour, face),
                 zorder=height,
                 path_effects=effects,
                 annotation_clip=False,
-                bbox={"fc": "#ffffff", "alpha": _BOX, "lw": 0.0, "pad": 0.8 * zoom()} if boxed else None,
+                bbox={"fc": face, "alpha": _BOX, "lw": 0.0, "pad": 0.8 * zoom()} if boxed else None,
             )

@@ -15,7 +15,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.scene.layers import FloatArray
-from atlas.scene.style import LINES, Style, style
+from atlas.scene.style import LINES, WHITE, Style, is_dark, readable, style
 from atlas.targets import Target
 
 HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
@@ -176,14 +176,27 @@ def _use(styles: Sequence[Any]) -> None:
         raise AtlasError(f"there is no LaTeX; {_NO_LATEX}")
 
 
+def ground(face: Any = None) -> str:
+    """Return the colour that panels are drawn upon, or that of this ``face`` if it is not transparent."""
+    import matplotlib as mpl
+    from matplotlib.colors import to_hex, to_rgba
+
+    faces = mpl.rcParams["axes.facecolor"] if face is None else face, mpl.rcParams["figure.facecolor"]
+    return next((to_hex(one) for one in faces if to_rgba(one)[3]), WHITE)
+
+
 def style_of(role: str) -> Style:
-    """Return the look of a role; that of plotted lines is the cycle of the style sheet, ``axes.prop_cycle``."""
+    """Return the look of a role; that of plotted lines is the cycle of the style sheet, ``axes.prop_cycle``.
+
+    On a dark ground lines and marks are as light as a text is there.
+    """
     import matplotlib as mpl
     from matplotlib.colors import to_hex
 
     look = style(role)
     if role not in LINES:
-        return look
+        bare = not look.fill and look.colour != WHITE and is_dark(ground())
+        return replace(look, colour=readable(look.colour, ground())) if bare else look
     cycle = list(mpl.rcParams["axes.prop_cycle"])
     line = cycle[LINES.index(role) % len(cycle)]
     width, dashes = line.get("linewidth", mpl.rcParams["lines.linewidth"]), line.get("linestyle", "-")

@@ -145,19 +145,31 @@ STYLES: Mapping[str, Style] = MappingProxyType(
 )
 
 
-def contrast(colour: str) -> float:
-    """Return the contrast of a colour with white, (1 + 0.05)/(Y + 0.05) with its relative luminance Y (WCAG 2)."""
+def contrast(colour: str, ground: str = WHITE) -> float:
+    """Return the contrast of two colours, (Y + 0.05)/(Y' + 0.05) with their relative luminances Y > Y' (WCAG 2)."""
+    darker, lighter = sorted(map(_luminance, (colour, ground)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def _luminance(colour: str) -> float:
+    """Return the relative luminance of a colour, from 0 to 1."""
     parts = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
     linear = [channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4 for channel in parts]
-    return 1.05 / (0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] + 0.05)
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-def readable(colour: str) -> str:
-    """Return the colour of a text on white: the colour itself, darker if its contrast needs that; for white ink."""
+def is_dark(ground: str) -> bool:
+    """Tell whether white is read better on a colour than black."""
+    return contrast(WHITE, ground) > contrast("#000000", ground)
+
+
+def readable(colour: str, ground: str = WHITE) -> str:
+    """Return the colour of a text on a ground: itself, darker or lighter if its contrast needs that; for white ink."""
     if colour == WHITE:
-        return INK
-    while contrast(colour) < TEXT_CONTRAST:
-        colour = "#" + "".join(f"{int(0.96 * int(colour[i : i + 2], 16)):02x}" for i in (1, 3, 5))
+        colour = INK
+    add = 11.18 if is_dark(ground) else 0.0  # so that the steps end at white
+    while contrast(colour, ground) < TEXT_CONTRAST:
+        colour = "#" + "".join(f"{int(0.96 * int(colour[i : i + 2], 16) + add):02x}" for i in (1, 3, 5))
     return colour
 
 

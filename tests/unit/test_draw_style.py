@@ -19,7 +19,7 @@ from atlas.draw import context, gl, save, to_figure
 from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.scene import Curve, Image, Plane, Scene, recipes
-from atlas.scene.style import LINES, STYLES, Style, readable
+from atlas.scene.style import LINES, STYLES, Style, contrast, readable
 
 
 def lines(count: int = 1) -> Scene:
@@ -221,6 +221,24 @@ def test_a_name_can_be_read_on_white(role: str) -> None:
     """The text of every role has a contrast of 4.5 at least, by the luminance that Matplotlib's colours have."""
     red, green, blue = (((c + 0.055) / 1.055) ** 2.4 for c in mpl.colors.to_rgb(readable(STYLES[role].colour)))
     assert 1.05 / (0.05 + 0.2126 * red + 0.7152 * green + 0.0722 * blue) >= 4.5
+
+
+@pytest.mark.parametrize("ground", ["#000000", "#30343c", "#767676", "#e5e5e5"])
+def test_a_name_can_be_read_on_any_ground(ground: str) -> None:
+    """It becomes lighter on a dark one, darker on a light one."""
+    assert all(contrast(readable(look.colour, ground), ground) >= 4.5 for look in STYLES.values())
+
+
+def test_on_a_dark_style_halos_are_dark_and_marks_are_light() -> None:
+    """Below a name lies its outline in the colour of the ground, and no line or mark has the colour of it."""
+    figure = to_figure(recipes.load("motion").scene(), "dark_background")
+    halos = [text.get_path_effects() for axes in figure.axes for text in axes.texts if text.get_path_effects()]
+    assert halos
+    assert all(mpl.colors.to_hex(halo._gc["foreground"]) == "#000000" for (halo,) in halos)
+    with context("dark_background"):
+        lit = [style_of(role).colour for role, look in STYLES.items() if not look.fill]
+    assert all(contrast(colour, "#000000") >= 4.5 for colour in lit)
+    assert style_of("start") == STYLES["start"]
 
 
 @pytest.mark.parametrize("cones", CONES)
