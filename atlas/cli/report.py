@@ -44,7 +44,7 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml
 def command(
     names: tuple[str, ...], out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool
 ) -> int:
-    """Build reports: of each HTML pages that open from disk, and a PDF with the same content.
+    """Build reports: of each HTML pages that open from disk, and a PDF to print.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
     something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status

@@ -50,10 +50,15 @@ class PageView:
         return f"{self.slug}.html"
 
     @property
+    def placed(self) -> list[tuple[str, Any]]:
+        """Template and view of each block, in their order."""
+        return list(zip(self.templates, self.blocks, strict=True))
+
+    @property
     def floated(self) -> list[tuple[str, Any]]:
         """Template and view of each block, a figure before the prose that speaks of it: so it floats to that page."""
         floated: list[tuple[str, Any]] = []
-        for template, view in zip(self.templates, self.blocks, strict=True):
+        for template, view in self.placed:
             place = len(floated)
             if template == "figure":
                 while place and floated[place - 1][0] in {"figure", "table"}:

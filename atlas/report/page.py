@@ -89,7 +89,7 @@ def _texts(value: Any) -> tuple[str, ...]:
 SEEN = 1e-3
 """Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
 
-FIGURES = "## Figures\n\nThose that fit it."
+FIGURES = "## Figures"
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
     "# Change it as you like, and build it by `atlas report {name}.toml --format single pdf`.\n\n"

@@ -24,10 +24,9 @@ _UNITS = {
         "B": "T",
         "E": "V/m",
         "charge_to_mass": "C/kg",
-        "prime": "1/s",
         **dict.fromkeys(("radius", "height", "length", "equatorial", "polar"), "m"),
     },
-    "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g", "prime": "1/s"},
+    "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g"},
 }
 _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": "(I2, I3)"}
 

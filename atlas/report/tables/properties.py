@@ -147,6 +147,8 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     case = getattr(thing.kernels(), "case", "") if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
     says = f"{q.name} {says}" if says.startswith("of ") else says
+    if not any(thing.given.get("field", (1,))):
+        says = says.replace("about B", "about the momentum")
     for place, (name, words, text) in enumerate(_parts(q, texts)):
         value, certain = _printed(thing, q, text, place if isinstance(texts, list | tuple) else None, digits)
         unit = thing.unit(q.unit) if isinstance(value, Number) else ""
