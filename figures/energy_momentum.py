@@ -101,6 +101,9 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     lines = [
         (run, "unstable_line" if unstable else "main") for branch in branches for run, unstable in runs(branch, rest)
     ]
+    level = np.array([[-1.0, rest], [1.0, rest]]) * [min(abs(M3), reach * scale), 1.0]
+    free = bool(M3) and not wells.A and not wells.a  # of a ball w = 0 is a branch, p = M3 nu at any nu
+    lines += [(level, "main")] if free else []
     near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
     if not len(near):
         raise DomainError(
@@ -110,6 +113,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     spins = [(p, g + rest, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
     near = np.array([*near, *(spin[:2] for spin in spins)])
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
+    high = high if high > low else low + scale * scale
     pad = 0.08 * (high - low)
     p, nu = np.linspace(-reach * scale, reach * scale, 401), np.tanh(np.linspace(-7.0, 7.0, 701))
     least = np.minimum(np.asarray(wells.potential(p[:, None], nu)).min(axis=1) + rest, high + pad)
@@ -117,11 +121,13 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     layers: list[Layer] = [Region(np.array([*np.stack([p, least], axis=1), *above]), "region")]
     layers += [Curve(line, role) for line, role in lines]
     layers += [label for branch in branches for label in names(branch, reach * scale, rest)]
+    layers += [Label(level.mean(axis=0), "$w=0$", "note", (0.0, 6.0))] if free else []
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
-    layers += [Label(np.array(spin[:2]), what, "note", (5, 6)) for spin in spins[:1]]
+    layers += [Label(np.array(spin[:2]), what, "note", (9, -4) if free else (5, 6)) for spin in spins[:1]]
     layers.append(Label(np.array([0.0, high - 0.1 * (high - low)]), "other motions", "note"))
-    layers.append(Label(np.array([-0.95 * reach * scale, low + 0.04 * (high - low)]), "no motion", "note", (20.0, 0.0)))
+    place = np.array([-0.95 * reach * scale, low + 0.04 * (high - low)])
+    layers += [Label(place, "no motion", "note", (20.0, 0.0))] if least[0] > place[1] else []
     return Plane(
         tuple(layers),
         rf"$p$ (1/{unit})",

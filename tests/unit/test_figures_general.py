@@ -293,6 +293,17 @@ def test_critical_values_are_extrema_of_the_effective_potential() -> None:
                 assert np.abs(V[turns] - h).min() <= 1e-6 * max(1.0, abs(h))
 
 
+@pytest.mark.parametrize("M3", [0.25, -0.5, 3.0])
+def test_the_least_energies_of_a_ball_are_those_of_its_precessions_with_w_zero(M3: float) -> None:
+    """Between p = M3 and -M3 the potential of a ball has one least value, 2H = M3^2 + b^2, at nu = p/M3."""
+    (panel,) = panels("energy_momentum", ratios=(1.0,), M3=M3)
+    line = layers(panel, Curve, "main")[-1].points
+    assert np.array_equal(abs(line[:, 0]), np.full(2, min(abs(M3), 1.6)))
+    for p, h in line * (0.9, 1.0):
+        assert h == pytest.approx(potential(1.0, 1.0, M3, p, p / M3), rel=4 * EPS)
+        assert potential(1.0, 1.0, M3, p, np.linspace(-0.99, 0.99, 1001)).min() >= h * (1 - 4 * EPS)
+
+
 @pytest.mark.parametrize("weight", [0.0, 4.0])
 def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_its_scales(weight: float) -> None:
     """With b, M3 and the root of a0 doubled p doubles and h is fourfold, bit for bit: points, and the axes."""
