@@ -85,9 +85,6 @@ def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
             "--mu", "--charge-to-mass", type=REAL, help="Charge-to-mass ratio mu = e/m instead (no magnetic moment)."
         ),
         click.option(
-            "--angle", type=REAL, help="Angle between field and axis: --magnetic or --field is one number then."
-        ),
-        click.option(
             "--units",
             type=click.Choice(["natural", "gaussian", "si"]),
             help="Of --magnetic, --mu, --mass, --charge: c = 1; gauss, esu/g, g, esu; tesla, C/kg, kg, C (no factor "
@@ -96,7 +93,10 @@ def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
     )
 
 
-field_options: Callable[[F], F] = field_options_of("B2 B3")
+field_options: Callable[[F], F] = stack(
+    field_options_of("B2 B3"),
+    click.option("--angle", type=REAL, help="Angle between field and axis: --magnetic or --field is one number then."),
+)
 any_body_options: Callable[[F], F] = stack(
     click.option("--inertia", type=REAL, nargs=3, metavar="I1 I2 I3", help="Principal moments of inertia."),
     points_option("; x, y, z are principal axes"),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import click
 
-from atlas.cli.measured import in_si, split
+from atlas.cli.measured import WANTED, in_si, split
 from atlas.errors import AtlasError
 
 if TYPE_CHECKING:
@@ -185,14 +185,19 @@ class Command(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
         option, field = "", None
-        if "--angle" in args:
+        taken = {param.name: param.nargs for param in self.params}
+        if "--angle" in args and "field" in taken:
+            if "angle" not in taken:
+                raise click.UsageError("--angle is of a symmetric body; here --field has three components.")
             args, option, field = _inclined(args, ctx)
+        if taken.get("inertia") == 3:
+            args = _three_moments(args)
         several = [param for param in self.params if isinstance(param, Many)]
         many = {name for param in several for name in param.opts}
         numbers = {name for param in several if param.type is REAL for name in param.opts}
         words = {name for param in several if param.name not in WHOLE for name in param.opts} - numbers
         args = _ranges_of_times(args)
-        if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and are_three(args, "--inertia"):
+        if taken.get("inertia") == 2 and are_three(args, "--inertia"):
             raise click.UsageError(
                 "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
                 "atlas motion --omega W1 W2 W3 or --spin W3, with --inertia I1 I2 I3 and --field B1 B2 B3; in a sweep "
@@ -306,27 +311,36 @@ def are_three(args: Sequence[str], option: str) -> bool:
     return len(following) == 3 and all(map(LIKE_A_NUMBER.fullmatch, following))
 
 
-def _listed(word: str) -> list[str]:
+def _three_moments(args: list[str]) -> list[str]:
+    """Return arguments with the two moments I2 I3 of a symmetric body as three."""
+    place = args.index("--inertia") + 1 if "--inertia" in args else len(args)
+    following = list(takewhile(LIKE_A_NUMBER.fullmatch, args[place:]))
+    return [*args[:place], *following[:1], *args[place:]] if len(following) == 2 else args
+
+
+def _listed(word: str, option: str) -> list[str]:
     """Return the numbers of a list with commas, or of a range, both ends among them; another word as it is.
 
     A range is START:STOP:COUNT, or with :log at the end for even steps of the logarithm.
     """
     if "," in word:
-        return [number for item in word.split(",") for number in _listed(item)]
+        return [number for item in word.split(",") for number in _listed(item, option)]
     parts = word.split(":")
     log = parts[3:] == ["log"]
     if len(parts) != 3 + log:
         return [word]
-    start, stop, count = (REAL.convert(item, None, None) for item in parts[:3])
+    name = option.removeprefix("--")
+    start, stop, count = (REAL.convert(item, click.Option([option]), None) for item in parts[:3])
+    unit = str(WANTED[name]) if isinstance(start, Measured) or isinstance(stop, Measured) else ""
     if not count.is_integer() or not 2 <= count <= MOST:
         raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
     if log and start * stop <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}.")
     last = int(count) - 1
     if log:
-        return [repr(start * (stop / start) ** (i / last)) for i in range(last + 1)]
+        return [repr(start * (stop / start) ** (i / last)) + unit for i in range(last + 1)]
     first, step = start.exactly(), (stop.exactly() - start.exactly()) / last
-    return [repr(float(first + i * step)) for i in range(last + 1)]
+    return [repr(float(first + i * step)) + unit for i in range(last + 1)]
 
 
 def _ranges_of_times(args: list[str]) -> list[str]:
@@ -348,7 +362,7 @@ def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[s
             if not option:
                 yield word
         else:
-            for one in _listed(word) if option in numbers else word.split(",") if option in words else [word]:
+            for one in _listed(word, option) if option in numbers else word.split(",") if option in words else [word]:
                 yield from (option, one)
             starts = True
     if not starts:

@@ -17,8 +17,8 @@ OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polar
 
 top_options: Callable[[F], F] = stack(
     click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Lagrange's top: gravity, and the distance of "
-                 "the centre of mass along the axis from the point at which the body is held, in SI; --inertia is about "
-                 "the centre of mass. Needs --mass, but with --points."),
+                 "the centre of mass along the axis from the point at which the body is held, in SI; --inertia is "
+                 "about the centre of mass. Needs --mass, but with --points."),
     click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="A charged body in this magnetic field, which "
                  "is the direction too. Needs --charged, --coat or --points. With --heavy, a charged heavy top, up is "
                  "along the field, or as --direction says against it."),

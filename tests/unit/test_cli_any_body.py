@@ -60,6 +60,10 @@ def test_a_symmetric_body_is_told_in_its_own_axes_and_in_those_given() -> None:
         m = [numbers(*words, "--field", *B.split(), "--json")["samples"][0]["m"] for B in ("0 1 2", "1e-30 1 2")]
         plane = numbers("motion", *inertia.replace("2 2 3", "2 3").split(), *start, "--field", "1", "2", "--json")
         assert np.allclose(m, plane["samples"][0]["m"], rtol=1e-14)
+    two, three = (
+        numbers("motion", *f"--inertia {J} --field 0.5 1 2".split(), *start, "--json") for J in ("2 3", "2 2 3")
+    )
+    assert two == three
     upright, lying = (run("motion", *f"--inertia {J} --field 0 1 2".split(), *start)[1] for J in ("1 1 .5", ".5 1 1"))
     assert "are along the axes" not in upright
     assert "(1, 0, 0) of the body, the last that of symmetry; columns along the axes given." in lying
@@ -238,6 +242,9 @@ def test_lists_and_ranges_of_times_are_one(times: str) -> None:
     assert [one["t"] for one in found] == [0.0, 0.5, 1.0]
     found = numbers(*words.split(), *"--times 1:100:3:log --json".split())["samples"]
     assert [one["t"] for one in found] == pytest.approx([1, 10, 100])
+    for typed in ("--times 1ms:3ms:3", "--grid 1ms 1ms 3", "--times 1ms 2ms 3ms"):
+        found = numbers(*words.split(), *typed.split(), "--json")["samples"]
+        assert [row["t"] for row in found] == [1e-3, 2e-3, 3e-3]
 
 
 def test_a_range_of_times_is_its_list() -> None:

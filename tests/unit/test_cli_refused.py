@@ -226,6 +226,7 @@ CASES = [
     ("particle --mass 2 --charge 1 --mu 1", "--mass has no place beside it"),
     ("particle --mass 0 --charge 1", "mass must be positive"),
     (f"motion {BODY} --omega2 -1 --times 0", "-1"),
+    ("elliptic --inertia 0.8 1 1.3 --field 2 --angle 30deg --z 1.7", "here --field has three components"),
     (f"motion {BODY} --omega2 1 --omega 1 2 3", "--omega does not go with --omega2"),
     (f"motion {BODY} --omega 1 2 3 --spectrum --least 0", "--least is a part of the whole"),
     (f"motion {BODY} --omega2 1 --times", "--times"),

@@ -1,7 +1,6 @@
 """A motion seen in other axes: those of the laboratory and of the body that a user has."""
 
 from collections.abc import Mapping
-from copy import deepcopy
 from functools import cache, cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -127,6 +126,13 @@ class Turned(Motion[Any]):
         return left * np.where(product(left, right)[..., 3:] < 0, -1.0, 1.0), right
 
 
+def _copied(value: Any) -> Any:
+    """Return what was given with arrays of its own, so that it stays when those of the user change."""
+    if isinstance(value, tuple | list):
+        return type(value)(map(_copied, value))
+    return value.copy() if isinstance(value, np.ndarray) else value
+
+
 def _by(left: FloatArray | None, v: FloatArray) -> FloatArray:
     return v if left is None else np.asarray(np.matvec(left, v))
 
@@ -153,5 +159,5 @@ def turned(
     motion.__dict__.update({name: value for name, value in vars(own).items() if name != "arguments"})
     sides = tuple(None if (x == np.eye(3)).all() else x for x in (left, right))
     motion.__dict__.update(own=own, _sides=sides, _tensor=tensor, _given_field=field, _start=start)
-    motion.made_by, motion.arguments = made_by, deepcopy(dict(arguments))  # which a user's arrays may not change
+    motion.made_by, motion.arguments = made_by, {name: _copied(value) for name, value in arguments.items()}
     return motion
