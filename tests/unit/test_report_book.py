@@ -134,6 +134,19 @@ def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     assert (first.command, second.command) == ("make bench", "")
 
 
+def test_tables_stand_in_their_order(tmp_path: Path) -> None:
+    """One of words, which stays in its place, does not overtake one of numbers that floats to the next page."""
+    said = "\n\n".join(["filled " * 90] * 6)
+    table = '  { kind = "table", table = "quadric", body = "ball", field = "oblique" },\n'
+    listing = '  { kind = "listing", id = "words", columns = ["C"], rows = [["d"]], caption = "Listed." },\n'
+    (tmp_path / "book.toml").write_text(
+        BOOK.replace("## A section", said).replace(table, table + listing), encoding="utf-8"
+    )
+    built = build_report(tmp_path / "book.toml", tmp_path, formats=("pdf",))
+    text = "".join(page.extract_text() for page in PdfReader(built.pdf).pages)
+    assert re.findall(r"Table (\d)(?= ?\.)", text) == ["1", "2"]
+
+
 @pytest.mark.slow
 def test_an_option_is_not_broken_at_its_hyphens(tmp_path: Path) -> None:
     """No line of the PDF ends with one or two hyphens, however long the words before; in the page it is kept whole."""
