@@ -16,16 +16,22 @@ def scene(
 ) -> Scene:
     """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', the view in degrees."""
     kind = Quadric(ratio, field).kind
+    what, legend = quadric_panel.DEGENERATE.get(kind, (f"a {kind}", quadric_panel.LEGEND))
+    special = kind in quadric_panel.DEGENERATE
+    shown = (
+        "and what of it are motions"
+        if special
+        else "the canonical axes through −B' and the hyperbola in the plane e2, e3"
+    )
     layers = quadric_panel.quadric_layers(ratio, field)
     panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
-        f"The quadric of initial angular velocities with constant $\\Omega_3$ is a {kind} for "
+        f"The quadric of initial angular velocities with constant $\\Omega_3$ is {what} for "
         f"{tex_setting(ratio, field)}. "
-        f"{quadric_panel.LEGEND}",
-        f"A {kind} in the space of angular velocities, for {plain_setting(ratio, field)}, with the laboratory axes, "
-        "B', its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
-        "e2, e3.",
+        f"{legend}",
+        f"{what.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
+        "laboratory axes" + (f", B', its image under the inverse inertia tensor, {shown}." if any(field) else "."),
         (panel,),
         size=quadric_panel.figure_size(panel),
     )

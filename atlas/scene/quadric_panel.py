@@ -28,6 +28,16 @@ LEGEND = (
     r"hyperbola $\omega_1=0$ (heavy line) alone are motions; through $-\mathbf{B}'$ go the canonical axes."
 )
 
+DEGENERATE = {
+    "all space": ("all of space", r"Without a field $\Omega_3$ of every motion is constant."),
+    "line": ("a line", r"All its points (heavy line) are motions, spins along $\mathbf{B}'$."),
+    "plane pair": (
+        "a pair of planes",
+        r"Parts that a plane hides are dashed. The points of the lines $\omega_1=0$ (heavy) alone are motions.",
+    ),
+}
+"""Quadrics without two sides and without canonical axes: what they are, and what a caption says of them."""
+
 
 def in_plane(second: float, third: float) -> FloatArray:
     """Return the vector (0, second, third)."""
