@@ -191,6 +191,10 @@ class Document:
             if name == template
         ]
 
+    def flows_after(self, table: Any) -> bool:
+        """Whether the table after one stands in its place in the text."""
+        return any(other.flows for other in self.listed("table")[table.number : table.number + 1])
+
     @property
     def citable(self) -> list[str]:
         """All names that can be cited."""

@@ -108,6 +108,16 @@ class TableView:
         """Whether it may be broken over pages: it would leave a hole where it does not fit."""
         return len(self.rows) > MANY
 
+    @property
+    def words(self) -> bool:
+        """Whether it has words alone, whose lines can be broken."""
+        return not any(column.numeric for column in self.columns)
+
+    @property
+    def flows(self) -> bool:
+        """Whether it stands in its place in the text; others may go to the head or the foot of a page."""
+        return self.tall or self.words or not self.name
+
 
 def view_computed(block: Table, composer: Composer) -> TableView:
     """Compute a table."""
