@@ -18,9 +18,6 @@ WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
 NEAR = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
 ROLES = {"stable": "start", "saddle": "unstable_point", "focus-focus": "unstable_point"}
-OFFSETS = ((1.0, 8.0), (-8.0, -5.0), (7.0, -5.0))
-"""Where the names of the three spins stand, in the order of F, and of a stable one on the lower edge."""
-UPRIGHT = (4.0, 6.0)
 
 
 def scene(
@@ -46,7 +43,8 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
-            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the two ovals, unstable ones dashed, "
+            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the "
+            f"{'two ovals' if any(momentum) else 'bounded oval'}, unstable ones dashed, "
             "and stable (dots) and other spins (crosses) about an axis. Motions exist in the shaded region."
             + (" For $p=0$ its lower edge is straight, of plane pendulums." if 0.0 in momentum else "")
             + (" Open circle: rest." if "rest" in there else "")
@@ -85,6 +83,7 @@ def panel(name: str, bifurcation: Bifurcation, reach: float, *, words: bool) -> 
     lines = [
         (
             stretch.oval,
+            stretch.oval,
             stretch.stable,
             stretch.branch * bifurcation.c < 0 or not bifurcation.c,
             line(bifurcation, stretch, slope, x_limits, sizes),
@@ -93,30 +92,29 @@ def panel(name: str, bifurcation: Bifurcation, reach: float, *, words: bool) -> 
     ]
     for axis, low, high, stable in bifurcation.rays() if not bifurcation.c else ():
         if low < high:
-            F = np.array([low, min(high, 2 * x_limits[1] - x_limits[0])])
+            F = np.linspace(low, min(high, 2 * x_limits[1] - x_limits[0]), 65)
             H = (
                 F / bifurcation.inertia[axis]
                 + (bifurcation.inertia.sum() - bifurcation.inertia[axis]) * bifurcation.b**2
             ) / 2
-            oval = "unbounded" if axis == np.argmax(bifurcation.inertia) else "bounded"
-            lines.append((oval, stable, stable, np.stack([F, H - slope * F], axis=1)))
-    edge = outline([(oval, points) for oval, _, outer, points in lines if outer], x_limits[1])
+            oval, text = ("unbounded", "pendulums") if axis == np.argmax(bifurcation.inertia) else ("bounded", "")
+            lines.append((oval, text, stable, stable, np.stack([F, H - slope * F], axis=1)))
+    edge = outline([(oval, points) for oval, _, _, outer, points in lines if outer], x_limits[1])
     low, high = float(edge[:, 1].min()), float(edge[:, 1].max())
     y_limits = low - 0.05 * (high - low), high + 0.05 * (high - low)
     layers: list[Layer] = [Region(edge, "region")]
     if words:
-        layers.append(Label(np.array([x_limits[0] + 0.4 * (x_limits[1] - x_limits[0]), high]), "no motion", "note"))
-    for oval, stable, _, points in lines:
+        place = np.array([x_limits[0] + 0.4 * (x_limits[1] - x_limits[0]), y_limits[1]])
+        layers.append(Label(place, "no motion", "note", (0.0, -3.0)))
+    named = {(text if stable else "unstable"): k for k, (_, text, stable, _, _) in enumerate(lines)} if words else {}
+    for k, (oval, text, stable, _, points) in enumerate(lines):
         role = {"unbounded": "main", "bounded": "third"}[oval] if stable else "unstable_line"
-        text = oval if stable else "unstable"
-        layers.append(Curve(points, role))
-        if words and all(getattr(layer, "text", "") != text for layer in layers):
-            inside = points[(points[:, 0] > x_limits[0]) & (points[:, 0] < x_limits[1])]
-            layers.append(Label(inside[np.argmin(abs(inside[:, 0] - inside[:, 0].mean()))], text, role, (0.0, 5.0)))
-    for rank, which in enumerate(np.argsort(spins[:, 0])):
-        layers.append(Points(spins[which : which + 1], ROLES[bifurcation.spins[which].kind]))
-        offset = UPRIGHT if rank and bifurcation.spins[which].kind == "stable" else OFFSETS[rank]
-        layers.append(Label(spins[which], rf"$\mathbf{{e}}_{which + 1}$", "label", offset))
+        word = text if stable else "unstable"
+        layers.append(Curve(points, role, word if named.get(word) == k else ""))
+    layers += [
+        Points(spins[which : which + 1], ROLES[spin.kind], rf"$\mathbf{{e}}_{which + 1}$")
+        for which, spin in enumerate(bifurcation.spins)
+    ]
     if bifurcation.rest is not None:
         place = bifurcation.rest - [0.0, slope * bifurcation.rest[0]]
         layers += [
