@@ -52,6 +52,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("flight_poster", {"mu": 0.0}, "mu"),
     ("flight_poster", {"ratio": 2.0}, "I = 2"),
     ("flight_poster", {"count": 61}, "count"),
+    ("flight_poster", {"size": 5.0}, "the size is at most 3.4, not 5"),
     ("frequencies", {"order": 9}, "order"),
     ("frequencies", {"field": (0.0, 1.0)}, "B2 = 0"),
     ("turnover", {"pushes": (0.0,)}, "from 0 to 1"),
