@@ -1,12 +1,13 @@
 """Grade a user's trajectory against the certified motion: correct digits, where it begins to fail, what drifts."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Required, TypedDict, Unpack, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.core.inputs import real
 from atlas.errors import AtlasError
@@ -120,6 +121,19 @@ class Check:
         )
 
 
+class _How(TypedDict, total=False):
+    motion: Required[Any]
+    quaternions: Any
+    angular_velocities: Any
+    scalar_first: bool
+    step: Any
+    threshold: float
+
+
+@overload
+def check(t: Sequence[NDArray[Any] | Sequence[float]], rotations: Any = None, **how: Unpack[_How]) -> Convergence: ...
+@overload
+def check(t: Any, rotations: Any = None, **how: Unpack[_How]) -> Check: ...
 def check(
     t: Any,
     rotations: Any = None,

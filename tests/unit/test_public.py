@@ -63,6 +63,17 @@ import atlas
 atlas.Field((0.0, 0.1, 0.2), [0, 0, 1]).B.sum()
 atlas.LaboratoryFrame((0, 0, 1.0), (0.0, 0.1, 0.2)).axis.sum()
 """
+RUNS = """
+import atlas
+import numpy as np
+
+t, motion = np.arange(3), atlas.FreeMotion(1.5, (0.1, 0.7, 0.2))
+reveal_type(atlas.check(t, motion=motion))
+reveal_type(atlas.check([0.0, 1.0], motion=motion))
+reveal_type(atlas.check([t, t], motion=motion))
+reveal_type(atlas.sweep("free", {}, ["kind"], digits=20))
+reveal_type(atlas.sweep("free", {}, ["kind"], "free.csv"))
+"""
 
 
 def checked(path: Path, text: str) -> str:
@@ -100,3 +111,13 @@ def test_a_type_checker_refuses_what_is_not_there(tmp_path: Path) -> None:
 def test_a_type_checker_takes_what_is_taken(tmp_path: Path) -> None:
     """A sequence is a vector, and what it became is an array."""
     assert "error" not in checked(tmp_path / "mine.py", SEQUENCES)
+
+
+@pytest.mark.slow
+def test_a_type_checker_tells_one_run_from_several_and_columns_from_a_file(tmp_path: Path) -> None:
+    """One run gives a `Check`, several a `Convergence`, a sweep without a file its columns."""
+    said = [line.partition("Revealed type is ")[2] for line in checked(tmp_path / "mine.py", RUNS).splitlines()[:5]]
+    check, order = '"atlas.study.check.Check"', '"atlas.study.order.Convergence"'
+    assert said[:3] == [check, check, order]
+    assert said[3].startswith('"dict[str, ')
+    assert said[4] == '"pathlib.Path | str"'

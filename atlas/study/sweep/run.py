@@ -12,7 +12,7 @@ from functools import cache
 from math import inf
 from pathlib import Path
 from time import perf_counter, process_time
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias, TypedDict, Unpack, cast, overload
 
 import numpy as np
 
@@ -44,6 +44,28 @@ Progress = Callable[[int, int], None]
 Made: TypeAlias = tuple[str, bytes | None, float]
 
 
+class _How(TypedDict, total=False):
+    listed: bool
+    digits: int | None
+    rows: int | None
+    executor: Any
+    jobs: int | None
+    progress: Progress | None
+    time: str
+
+
+@overload
+def sweep(
+    family: str, parameters: Mapping[str, Any], quantities: Sequence[str], out: None = None, **how: Unpack[_How]
+) -> Columns: ...
+@overload
+def sweep(
+    family: str,
+    parameters: Mapping[str, Any],
+    quantities: Sequence[str],
+    out: str | os.PathLike[str],
+    **how: Unpack[_How],
+) -> Path | str: ...
 def sweep(
     family: str,
     parameters: Mapping[str, Any],
