@@ -29,10 +29,10 @@ LEGEND = (
 )
 
 DEGENERATE = {
-    "all space": ("all of space", r"Without a field $\Omega_3$ of every motion is constant."),
+    "all space": ("all space", r"Without a field $\Omega_3$ of every motion is constant."),
     "line": ("a line", r"All its points (heavy line) are motions, spins along $\mathbf{B}'$."),
     "plane pair": (
-        "a pair of planes",
+        "a plane pair",
         r"Parts that a plane hides are dashed. The points of the lines $\omega_1=0$ (heavy) alone are motions.",
     ),
 }

@@ -216,7 +216,7 @@ def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple
         ("magn", {"B": -1.0, "E": (-0.12, 0.012)}, "$, along the axis $x$"),
         ("bifurcation", {}, "of the two ovals"),
         ("bifurcation", {"momentum": (0.0,)}, "of the bounded oval"),
-        ("quadric", {"field": (0.0, 0.0)}, "is all of space for"),
+        ("quadric", {"field": (0.0, 0.0)}, "is all space for"),
         ("quadric", {"field": (0.0, 1.0)}, "All its points (heavy line) are motions"),
         ("quadric", {"field": (1.0, 0.0)}, "Parts that a plane hides are dashed. The points"),
         ("quadric", {}, "Blue is the outer"),
