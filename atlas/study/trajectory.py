@@ -84,7 +84,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
                 separator = next((s for s in (",", ";", "\t") if s in line), None)
                 names = _header(line.split(separator), where, FIELD if fields else ())
                 written = dict(zip(names, (cell.strip(" \"'") for cell in line.split(separator)), strict=True))
-                blocks = _blocks(lines, number, names, separator, path.name)
+                blocks = _blocks(lines, number, written, separator, path.name)
                 yield Trajectory(path.name, written, parameters, blocks)
                 return
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
@@ -126,9 +126,9 @@ def _decoded(file: Iterator[str], name: str) -> Iterator[str]:
 
 
 def _blocks(
-    lines: Iterator[str], above: int, names: Sequence[str], separator: str | None, file: str
+    lines: Iterator[str], above: int, names: Mapping[str, str], separator: str | None, file: str
 ) -> Iterator[dict[str, FloatArray]]:
-    """Yield the rows below the line of names, the number `above`."""
+    """Yield the rows below the line of names, the number `above`; messages have the names as they are written."""
     first, empty = above + 1, True
     while block := list(islice(lines, BLOCK)):
         numbered = [(i, line) for i, line in enumerate(block, first) if line.strip()]
@@ -138,7 +138,7 @@ def _blocks(
         rows = [(i, line) for i, line in numbered if not line.lstrip().startswith("#")]
         if rows:
             empty = False
-            yield dict(zip(names, _rows(rows, names, separator, file).T, strict=True))
+            yield dict(zip(names, _rows(rows, [*names.values()], separator, file).T, strict=True))
         first += len(block)
     if empty:
         raise AtlasError(f"{file} has names but no rows of numbers.")
