@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from atlas.core.inputs import FloatArray, real
+from atlas.core.inputs import FloatArray, number, real
 from atlas.errors import AtlasError
 from atlas.study.trajectory import FIELD, MATRIX, OMEGA, QUATERNION, opened
 
@@ -177,7 +177,7 @@ def of_arrays(t: Any, measured: Mapping[str, Any], sigma: Any, epoch: float, *, 
     if errors.shape not in ((), times.shape) or not (errors > 0).all():
         raise AtlasError(f"sigma is one positive standard error, or {times.size} of them, not {sigma!r}.")
     order = np.argsort(times, kind="stable")
-    times = times[order] - epoch
+    times = times[order] - number(epoch, "epoch")
     span = times[-1] - times[0]
     if span <= 0:
         raise AtlasError("All times are equal.")
