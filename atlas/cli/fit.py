@@ -1,5 +1,6 @@
 """``atlas fit``: the body, the field and the motion out of a user's own measurements."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -52,7 +53,8 @@ def command(file: Path, **options: Any) -> int:
     at its head; without it the scatter about the motion tells sigma. No start is needed.
 
     What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
-    residuals that are correlated. The exit status is 1 if something does, 2 if the file or an option is wrong.
+    residuals that are correlated. The exit status is 1 if something does, 2 if the file or an option is wrong. In JSON
+    the horizon is null if a prediction is that good nowhere, or at any time; "missing" says which.
     """
     result = fitted(file, options)
     record, lines = ahead(result, options)
@@ -66,15 +68,24 @@ def command(file: Path, **options: Any) -> int:
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
     """Return the fit that the options ask for."""
-    from atlas.study.fit import fit_file
+    from lmfit import create_params
 
+    from atlas.study.fit import fit_file
+    from atlas.study.fit.models import within
+    from atlas.study.fit.problem import LIMITS
+
+    within(create_params(**arguments(options)["params"]), LIMITS)
     return fit_file(file, **arguments(options))
 
 
 def arguments(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the arguments of `fit_file` that the options stand for."""
-    params = {name: {"value": value, "vary": False} for name, value in map(_pair, options["fix"])}
-    params |= {name: {"value": value} for name, value in map(_pair, options["start"])}
+    """Return the arguments of `fit_file` that the options stand for. Raises click.UsageError for a name given twice."""
+    params = dict[str, Any]()
+    for option, vary in (("fix", False), ("start", True)):
+        for name, value in map(_pair, options[option]):
+            if name in params:
+                raise click.UsageError(f"{name} is given twice: it is fixed by --fix or sought by --start, once.")
+            params[name] = {"value": value, "vary": vary}
     sigma = None if options["sigma"] is None else float(options["sigma"])
     same = {name: options[name] for name in ("family", "kind", "loss")}
     return {**same, "sigma": sigma, "epoch": float(options["epoch"]), "params": params}
@@ -88,8 +99,12 @@ def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[st
         record.setdefault("predictions", []).append({"t": time, "value": value.tolist(), "sigma": error.tolist()})
         lines.append(f"at t = {time:g}: {value.round(6).tolist()} +- {[float(f'{x:.2g}') for x in error.ravel()]}")
     if options["horizon"] is not None:
-        record["horizon"] = until = result.horizon(float(options["horizon"]))
-        lines.append(f"a prediction is good within {float(options['horizon']):g} until t = {until:.6g}")
+        until = result.horizon(float(options["horizon"]))
+        when = {-math.inf: "nowhere", math.inf: "at any time"}.get(until, f"until t = {until:.6g}")
+        lines.append(f"a prediction is good within {float(options['horizon']):g} {when}")
+        record["horizon"] = until if math.isfinite(until) else None
+        if record["horizon"] is None:
+            record["missing"] = {"horizon": f"a prediction is that good {when}"}
     return record, lines
 
 

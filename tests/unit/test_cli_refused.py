@@ -168,6 +168,7 @@ CASES = [
     ("verify 72 --record", "name none"),
     ("verify --script", "name one equation"),
     ("fit {place}/one.csv --fix ratio", "is not NAME=VALUE"),
+    ("fit {place}/one.csv --fix ratio=1.4 --start ratio=1.5", "ratio is given twice"),
     ("check {place}/none.csv", "none.csv"),
     ("check {place}/sub", "sub"),
     ("check {place}/plain.csv {place}/charged.csv --ratio 1 --field 1 2 --omega2 1", "with --order"),

@@ -13,10 +13,12 @@ from stress.fits import KINDS
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.study.fit.data import Data, _inverse_right, of_arrays
-from atlas.study.fit.models import MODELS, model_of
+from atlas.cli.app import main
+from atlas.errors import AtlasError
+from atlas.study.fit.data import Data, _inverse_right, of_arrays, of_file
+from atlas.study.fit.models import MODELS, model_of, within
 from atlas.study.fit.nutation import _Steady
-from atlas.study.fit.problem import Problem
+from atlas.study.fit.problem import LIMITS, Problem
 from atlas.study.fit.result import Fit
 
 RATIO, FIELD, OMEGA = 1.3, (0.2, -0.4, 1.1), (1.2, 0.3, 0.7)
@@ -447,3 +449,65 @@ def test_a_top_from_rest_is_determined() -> None:
     start = {"linear": {"value": -900.0}, **{f"omega{i}": {"value": 0.0} for i in "123"}}
     found = atlas.fit(t, "top", axis=seen, sigma=0.01, params=params | start)
     assert abs(found.params["linear"].value + 900) < 5 * found.params["linear"].stderr < 1
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("--fix ratio=2.5", "ratio must be in (0, 2] and finite, not 2.5."),
+        ("--fix ratio=-1", "ratio must be in (0, 2] and finite, not -1."),
+        ("--fix ratio=0", "ratio must be in (0, 2] and finite, not 0."),
+        ("--fix ratio=nan", "ratio must be in (0, 2] and finite, not nan."),
+        ("--start B1=nan", "B1 must be finite, not nan."),
+        ("--fix ratio=1.3 --start ratio=1.2", "ratio is given twice"),
+        ("--fix ratio=1.4 ratio=1.5", "ratio is given twice"),
+    ],
+)
+def test_a_value_that_cannot_be_is_refused_by_name(
+    words: str, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It is neither moved to a bound nor dropped."""
+    with pytest.raises(SystemExit) as ended:
+        main(["fit", str(written(tmp_path / "mine.csv", 10)), *words.split()])
+    assert ended.value.code == 2
+    assert says in capsys.readouterr().err
+
+
+def test_a_held_value_is_within_its_own_bounds() -> None:
+    """Also where lmfit has moved it already; what is sought may begin anywhere, and what is tied follows."""
+    import lmfit
+
+    held = {"value": 1.8, "max": 1.5, "vary": False}
+    for params in (lmfit.create_params(ratio=held), lmfit.create_params(B1={"value": -3.0, "min": -2, "vary": False})):
+        with pytest.raises(AtlasError, match="must be in"):
+            within(params, LIMITS)
+    within(lmfit.create_params(ratio=2.5, I3={"value": 2.0, "vary": False}, B1={"min": 1}, B2={"expr": "2*B1"}), LIMITS)
+    within(lmfit.create_params(ratio={"value": 2.0, "max": 2.0, "vary": False}), LIMITS)
+
+
+def test_no_prediction_is_better_than_all_are(attitudes: Any, tmp_path: Path) -> None:
+    """The horizon is then nowhere, in words and in JSON, and a time of the data where only some are that good."""
+    sigma = attitudes.predict(attitudes.t).sigma.max(-1)
+    assert attitudes.horizon(sigma.min() / 2) == -np.inf
+    some = attitudes.horizon(float(np.median(sigma)))
+    assert some in attitudes.t[sigma <= np.median(sigma)]
+    words = ["fit", str(written(tmp_path / "mine.csv")), "--horizon", "1e-9"]
+    assert "good within 1e-09 nowhere" in CliRunner().invoke(command, words, catch_exceptions=False).stdout
+    found = json.loads(CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False).stdout)
+    assert found["horizon"] is None
+    assert found["missing"]["horizon"] == "a prediction is that good nowhere"
+
+
+@pytest.mark.parametrize("epoch", [np.nan, np.inf])
+def test_an_epoch_is_a_number(epoch: float) -> None:
+    """It is named where it is none."""
+    t, R = measured("rotation", 10)
+    with pytest.raises(AtlasError, match="epoch"):
+        atlas.fit(t, rotation=R, epoch=epoch)
+
+
+def test_a_cell_is_named_as_its_file_has_it(tmp_path: Path) -> None:
+    """By the name of the column that is written."""
+    (tmp_path / "q.csv").write_text("time,w,X,y,z\n0,1,0,0,0\n1,1,nan,0,0\n", encoding="utf-8")
+    with pytest.raises(AtlasError, match="line 3, column X: the cell is nan"):
+        of_file(tmp_path / "q.csv", None)

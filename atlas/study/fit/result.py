@@ -162,8 +162,9 @@ class Fit:
     def horizon(self, error: float, of: str = "") -> float:
         """Return the time up to which a prediction is good: its largest standard error stays below `error` till then.
 
-        In radians for rotations and axes. Infinite if it is good for 1e9 spans of the data, and the end of the data if
-        it is no better there. Raises AtlasError for what is no positive number, and as `predict` does.
+        In radians for rotations and axes. Infinite if it is good for 1e9 spans of the data. Where it is not good after
+        their end, the last of their times at which it is, and minus infinity if it is at none: nowhere. Raises
+        AtlasError for what is no positive number, and as `predict` does.
         """
         error = positive(error, "The error")
         first, last = float(self.t.min()), float(self.t.max())
@@ -174,7 +175,8 @@ class Fit:
             return bool((self.predict(last + ahead + cycle, of).sigma > error).any())
 
         if bad(0.0):
-            return last
+            good = (self.predict(self.t, of).sigma <= error).all(-1)
+            return float(self.t[good].max(initial=-np.inf))
         low, high = 0.0, span
         while not bad(high):
             low, high = high, 2 * high
