@@ -50,7 +50,7 @@ def check(motion: Any, make: Any, values: Any, names: Any, times: Any = TIMES) -
     """Compare each derivative at each time with the difference, of R, and of Omega and K at the last time."""
     differences = [Differences(make, values, i) for i in range(len(names))]
     for of, method in VECTORS.items():
-        if not hasattr(motion, method):
+        if not hasattr(differences[0].motions[0], method):
             continue
         when = times if of == "rotation" else times[-1:]
         found, v = motion.sensitivity(np.array(when), names, of), motion.sensitivity(np.array(when), names)
@@ -215,6 +215,26 @@ def test_sensitivity_in_given_axes_is_a_difference_quotient(inputs: Any, size: f
                 slope = np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], -1)
             found = motion.sensitivity(t, names, of)[:, j]
             assert np.abs(found - slope).max() <= 1e-8 * (1 + np.abs(slope).max()), (of, name)
+
+
+@pytest.mark.parametrize("turn", [(0.4, 0.1, -0.6), (0.0, 0.0, 0.0)])
+@pytest.mark.parametrize("size", [1e-6, 1e-9, 1e-14])
+def test_sensitivity_in_one_component_along_a_weak_field(turn: Any, size: float) -> None:
+    """Asked for alone: terms of the size of 1/|B'| cancel where inputs of the class are combined."""
+    A, omega = Rotation.from_rotvec(turn).as_matrix(), (0.2, -0.3, 0.9)
+    columns = [[rational(x) for x in column] for column in A.T.tolist()]
+
+    def make(*B: fmpq) -> GeneralMotion:
+        return GeneralMotion.at_state(1.4, omega, [sum(map(fmpq.__mul__, x, B), fmpq(0)) for x in columns])
+
+    for j, field in enumerate((size * np.eye(3)).tolist()):
+        motion, difference = atlas.motion(1.4, field, omega, A), Differences(make, field, j)
+        for of, frame in (("rotation", A), ("angular_velocity", np.eye(3))):
+            expected = frame @ difference.at(of, 3.0)
+            found = motion.sensitivity(3.0, f"B{j + 1}", of)[0]
+            assert np.abs(found - expected).max() <= BOUND * (1 + np.abs(expected).max()), (of, j)
+        top = atlas.TopMotion.in_laboratory((2.0, 1.5), field, A, A @ omega, coupling=(0.3, 1.0), linear=0.7)
+        assert not top.sensitivity(3.0, f"B{j + 1}").any()  # only the direction counts
 
 
 def test_scalars_have_derivatives() -> None:

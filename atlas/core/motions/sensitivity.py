@@ -93,7 +93,7 @@ class One:
             )
         else:
             self.inputs = (of_free if family == "free" else of_ball)([float(x) for x in row])
-        self.moved = self._moved(turned)
+        self.moved = self._moved(turned, i)
         self._known, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
 
     def _sides(self, i: int) -> tuple[FloatArray, FloatArray]:
@@ -114,15 +114,21 @@ class One:
         K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
         return of_general(ratio, K, omega)
 
-    def _moved(self, turned: bool) -> dict[str, Moved]:
+    def _moved(self, turned: bool, i: int) -> dict[str, Moved]:
         """Return how each name that a user may ask for moves the inputs."""
         own, L, C = self.inputs.names, self.left, self.axes
         moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if turned else "K")}
         if "K1" in own or (turned and "n2" in own):
             K = [x for x, name in zip(self.inputs.values, own, strict=True) if name[0] in "Kn"]
             B = L @ floats([fmpq(0)] * (3 - len(K)) + K)
+            across = np.eye(3)
+            if "n2" in own:  # of a top only the direction matters, and along it nothing, not even rounding
+                given = np.broadcast_to(self.motion._given_field, (*self.motion.shape, 3)).reshape(-1, 3)[i]  # noqa: SLF001
+                u = given / abs(given).max()
+                across = np.cross(np.cross(u, across), u) / (u @ u)
             for j, e in enumerate(np.eye(3)):
-                for name, turn, change in ((f"B{j + 1}", np.zeros(3), L[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))):
+                moves = (f"B{j + 1}", np.zeros(3), L.T @ across[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))
+                for name, turn, change in moves:
                     moved[name] = self._of_field(change, turn)
         elif self.motion.family == "asymmetric":  # free
             moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}

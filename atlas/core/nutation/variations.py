@@ -43,23 +43,21 @@ class Weighted:
             rows = np.concatenate([table[:2], names @ table[2:]])
             both = np.array([rows, pair.slope(rows, i)])
             self.parts.append(np.stack([both.real, both.imag], 1))
-        rates, (first, second) = names @ pair.rates, pair.twisting @ names.T
-        chi, self.fixed = names @ pair.chi + spins, names @ pair.turned @ left.T + turns
-        columns = [
-            names @ pair.faster,
-            -(names @ pair.cells),
-            rates[:, 1],
-            chi,
-            first - second,
-            rates[:, 0],
-            first + second,
-        ]
-        self.columns = np.array([np.stack([*columns, x], -1) for x in self.fixed.T])
-        sizes = sum(abs(x[0, :, 2:]).sum((0, 2)) for x in self.parts) + abs(self.columns[:, :, 3::4]).max((0, 2))
+        (first, second), turned, spun = pair.twisting, pair.turned @ left.T, np.outer(spins, np.eye(7)[3])
+        columns = np.column_stack(
+            [pair.faster, -pair.cells, pair.rates[:, 1], pair.chi, first - second, pair.rates[:, 0], first + second]
+        )
+        self.fixed, combined = names @ turned + turns, names @ columns + spun
+        self.columns = np.array([np.column_stack([combined, x]) for x in self.fixed.T])
+        # of terms before they are combined, since what cancels may do so there
+        sizes, fixed = abs(names), (abs(names) @ abs(turned) + abs(turns)).max(1)
+        self.sizes = np.column_stack([sizes @ abs(columns) + abs(spun), fixed])
+        self.weights = [sizes @ (abs(x[2:].real) + abs(x[2:].imag)) for x in pair.tables]
+        sizes = sum(x.sum(1) for x in self.weights) + self.sizes[:, 3::4].max(1)
         self.cancels = pair.hyperbolic or not (sizes < MUCH).all()
 
     def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
-        """Return v at times (m,), (3, N, m), dv/dt if asked for; and where their terms cancel, (m,), or None."""
+        """Return v at times (m,), (3, N, m), dv/dt if asked for; and the sizes of v's terms, (N, m), 0 if all small."""
         pair, counts = self.pair, [len(x) for x in self.pair.frequencies]
         turn, s, count = pair.places(t)
         if pair.doubled[0] == pair.doubled[1]:
@@ -103,11 +101,11 @@ class Weighted:
                 normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
                 changes = ((vectors[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
                 vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], changes)
-        columns, basis_size = abs(self.columns).max(0), abs(basis[0]).max(0)
-        if not self.cancels and (columns @ basis_size.max(1)).max() < LOST:
-            return vectors, None
-        terms = sum(abs(x[0, :, 2:]).sum(0) @ abs(y) for x, y in zip(self.parts, f, strict=True)) * 2 / np.sqrt(square)
-        return vectors, (terms + columns @ basis_size > LOST * (1 + abs(vectors[0]).max(0))).any(0)
+        basis_size = abs(basis[0]).max(0)
+        if not self.cancels and (self.sizes @ basis_size.max(1)).max() < LOST:
+            return vectors, 0.0
+        terms = sum(x @ abs(y) for x, y in zip(self.weights, f, strict=True)) * 2 / np.sqrt(square)
+        return vectors, terms + self.sizes @ basis_size
 
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
         """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""
@@ -176,16 +174,18 @@ class Varied:
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             block = slice(i, i + BLOCK)
-            alone = np.full(t[block].size, not known)
+            terms: Any = 0.0 if known else np.nan
             for n, combination in enumerate(known):
-                values, cancels = combination.at(t[block], slopes)
+                values, sizes = combination.at(t[block], slopes)
+                terms = terms + sizes
                 for x, y in zip(out, values, strict=True):
                     if n:
                         x[block] += y.transpose(2, 1, 0)
                     else:
                         x[block] = y.transpose(2, 1, 0)
-                if cancels is not None:
-                    alone |= cancels
+            if not np.any(terms):
+                continue
+            alone = ~(terms <= LOST * (1 + abs(out[0][block]).max(2).T)).all(0)
             for j in (i + np.flatnonzero(alone)).tolist():
                 v, faster, axis, more = self.differences.at(float(t[j]))
                 out[0][j] = names @ v @ left.T + turns + np.outer(spins, left @ axis)

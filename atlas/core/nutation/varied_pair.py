@@ -72,10 +72,11 @@ class Pair:
             rows = [[(x[n - n % 2 + 1] + (-1) ** n * x[n - n % 2]) / 2 for n in range(len(x))] for x in rows]
         table, frequencies = np.array([_double(x) for x in rows]), np.array(k[::2], dtype=float)
         reach = self.rate * self.cell / 2 if self.hyperbolic else 0.0
-        size = abs(table).max(0).reshape(-1, 2).max(1)
+        size = abs(table).reshape(len(table), -1, 2).max(2)
         with np.errstate(over="ignore", invalid="ignore"):
             grown = size * np.exp(frequencies * reach)
-            count = int(np.flatnonzero(grown > NEGLIGIBLE * grown.max()).max(initial=0)) + 1
+            largest = np.maximum(grown.max(1, keepdims=True), grown[0].max())  # of each: one may be 1e9 times another
+            count = int(np.nonzero(grown > NEGLIGIBLE * largest)[1].max(initial=0)) + 1
         if not np.isfinite(grown).all():
             raise TooNearError("The motion is too near to a separatrix for derivatives in floats.")
         self.tables.append(table[:, : 2 * count])
