@@ -72,12 +72,16 @@ COMMANDS = {
 def of_fit(file: Path, **options: Any) -> int:
     """Fit a file, and make the page of what is found; the status is that of `atlas fit`."""
     from atlas.report.fitted import Fitted
+    from atlas.study.fit import fit_file
 
     typed = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
-    called, result = _called(options), fitted(file, options)
+    called, given = _called(options), dict(arguments(options))
+    found = fitted(file, options).params.values()
+    given["params"] = {p.name: {"value": float(p.value), "vary": bool(p.vary)} for p in found if not p.expr}
+    result = fit_file(file, **given)  # as the recipe of the page's picture finds it
     wanted = Fitted(
         result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
-        arguments(options), motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"] or "", called,
+        given, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"] or "", called,
     )  # fmt: skip
     status = make(wanted, options["out"], options["jobs"])
     for doubt in result.doubts:

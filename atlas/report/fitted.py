@@ -41,7 +41,7 @@ class Fitted:
 
     fit       an `atlas.fit`, of the data in `file`, a path from the folder of the page; `digest` of what it holds
     options   the options of the command that makes the page, each with what was typed, by name
-    given     arguments of `fit_file` by which it is made again
+    given     arguments of `fit_file` by which it is made, from values that were found before
     motion    what a page of the fitted motion is asked for
     ahead     lines on what was asked of the time to come
     """
@@ -191,15 +191,12 @@ class Fitted:
 
     def _recipe(self) -> str:
         """Return the recipe that draws data, curve and residuals."""
-        start = {
-            name: {"value": float(p.value), "vary": bool(p.vary)} for name, p in self.fit.params.items() if not p.expr
-        }
         return "\n".join(
             [
                 f'"""Data, fitted motion and residuals, of data with the digest {self.digest}."""', "",
                 "from pathlib import Path", "", "from atlas.study.fit import fit_file", "",
                 f"FILE = Path(__file__).parent / {self.file!r}",
-                f"OPTIONS = {pformat({**self.given, 'params': start}, sort_dicts=False)}", "", "",
+                f"OPTIONS = {pformat(dict(self.given), sort_dicts=False)}", "", "",
                 "def scene():", '    """Fit again, from what was found, and draw."""',
                 "    return fit_file(FILE, **OPTIONS).scene()", "",
             ]

@@ -26,6 +26,9 @@ SURE = 4.0
 SAME = 1e-3
 """Part of chi square by which a minimum that is found again from another time may differ."""
 
+MANY = 12
+"""Numbers for each parameter from which on a motion that follows data of unknown noise is taken for theirs."""
+
 ROBUST = 1.5
 """Reduced chi square, from the median, up to which a motion with outliers is the one."""
 
@@ -117,8 +120,15 @@ def fit_file(file: Path, family: str = "general", *, kind: str | None = None, si
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
-    """Return what starts lead to, the least squares and the values that are varied, the best first."""
+    """Return what starts lead to, the least squares and the values that are varied, the best first.
+
+    A start in full that is a minimum is the only one. Few data whose noise is not known may be followed by a motion
+    that is not theirs: then all starts are tried.
+    """
     minima: list[tuple[float, tuple[float, Any]]] = []
+    sure = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
+    given = set(problem.names) <= problem.given.keys()
+    least = problem.chi_square(problem.inside(problem.given)) * (1 - SAME) if given else np.inf
     for centre, there, start, count in tries(problem):
         try:
             x = grown(there, start, count)
@@ -128,8 +138,9 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
             continue  # no motion of the family starts so
         again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
         minima.append((centre, (chi, x)))
-        if again or _good(problem, x):
+        if chi > least or (sure and (again or _good(problem, x))):
             break
+        least = np.inf
     if not minima:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
     return sorted((minimum for _, minimum in minima), key=lambda minimum: minimum[0])
