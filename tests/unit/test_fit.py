@@ -482,6 +482,9 @@ def test_a_held_value_is_within_its_own_bounds() -> None:
         with pytest.raises(AtlasError, match="must be in"):
             within(params, LIMITS)
     within(lmfit.create_params(ratio=2.5, I3={"value": 2.0, "vary": False}, B1={"min": 1}, B2={"expr": "2*B1"}), LIMITS)
+    tied = lmfit.Parameters()
+    tied.add_many(lmfit.Parameter("B2", expr="2*B1"))
+    within(tied, LIMITS)
     within(lmfit.create_params(ratio={"value": 2.0, "max": 2.0, "vary": False}), LIMITS)
 
 
