@@ -25,6 +25,8 @@ from atlas.places import folder
 from atlas.scene.layers import Scene, Space, Surface
 
 _DOTS, _LABEL, _PEELS = 150.0 / 25.4, 20, 10
+_CLOSER = 4.0
+"""How much closer a reader may come before lines show that they have sides."""
 
 
 class ScenePlotter(pv.Plotter):
@@ -60,7 +62,7 @@ def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
     for column, panel in enumerate(panels):
         plotter.subplot(0, column)
         view = fit(panel, share)
-        _add_solids(plotter, view)
+        _add_solids(plotter, view, share[1] / (size[1] * view.scale) / _CLOSER)
         for surface in view.surfaces:
             _add_surface(plotter, surface, view)
         _add_names(plotter, view)

@@ -138,7 +138,7 @@ class Motion(Shown, Generic[Single]):
     @classmethod
     def in_laboratory(
         cls, body: Any, field: Any, attitude: Any, angular_velocity: Any = None, **parameters: Any
-    ) -> "Motion[Any]":
+    ) -> Self:
         """Motion of this class with R(0) = `attitude`, in a field of any direction, as `atlas.motion` gives it.
 
         `body` as there, (I2, I3) for a top; `field` (..., 3), of a top its direction n, and `angular_velocity` are in
@@ -147,7 +147,7 @@ class Motion(Shown, Generic[Single]):
         AtlasError for what is no number.
         """
         chosen = import_module("atlas.core.motions.chosen")
-        motion: Motion[Any] = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
+        motion: Self = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
         return motion
 
     def third_axis(self, t: Any) -> FloatArray:
