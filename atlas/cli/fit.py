@@ -68,13 +68,8 @@ def command(file: Path, **options: Any) -> int:
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
     """Return the fit that the options ask for."""
-    from lmfit import create_params
-
     from atlas.study.fit import fit_file
-    from atlas.study.fit.models import within
-    from atlas.study.fit.problem import LIMITS
 
-    within(create_params(**arguments(options)["params"]), LIMITS)
     return fit_file(file, **arguments(options))
 
 

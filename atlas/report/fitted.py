@@ -35,6 +35,10 @@ MEANINGS = {
 """What parameters are, by their names with or without the number, and their units; moments are in those of I2."""
 
 
+ENDS = {float("inf"): "any time", -float("inf"): "nowhere"}
+"""What is said of a horizon that has no end, or no beginning."""
+
+
 @dataclass(frozen=True)
 class Fitted:
     """A page of a fit.
@@ -170,7 +174,7 @@ class Fitted:
         fit = self.fit
         unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
         rows = [
-            [f"{factor * size:.3g}{unit}", words, f"{until:.6g}" if until < float("inf") else "any time"]
+            [f"{factor * size:.3g}{unit}", words, ENDS.get(until, f"{until:.6g}")]
             for factor, words in AHEAD.items()
             for until in [fit.horizon(factor * size)]
         ]

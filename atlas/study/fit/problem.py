@@ -12,7 +12,20 @@ from atlas.errors import AtlasError
 from atlas.study.fit.data import STEP, Data
 from atlas.study.fit.flow import ERROR, FINE
 from atlas.study.fit.least import RHO
-from atlas.study.fit.models import ATTITUDE, DIRECTION, OMEGA, B, Model, Values, field_of, flow, state, units_of, unseen
+from atlas.study.fit.models import (
+    ATTITUDE,
+    DIRECTION,
+    OMEGA,
+    B,
+    Model,
+    Values,
+    field_of,
+    flow,
+    state,
+    units_of,
+    unseen,
+    within,
+)
 
 LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, np.inf), "I3": (0.0, np.inf)}
 
@@ -55,6 +68,7 @@ def parameters(model: Model, data: Data, typed: Any) -> tuple[Any, dict[str, flo
     for name, p in own.items():
         if name not in parameters_of_fit and p.expr is None:
             raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
+    within(own, LIMITS)
     for name, p in own.items():
         low, high = LIMITS.get(name, (-np.inf, np.inf))
         parameters_of_fit.add(
