@@ -89,6 +89,14 @@ TIES = (
         size=unit,
     ),
     of_motion("BallMotion.angular_momentum", "(26)", momentum, [*POINTS, *ALONG, *REST], size=length),
+    of_motion(
+        "BallMotion.field_in_body",
+        f"{MATRIX} (32)",
+        lambda say, p: say("(32)", "K", Bp=[0, 0, p.alpha], R=rotation(say, p, p.t)),
+        size=length,
+        ulps=8,
+        floors=("core",),
+    ),
     of_motion("BallMotion.angular_velocity", f"{MATRIX} (26)", spin, size=length, ulps=8),
 )
 
