@@ -4,7 +4,7 @@ An elementary motion closes if phi/k is a rational number p/q, and then after q 
 The trace of a point of the body, at the angle LEAN to its axis, is seen along the field.
 """
 
-import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,8 @@ def scene(
     """Show a motion with phi/k = p/q for each of the ``fractions``, and the golden one over ``turns`` turns."""
     if not all(field):
         raise DomainError(f"figure rosettes needs both components of the field, not field = {field}.")
-    hyperbola, fractions = Hyperbola(ratio, field), tuple(map(reduced, fractions))
+    hyperbola = Hyperbola(ratio, field)
+    fractions = tuple(Fraction(p, q).as_integer_ratio() if q else (p, q) for p, q in fractions)
     closed = [(rf"$\phi/k={p}/{q}$", hyperbola.closed(p, q), float(q)) for p, q in fractions]
     never = ElementaryMotion(ratio, field, golden(ratio, field))
     motions = [*closed, (r"$\phi/k=(\sqrt{5}-1)/2$", never, turns)]
@@ -62,13 +63,6 @@ def scene(
         named={"navy": "body_axis", "teal": "trajectory"},
         size=(SIZE * len(panels), SIZE + 4.0),
     )
-
-
-def reduced(fraction: tuple[int, int]) -> tuple[int, int]:
-    """Return p and q without a common factor, q positive."""
-    p, q = fraction
-    factor = math.copysign(math.gcd(p, q), q) or 1
-    return int(p / factor), int(q / factor)
 
 
 def golden(ratio: Any, field: tuple[float, float]) -> float:

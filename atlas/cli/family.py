@@ -392,7 +392,7 @@ def _columns(sampled: Sequence[Sampled], motion: Any, times: Sequence[float]) ->
 
 
 def _check_spectrum(options: dict[str, Any]) -> None:
-    """Raise click.UsageError for lines of a motion and proven digits at once, and for no least amplitude."""
+    """Raise click.UsageError for lines of a motion with proven digits, and for a least amplitude out of range."""
     if options.get("spectrum") and not 0 < options["least"] < 1:
         raise click.UsageError(f"--least is a part of the whole, between 0 and 1, not {options['least'].text}.")
     if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):

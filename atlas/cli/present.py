@@ -131,7 +131,7 @@ def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
 
 
 ROUNDED = {
-    "points": "what follows from the points", "density": "the mass of the density",
+    "points": "what follows from the points", "density": "a mass by its density",
     **dict.fromkeys(("heavy", "charged", "coat"), "the moments and couplings of the top"),
 }  # fmt: skip
 """What is computed in doubles from an option before anything is proven, by the name of that option."""
@@ -178,10 +178,10 @@ def _inputs(options: dict[str, Any]) -> str:
     several = [x for value in options.values() for x in (value if isinstance(value, tuple) else (value,))]
     found = {name for name, value in options.items() if value is not None}
     rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in found))
-    rounded += ["the components of a field at an angle"] * any(isinstance(x, Inclined) for x in options.values())
-    rounded += ["turns and degrees"] * any(isinstance(x, Measured) and x.exact is None for x in several)
+    rounded += ["a field at an angle"] * any(isinstance(x, Inclined) for x in options.values())
+    rounded += ["numbers in turns or degrees"] * any(isinstance(x, Measured) and x.exact is None for x in several)
     taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
-    return taken + (f", and, rounded to doubles, {' and '.join(rounded)}" if rounded else "")
+    return taken + (f", and, rounded to doubles, {', '.join(rounded)}" if rounded else "")
 
 
 IN_DOUBLES = "Computed in doubles: no digit is proven in axes that are not principal ones, or from another attitude."

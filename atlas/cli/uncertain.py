@@ -12,16 +12,13 @@ STEP = 1 / 8
 """Part of a standard deviation over which a derivative is taken, by differences on both sides."""
 
 BENT = 0.03
-"""Part of the uncertainty of a number by which second and third derivatives may change it: that of one by sampling."""
+"""Part of the uncertainty of a number by which second and third derivatives may change it; beyond, it is sampled."""
 
 NONE = 1e-12
 """Part of a number, or of the largest component of a vector or a matrix, that is rounding and no uncertainty."""
 
 DRAWS, NUMBERS, LEAST = 500, 2_000_000, 25
-"""Draws of the inputs, fewer where they had more numbers in all, and how many a number must be in to have a deviation.
-
-The clock has no part in it, so that the digits are the same each time.
-"""
+"""Draws of the inputs; numbers in all of them, which fewer draws do not exceed; and draws that a deviation needs."""
 
 Numbers = dict[tuple[Any, ...], float]
 """Numbers of an answer by their place in it."""

@@ -121,7 +121,7 @@ class Check:
         )
 
 
-class _How(TypedDict, total=False):
+class _Options(TypedDict, total=False):
     motion: Required[Any]
     quaternions: Any
     angular_velocities: Any
@@ -131,9 +131,11 @@ class _How(TypedDict, total=False):
 
 
 @overload
-def check(t: Sequence[NDArray[Any] | Sequence[float]], rotations: Any = None, **how: Unpack[_How]) -> Convergence: ...
+def check(
+    t: Sequence[NDArray[Any] | Sequence[float]], rotations: Any = None, **how: Unpack[_Options]
+) -> Convergence: ...
 @overload
-def check(t: Any, rotations: Any = None, **how: Unpack[_How]) -> Check: ...
+def check(t: Any, rotations: Any = None, **how: Unpack[_Options]) -> Check: ...
 def check(
     t: Any,
     rotations: Any = None,

@@ -126,11 +126,11 @@ def test_numbers_that_are_rounded_from_what_was_typed_are_said_to_be(tmp_path: P
     (tmp_path / "ring.csv").write_text("x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n", encoding="utf-8")
     start = "motion --omega2 0.1 --digits 40"
     for words, says in (
-        ("--ratio 1.5 --field 2 --angle 1", "the components of a field at an angle"),
-        ("--ratio 1.5 --magnetic 2 --mu 1 --angle 30deg", "the components of a field at an angle"),
-        ("--ratio 1.5 --field 1Hz 2", "turns and degrees"),
+        ("--ratio 1.5 --field 2 --angle 1", "a field at an angle"),
+        ("--ratio 1.5 --magnetic 2 --mu 1 --angle 30deg", "a field at an angle"),
+        ("--ratio 1.5 --field 1Hz 2", "numbers in turns or degrees"),
         (f"--points {tmp_path / 'ring.csv'} --field 1 2", "what follows from the points"),
-        ("--shape sphere --radius 1 --density 2 --charge 1 --magnetic 1 2", "the mass of the density"),
+        ("--shape sphere --radius 1 --density 2 --charge 1 --magnetic 1 2", "a mass by its density"),
     ):
         whole = f"the doubles nearest to what was typed, and, rounded to doubles, {says}"
         assert answer(f"{start} {words}")["inputs"] == whole

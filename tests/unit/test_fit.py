@@ -514,3 +514,21 @@ def test_a_cell_is_named_as_its_file_has_it(tmp_path: Path) -> None:
     (tmp_path / "q.csv").write_text("time,w,X,y,z\n0,1,0,0,0\n1,1,nan,0,0\n", encoding="utf-8")
     with pytest.raises(AtlasError, match="line 3, column X: the cell is nan"):
         of_file(tmp_path / "q.csv", None)
+
+
+def test_few_axes_of_unknown_noise_are_followed_by_the_least_squares() -> None:
+    """Of 20 axes another motion leaves residuals nearly three times as large, which without sigma might be noise."""
+    rng = np.random.default_rng(612)
+    ratio, B, omega, a = rng.uniform(0.3, 1.9), rng.normal(size=3), rng.normal(size=3) * 1.5, rng.normal(size=3) * 0.8
+    t = np.sort(rng.uniform(0, 6, 20))
+    n = atlas.motion(ratio, B, omega, Rotation.from_rotvec(a)).third_axis(t)
+    n = Rotation.from_rotvec(np.cross(n, 0.003 * rng.standard_normal((20, 3)))).apply(n)
+    found = atlas.fit(t, axis=n)
+    for name, truth in zip(("B1", "B2", "B3"), B, strict=True):
+        assert abs(found.params[name].value - truth) < 4 * found.params[name].stderr
+    assert found.rivals
+    again = atlas.fit(
+        t, axis=n, params={k: {"value": p.value, "vary": p.vary} for k, p in found.params.items() if not p.expr}
+    )
+    assert again.params["b"].value == pytest.approx(found.params["b"].value, rel=1e-3)
+    assert not again.rivals

@@ -127,20 +127,19 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
     """
     minima: list[tuple[float, tuple[float, Any]]] = []
     sure = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
-    given = set(problem.names) <= problem.given.keys()
-    least = problem.chi_square(problem.inside(problem.given)) * (1 - SAME) if given else np.inf
-    for centre, there, start, count in tries(problem):
+    in_full = set(problem.names) <= problem.given.keys()
+    for k, (centre, there, start, count) in enumerate(tries(problem)):
         try:
             x = grown(there, start, count)
             x = problem.inside(there.carried(x, -centre)) if centre else x
             chi = problem.chi_square(x)
+            stays = in_full and k == 0 and chi > (1 - SAME) * problem.chi_square(start)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so
         again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
         minima.append((centre, (chi, x)))
-        if chi > least or (sure and (again or _good(problem, x))):
+        if stays or (sure and (again or _good(problem, x))):
             break
-        least = np.inf
     if not minima:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
     return sorted((minimum for _, minimum in minima), key=lambda minimum: minimum[0])

@@ -44,7 +44,7 @@ Progress = Callable[[int, int], None]
 Made: TypeAlias = tuple[str, bytes | None, float]
 
 
-class _How(TypedDict, total=False):
+class _Options(TypedDict, total=False):
     listed: bool
     digits: int | None
     rows: int | None
@@ -56,7 +56,7 @@ class _How(TypedDict, total=False):
 
 @overload
 def sweep(
-    family: str, parameters: Mapping[str, Any], quantities: Sequence[str], out: None = None, **how: Unpack[_How]
+    family: str, parameters: Mapping[str, Any], quantities: Sequence[str], out: None = None, **how: Unpack[_Options]
 ) -> Columns: ...
 @overload
 def sweep(
@@ -64,7 +64,7 @@ def sweep(
     parameters: Mapping[str, Any],
     quantities: Sequence[str],
     out: str | os.PathLike[str],
-    **how: Unpack[_How],
+    **how: Unpack[_Options],
 ) -> Path | str: ...
 def sweep(
     family: str,
