@@ -111,6 +111,14 @@ def test_the_ratio_of_a_charge_to_a_mass_is_exact_in_decimals() -> None:
     assert answer("particle --mu 0.1 --magnetic 0 0 1 --digits 25 --decimal")["cyclotron_frequency"].strip("0") == ".1"
 
 
+def test_a_point_charge_in_si_is_shown_with_its_frequency() -> None:
+    """Its table has Hz, and no Larmor frequency, which is of a body."""
+    words = "particle --mass 9.11e-31 --charge -1.602e-19 --magnetic 0 0 1e-3 --velocity 1e5 0 0 --times 1e-9"
+    found = CliRunner().invoke(command, words.split(), catch_exceptions=False)
+    assert "cyclotron_frequency/2 pi  -2.79875e+07  Hz" in found.stdout
+    assert "larmor" not in found.stdout
+
+
 @pytest.mark.parametrize(
     ("units", "c"), [("--mu 3", 1), ("--mass 1 --charge 3", 1), ("--mu 3 --units gaussian", 29979245800)]
 )

@@ -1,6 +1,8 @@
 """`atlas page --fit`: the page of a fit, its numbers and words, the commands on it, and what it refuses."""
 
 import json
+import re
+import runpy
 import shlex
 import shutil
 from collections.abc import Iterator
@@ -152,6 +154,31 @@ def test_what_is_not_determined_is_told(tmp_path: Path) -> None:
     values = {name.strip("`"): value for name, _, value, _ in blocks[1]["rows"]}
     assert {values[name] for name in ("ratio", "B2", "B3", "b")} == {"not determined"}
     assert "±" in values["omega3"]
+
+
+FEW = """t,w,x,y,z
+0.074684841,0.94532646,0.1009094,-0.11847039,0.28660068
+0.10357732,0.94130034,0.0972205,-0.11617228,0.30167174
+0.10530609,0.93771899,0.10040544,-0.11579682,0.31175782
+0.23588051,0.92068762,0.10400322,-0.042480233,0.37378211
+0.50393742,0.84970219,0.15176408,0.069674442,0.5001193
+0.60700589,0.80794439,0.17624708,0.11820047,0.54971945
+"""
+"""Attitudes that determine neither body nor field, so that a fit from the values of one ends elsewhere."""
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("unbuilt")
+def test_the_picture_is_of_the_fit_in_the_table(tmp_path: Path) -> None:
+    """The recipe finds the standard error that the page tells."""
+    file = tmp_path / "few.csv"
+    file.write_text(FEW, encoding="utf-8")
+    with pytest.raises(AtlasError, match="not built here"):
+        asked(file, tmp_path)
+    caption = runpy.run_path(str(tmp_path / "fit-few.py"))["scene"]().caption
+    sigma = re.search(r"sigma (\S+) found", caption)
+    assert sigma
+    assert f"is {sigma[1]}." in (tmp_path / "fit-few.toml").read_text("utf-8")
 
 
 @pytest.mark.slow

@@ -122,23 +122,20 @@ def fit_file(file: Path, family: str = "general", *, kind: str | None = None, si
 def _tried(problem: Problem) -> list[tuple[float, Any]]:
     """Return what starts lead to, the least squares and the values that are varied, the best first.
 
-    A start in full that is a minimum is the only one. Few data whose noise is not known may be followed by a motion
-    that is not theirs: then all starts are tried.
+    Few data whose noise is not known may be followed by a motion that is not theirs: then all starts are tried.
     """
     minima: list[tuple[float, tuple[float, Any]]] = []
     sure = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
-    in_full = set(problem.names) <= problem.given.keys()
-    for k, (centre, there, start, count) in enumerate(tries(problem)):
+    for centre, there, start, count in tries(problem):
         try:
             x = grown(there, start, count)
             x = problem.inside(there.carried(x, -centre)) if centre else x
             chi = problem.chi_square(x)
-            stays = in_full and k == 0 and chi > (1 - SAME) * problem.chi_square(start)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so
         again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
         minima.append((centre, (chi, x)))
-        if stays or (sure and (again or _good(problem, x))):
+        if sure and (again or _good(problem, x)):
             break
     if not minima:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
