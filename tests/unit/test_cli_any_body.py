@@ -245,6 +245,8 @@ def test_lists_and_ranges_of_times_are_one(times: str) -> None:
     for typed in ("--times 1ms:3ms:3", "--grid 1ms 1ms 3", "--times 1ms 2ms 3ms"):
         found = numbers(*words.split(), *typed.split(), "--json")["samples"]
         assert [row["t"] for row in found] == [1e-3, 2e-3, 3e-3]
+        assert "Omega_i [1/s]" in run(*words.split(), *typed.split())[1]
+    assert "Omega_i [1/s]" in run(*words.split(), *"--times 1ms:1s:4:log".split())[1]
 
 
 def test_a_range_of_times_is_its_list() -> None:
