@@ -84,8 +84,9 @@ def test_a_prediction_keeps_to_its_band(attitudes: Any) -> None:
     )
 
 
+@pytest.mark.parametrize("family", ["general", "elementary"])
 @pytest.mark.parametrize("kind", ["rotation", "axis", "angular_velocity", "field_in_body", "signal"])
-def test_slopes_are_those_of_the_residuals(kind: str) -> None:
+def test_slopes_are_those_of_the_residuals(kind: str, family: str) -> None:
     """By central differences, of residuals that are small, as they are where least squares end."""
     import lmfit
 
@@ -93,8 +94,10 @@ def test_slopes_are_those_of_the_residuals(kind: str) -> None:
     values = {"ratio": RATIO} | dict(
         zip([f"{x}{i}" for x in ("B", "omega", "a") for i in "123"], [*FIELD, *OMEGA, 0.3, -0.2, 0.4], strict=True)
     )
+    if family == "elementary":
+        values = {name: value for name, value in values.items() if "omega" not in name} | {"omega2": 0.7}
     params = lmfit.create_params(**values)
-    model = model_of("general")
+    model = model_of(family)
     motion = model.make(values)
     function = lambda R: R[:, 0, 1] ** 2 + R[:, 2, 2]  # noqa: E731
     data = Data(kind, t, np.zeros((9, 1)), np.ones((9, 1)), function)
@@ -102,7 +105,7 @@ def test_slopes_are_those_of_the_residuals(kind: str) -> None:
     data = Data(kind, t, seen[:, :, 2] if kind == "axis" else seen, np.ones((9, 1)), function)
     problem = Problem(model, data, params, "linear", 2.0)
     x, h = np.array(list(values.values())), 1e-6
-    expected = [(problem.residuals(x + h * e) - problem.residuals(x - h * e)) / (2 * h) for e in np.eye(10)]
+    expected = [(problem.residuals(x + h * e) - problem.residuals(x - h * e)) / (2 * h) for e in np.eye(len(x))]
     np.testing.assert_allclose(problem.jacobian(x), np.transpose(expected), atol=1e-7)
 
 
@@ -120,6 +123,17 @@ def test_an_elementary_motion_does_not_tell_ratio_and_field_apart() -> None:
     assert (found.predict(t).sigma < NOISE).all()
     known = atlas.fit(t, rotation=R, sigma=NOISE, params={"ratio": {"value": 1.5, "vary": False}})
     assert abs(known.params["b"].value - np.sqrt(5)) < 5 * known.params["b"].stderr < 0.1
+
+
+def test_the_axis_of_an_elementary_motion_tells_no_more_than_the_direction_of_the_field() -> None:
+    """The axis turns about the field at omega2 / sin(angle), whatever the ratio and the size of the field."""
+    rng = np.random.default_rng(1)
+    t = np.linspace(0, 20, 200)
+    n = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(t)[:, :, 2] + rng.normal(0, 1e-3, (200, 3))
+    found = atlas.fit(t, "elementary", axis=n / np.linalg.norm(n, axis=1, keepdims=True), sigma=1e-3)
+    assert [name for name in ("ratio", "B2", "B3", "b") if found.params[name].stderr] == []
+    assert abs(found.params["omega2"].value - 0.7) < 5 * found.params["omega2"].stderr < 1e-3
+    assert "ratio is not determined by these data." in found.undetermined
 
 
 def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:

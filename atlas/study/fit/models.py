@@ -1,6 +1,7 @@
 """Families of motions with their parameters by name: what a fit varies."""
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -47,6 +48,27 @@ def _elementary(p: Values) -> Any:
     K = turn @ (A.T @ K)
     motion = ElementaryMotion(p["ratio"], (K[1], K[2]), p["omega2"])
     return of_any(p["ratio"], vector(p, B), turn.T @ np.array([0.0, p["omega2"], motion.omega3]), A)
+
+
+def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
+    """Return Omega (3, ...) of elementary motions on the hyperbola (67), of fields K (3, ...) in the body."""
+    across = np.sqrt(K[0] * K[0] + K[1] * K[1])
+    along = K[2] * w * (w + (2 - r) * across) / (r * across * (across + w))
+    return np.stack([w * K[0] / across, w * K[1] / across, along])
+
+
+def _started(p: Values) -> dict[str, FloatArray]:
+    """Return the derivatives of Omega at the start of an elementary motion in its parameters, each (3,)."""
+    A, field, h = attitude(p), vector(p, B), 1e-30
+    x = np.array([p["ratio"], *(A.T @ field), p["omega2"]])
+    r, K1, K2, K3, w = x[:, None] + 1j * h * np.eye(5)
+    with np.errstate(all="ignore"):
+        slopes = _on_hyperbola(r, np.stack([K1, K2, K3]), w).imag / h
+    if not np.isfinite(slopes).all():
+        raise AtlasError("On a vertical line of the hyperbola omega2 and the field do not tell Omega.")
+    turned = A.T @ np.cross(field, _left(vector(p, ATTITUDE)), axisb=0, axisc=0)
+    by = {"ratio": slopes[:, 0], "omega2": slopes[:, 4]}
+    return by | dict(zip((*B, *ATTITUDE), [*(slopes[:, 1:4] @ A.T).T, *(slopes[:, 1:4] @ turned).T], strict=True))
 
 
 def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
@@ -97,10 +119,8 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
         coupling, potential = several(("k2", "k2", "k3")), several(("linear", "quadratic"))
         field = several(DIRECTION)
         field = field / np.linalg.norm(field, axis=-1, keepdims=True)
-    elif model.name == "elementary":  # on the hyperbola (67)
-        r, w, across = moments[:, 2], parameters["omega2"], np.hypot(K[:, 0], K[:, 1])
-        along = K[:, 2] * w * (w + (2 - r) * across) / (r * across * (across + w))
-        omega = np.stack([w * K[:, 0] / across, w * K[:, 1] / across, along], -1)
+    elif model.name == "elementary":
+        omega = _on_hyperbola(moments[:, 2], K.T, parameters["omega2"]).T
     elif model.name == "elliptic":
         z, D = parameters["z"][:, None], moments.prod(-1, keepdims=True)
         v = parameters["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
@@ -119,6 +139,8 @@ class Model:
     fixed: Mapping[str, float]
     exact: bool = False
     """Whether the motion has derivatives in all parameters by itself."""
+    start: Callable[[Values], Mapping[str, FloatArray]] | None = None
+    """Derivatives of Omega at the start in the parameters, where these tell it."""
     slow: bool = False
     """Whether an integration is faster than the closed form, over the times of a usual measurement."""
     wider: tuple[str, ...] = ()
@@ -127,13 +149,21 @@ class Model:
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
         """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
         if self.exact:
-            try:
-                v = np.asarray(motion.sensitivity(t, [*(x for x in names if x not in ATTITUDE), *ATTITUDE]))
-                turned = v[:, -3:].swapaxes(1, 2) @ _left(vector(p, ATTITUDE))  # by a, not about the axes
-                seen = [ATTITUDE.index(x) for x in names if x in ATTITUDE]
-                return np.concatenate([v[:, :-3], turned.swapaxes(1, 2)[:, seen]], 1)
-            except AtlasError:
-                pass  # on a separatrix, and where a sum is too large: by differences
+            with suppress(
+                AtlasError, ZeroDivisionError
+            ):  # on a separatrix, and where a sum is too large: by differences
+                start = self.start(p) if self.start else {}
+                own = [x for x in names if x not in ATTITUDE and not (start and x in OMEGA)]
+                asked = [*own, *(OMEGA if start else ()), *ATTITUDE]
+                by, turns = np.zeros((len(names), len(asked))), _left(vector(p, ATTITUDE))
+                for row, name in zip(by, names, strict=True):
+                    if name in own:
+                        row[own.index(name)] = 1.0
+                    elif name in ATTITUDE:
+                        row[-3:] = turns[:, ATTITUDE.index(name)]
+                    if start:
+                        row[len(own) : -3] = start[name]
+                return np.asarray(by @ motion.sensitivity(t, asked))
         out = np.empty((t.size, len(names), 3))
         for j, name in enumerate(names):
             h = STEP * units[name]
@@ -168,7 +198,10 @@ MODELS: Mapping[str, Model] = {
         Model("general", ("ratio", *_FIELD), _general, {}, exact=True, wider=("asymmetric", "top")),
         Model("ball", _FIELD, _general, {}, exact=True, wider=("general", "asymmetric")),
         Model("free", ("ratio", *OMEGA, *ATTITUDE), _general, {}, exact=True, wider=("general", "asymmetric")),
-        Model("elementary", ("ratio", *B, "omega2", *ATTITUDE), _elementary, {}, wider=("general", "asymmetric")),
+        Model(
+            "elementary", ("ratio", *B, "omega2", *ATTITUDE), _elementary, {},
+            exact=True, start=_started, wider=("general", "asymmetric"),
+        ),
         Model(
             "top", ("I3", "k2", "k3", "linear", "quadratic", *DIRECTION, *OMEGA, *ATTITUDE), _top,
             {"n1": 0.0, "n2": 0.0, "n3": 1.0},

@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from scipy.linalg import qr
 
 from atlas.core.inputs import FloatArray
 from atlas.study.fit.models import units_of, unseen
@@ -51,7 +52,7 @@ class Seen:
         self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
         """Covariance for predictions, which see what is hardly determined as little as the data do."""
         self.null = turn[null].T
-        self.free = turn[self.lost].T
+        self.free = _simple(turn[self.lost].T)
         """Combinations that are not determined, in natural units, (n, count)."""
         self.errors = np.sqrt(np.diag(self.covariance))
         self.moved = self._moves(np.diag(self.units), self.errors)
@@ -76,7 +77,7 @@ class Seen:
         derived = [name for name, p in params.items() if p.expr]
         by = problem.chain(list(self.x), derived)
         for name, row in zip(derived, by, strict=True):
-            error = np.sqrt(row @ self.covariance @ row)
+            error = np.sqrt(max(row @ self.covariance @ row, 0.0))
             moved = self._moves((row * self.units)[None], error[None]).any()
             params[name].stderr = None if moved else float(error)
 
@@ -100,6 +101,15 @@ class Seen:
                 f"and {moves}, these data stay the same."
             )
         return out
+
+
+def _simple(free: FloatArray) -> FloatArray:
+    """Return combinations (n, count) that span the same, each with a parameter that none of the others has."""
+    if free.shape[1] < 2:
+        return free
+    _, _, order = qr(free.T, mode="economic", pivoting=True)
+    simple = free @ np.linalg.inv(free[order[: free.shape[1]]])
+    return np.asarray(simple / np.linalg.norm(simple, axis=0))
 
 
 def gauge(problem: Problem) -> list[str]:
