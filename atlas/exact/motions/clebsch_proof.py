@@ -137,7 +137,6 @@ class Cell:
         self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
         self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT / np.pi)
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
-        start = complex_of(dot(theta.l, theta.start)).imag
         self.narrow = float(np.linalg.eigvalsh(self.Y)[0])
         self.away = np.linalg.solve(self.Y, np.array([complex_of(s).imag for s in self.shift]))
         self.forms = [theta.denominator, *theta.K, *theta.M, *theta.N]
@@ -146,8 +145,8 @@ class Cell:
         weights = max(abs(complex_of(x)) for form in self.forms for x in form.weights)
         self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
         """Bound on the sum of factors of the products in a defect."""
-        self.largest_factor = float(np.exp(HALF * np.abs(turns.imag).sum() - start))
-        """That of N, exp(i l zeta): far from 1 where the start is far from the real times."""
+        self.largest_factor = float(np.exp(HALF * np.abs(turns.imag).sum()))
+        """That of N, exp(i l (zeta - start))."""
 
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
@@ -342,9 +341,10 @@ def _beyond(distance: float, narrow: float) -> float:
 def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
     """Return bounds on the distances of M, K and N of the forms from the motion after some times (H, F)."""
     H, F = map(rational, times.tolist())
-    zeta = [x + y for x, y in zip(theta.zeta([acb(H), acb(F)]), theta.start, strict=True)]
+    way = theta.zeta([acb(H), acb(F)])
+    zeta = [x + y for x, y in zip(way, theta.start, strict=True)]
     pairs, shifted = theta.pairs(zeta), theta.pairs([x - y for x, y in zip(zeta, theta.w, strict=True)])
-    below, factor = theta.denominator.of(pairs), (acb(0, 1) * dot(theta.l, zeta)).exp()
+    below, factor = theta.denominator.of(pairs), (acb(0, 1) * dot(theta.l, way)).exp()
     state = torus.flow.go(H, F, BITS)
     S = matrix(state.q)
     wanted = [

@@ -72,9 +72,8 @@ class ThetaMotion:
     @property
     def forms(self) -> list[Form]:
         """N, the denominator, K and M as forms of (2 zeta_1, zeta_2); N but for a turn, which is 1 at the start."""
-        factor = (acb(0, 1) * dot(self.l, self.start)).exp()
         shift = 2 * self.w[0], self.w[1]
-        N = [Form(x.place, (x.weights[0] * factor, x.weights[1] * factor), shift) for x in self.N]
+        N = [Form(x.place, x.weights, shift) for x in self.N]
         return [*N, self.denominator, *self.K, *self.M]
 
     def zeta(self, T: Sequence[acb]) -> Vector:
@@ -207,13 +206,14 @@ class ThetaMotion:
         return l, w
 
     def _turned(self) -> list[Form]:
-        """Return the forms of N."""
+        """Return the forms of N, which has besides the factor exp(i l (zeta - start))."""
         points = around(self.motion.moments, self.at_start)
         shifted, factors = list[list[Pair]](), Vector()
         for t, _ in points:
-            zeta = [x + y for x, y in zip(self.zeta((t, acb(0))), self.start, strict=True)]
+            way = self.zeta((t, acb(0)))
+            zeta = [x + y for x, y in zip(way, self.start, strict=True)]
             shifted.append(self.pairs([x - y for x, y in zip(zeta, self.w, strict=True)]))
-            factors.append(self.denominator.of(self.pairs(zeta)) / (acb(0, 1) * dot(self.l, zeta)).exp())
+            factors.append(self.denominator.of(self.pairs(zeta)) / (acb(0, 1) * dot(self.l, way)).exp())
         return [
             self._form(shifted, [s.N[j] * x for (_, s), x in zip(points, factors, strict=True)], range(4))
             for j in range(3)
