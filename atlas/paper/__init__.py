@@ -8,40 +8,37 @@ The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` o
 unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from importlib import import_module
 from types import MappingProxyType
 
 from atlas.errors import AtlasError, unknown
-from atlas.paper import (
-    ball,
-    clebsch,
-    closed,
-    elementary,
-    elliptic,
-    euler_poisson,
-    general,
-    hyperbola,
-    lagrangian,
-    particle,
-    pseudo_oscillator,
-    quadric,
-    separatrix,
-    theorems,
-    top,
-    top_map,
-)
 from atlas.paper.equation import Equation, Kind, Section, slug
 
 __all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topic"]
 
-_FILES = (
-    *(lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle),
-    *(theorems, clebsch, elliptic, general, separatrix, closed, top, top_map),
-)
+_SECTIONS: Mapping[Section, tuple[str, ...]] = {
+    "II": ("lagrangian", "euler_poisson"),
+    "III": ("ball",),
+    "IV": ("pseudo_oscillator", "quadric"),
+    "V": ("hyperbola", "elementary"),
+    "VII": ("particle",),
+    "Atlas": ("theorems", "clebsch", "elliptic", "general", "separatrix", "closed", "top", "top_map"),
+}
 
-_TOPICS = {entry.name: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}
 
-EQUATIONS: Mapping[str, Equation] = MappingProxyType({entry.name: entry for file in _FILES for entry in file.EQUATIONS})
+def _entries() -> Iterator[tuple[str, Equation]]:
+    """Yield the entries in the paper's order, each with its topic and put into its section."""
+    for section, topics in _SECTIONS.items():
+        for stem in topics:
+            for entry in import_module(f"atlas.paper.{stem}").EQUATIONS:
+                yield stem, replace(entry, section=section, kind="theorem" if section == "Atlas" else entry.kind)
+
+
+_PLACED = tuple(_entries())
+_TOPICS = {entry.name: stem for stem, entry in _PLACED}
+EQUATIONS: Mapping[str, Equation] = MappingProxyType({entry.name: entry for _, entry in _PLACED})
 """The entries by name: "(72)" for what has a number in print."""
 
 _ALIASES = {

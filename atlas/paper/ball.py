@@ -5,31 +5,21 @@ from atlas.paper.equation import Equation
 EQUATIONS = (
     Equation(
         name="text-momentum",
-        section="III",
-        kind="claim",
-        says=(
-            r"Angular momentum of the rotating particles: $\mathbf{m} = \sum g_i [\mathbf{R}_i, "
-            r"\dot{\mathbf{R}}_i] = R I R^T "
-            r"\boldsymbol{\omega} = R I \boldsymbol{\Omega}$"
-        ),
-        tex=(
-            r"\mathbf{m}=\sum_Nm_N[\mathbf{x}_N,\dot{\mathbf{x}}_N]=\sum_ig_i[\mathbf{R}_i,\dot{\mathbf{R}}_i]="
-            r"RIR^T\boldsymbol{\omega}=RI\boldsymbol{\Omega}"
-        ),
+        says=r"Angular momentum of the rotating particles: $\mathbf{m} = \sum g_i [\mathbf{R}_i, \dot{\mathbf{R}}_i] "
+        r"= R I R^T \boldsymbol{\omega} = R I \boldsymbol{\Omega}$",
+        tex=r"\mathbf{m}=\sum_Nm_N[\mathbf{x}_N,\dot{\mathbf{x}}_N]=\sum_ig_i[\mathbf{R}_i,\dot{\mathbf{R}}_i]="
+        r"RIR^T\boldsymbol{\omega}=RI\boldsymbol{\Omega}",
         assumptions=("$R(t)$ is a rotation", "$g$ is diagonal"),
     ),
     Equation(
         name="(19)",
         alias="mf30.0",
-        section="III",
         kind="definition",
         says="A totally symmetric body: the ball",
         tex=r"I_1=I_2=I_3\equiv I_0",
     ),
     Equation(
         name="text-ball-centre",
-        section="III",
-        kind="claim",
         says="The centre of the ball moves as @(101) says",
         tex=r"\mathbf{y}_0(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
         assumptions=("$I_1 = I_2 = I_3$", "@(93) for the part along the field, @(99) for that across it"),
@@ -37,20 +27,15 @@ EQUATIONS = (
     ),
     Equation(
         name="text-ball-axis",
-        section="III",
-        kind="claim",
         says="The angular momentum of a ball lies along its axis of rotation",
         tex=r"""\mathbf{m}=I_0\boldsymbol{\omega}=I_0R\boldsymbol{\Omega},\qquad[\boldsymbol{\omega},\mathbf{m}]=0""",
         assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
-        quote=(
-            r"for all t the instantaneous rotation axis $\boldsymbol{\omega}$ remains parallel with the vector "
-            "of angular momentum"
-        ),
+        quote=r"for all t the instantaneous rotation axis $\boldsymbol{\omega}$ remains parallel with the vector "
+        "of angular momentum",
     ),
     Equation(
         name="(20)",
         alias="mf30",
-        section="III",
         kind="derivation step",
         says="Poisson equations of the ball",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
@@ -59,7 +44,6 @@ EQUATIONS = (
     Equation(
         name="(21)",
         alias="mf31",
-        section="III",
         kind="derivation step",
         says="Euler equations of the ball",
         tex=r"\dot{\boldsymbol{\Omega}}=-\frac{\mu}{2c}[R^T\mathbf{B}, \boldsymbol{\Omega}]",
@@ -68,7 +52,6 @@ EQUATIONS = (
     Equation(
         name="(22)",
         alias="mf32",
-        section="III",
         kind="derivation step",
         says=r"The angular momentum of the ball precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
@@ -77,7 +60,6 @@ EQUATIONS = (
     Equation(
         name="(23)",
         alias="mf33",
-        section="III",
         kind="derivation step",
         says=r"Length of the angular momentum and its projection on $\mathbf{B}$ are conserved",
         tex=r"\mathbf{m}^2=\text{const}, \qquad (\mathbf{m}, \mathbf{B})=\text{const}",
@@ -85,41 +67,27 @@ EQUATIONS = (
     ),
     Equation(
         name="text-ball-body-precession",
-        section="III",
-        kind="claim",
-        says=(
-            "The components of angular velocity in the body-fixed frame precess with the frequency $\\alpha$ about "
-            "those of the field"
-        ),
+        says="The components of angular velocity in the body-fixed frame precess with the frequency $\\alpha$ about "
+        "those of the field",
         tex=r"""\ddot{\boldsymbol{\Omega}}=[\mathbf{K},[\mathbf{K},\boldsymbol{\Omega}]],\qquad\mathbf{K}=\frac{\mu}{2c}R^T\mathbf{B}""",
         assumptions=("$I_1 = I_2 = I_3$",),
-        quote=(
-            r"Components $\Omega_i$ of angular velocity $\boldsymbol{\omega}$ with respect to body-fixed frame "
-            r"precess with the same frequency around the components $(R^T\mathbf{B})_i$"
-        ),
+        quote=r"Components $\Omega_i$ of angular velocity $\boldsymbol{\omega}$ with respect to body-fixed frame "
+        r"precess with the same frequency around the components $(R^T\mathbf{B})_i$",
     ),
     Equation(
         name="text-ball-equivalent",
-        section="III",
-        kind="claim",
         says=r"With $\mathbf{m}$ in the place of $\boldsymbol{\Omega}$ the Euler equations @(21) are @(22), and the "
         "other way round",
-        tex=(
-            r"\boldsymbol{\Omega}=\frac{1}{I_0}R^T\mathbf{m}:\qquad\dot{\boldsymbol{\Omega}}+\frac{\mu}{2c}[R^T"
-            r"\mathbf{B},\boldsymbol{\Omega}]=\frac{1}{I_0}R^T\Bigl\{\dot{\mathbf{m}}+\frac{\mu}{2c}[\mathbf{B},"
-            r"\mathbf{m}]\Bigr\}"
-        ),
+        tex=r"\boldsymbol{\Omega}=\frac{1}{I_0}R^T\mathbf{m}:\qquad\dot{\boldsymbol{\Omega}}+\frac{\mu}{2c}[R^T"
+        r"\mathbf{B},\boldsymbol{\Omega}]=\frac{1}{I_0}R^T\Bigl\{\dot{\mathbf{m}}+\frac{\mu}{2c}[\mathbf{B},"
+        r"\mathbf{m}]\Bigr\}",
         assumptions=("$I_1 = I_2 = I_3$", "@(20), $R(t)$ is a rotation"),
         quote="So the system (20), (21) is equivalent to",
     ),
     Equation(
         name="text-linear-poisson",
-        section="III",
-        kind="claim",
-        says=(
-            r"Within the rotations the Poisson equations, not linear once $\mathbf{m}$ is known, may be replaced by "
-            "linear ones"
-        ),
+        says=r"Within the rotations the Poisson equations, not linear once $\mathbf{m}$ is known, may be replaced by "
+        "linear ones",
         tex=r"-\frac{1}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}",
         assumptions=("$I_1 = I_2 = I_3$",),
         quote="have the same solutions in the set of orthogonal matrices",
@@ -127,19 +95,15 @@ EQUATIONS = (
     Equation(
         name="(24)",
         alias="mf34",
-        section="III",
         kind="derivation step",
         says="Poisson equations of the ball, linear in $R$",
-        tex=(
-            r"\dot R_{ij}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj},\qquad\text{or, equivalently}\quad\dot{\mathbf{R}"
-            r"}_j=\frac{1}{I_0}[\mathbf{m},\mathbf{R}_j]"
-        ),
+        tex=r"\dot R_{ij}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj},\qquad\text{or, equivalently}\quad\dot{\mathbf{R}"
+        r"}_j=\frac{1}{I_0}[\mathbf{m},\mathbf{R}_j]",
         assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
     ),
     Equation(
         name="(25)",
         alias="mf35",
-        section="III",
         kind="derivation step",
         says="Rate of the angular momentum of the ball",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
@@ -147,27 +111,19 @@ EQUATIONS = (
     ),
     Equation(
         name="text-ball-frame",
-        section="III",
-        kind="claim",
         says="For a ball the axes of the laboratory may be chosen freely: the inertia tensor stays diagonal",
         tex=r"""R\,(I_0\mathbf{1})R^T=I_0\mathbf{1}""",
         assumptions=("$I_1 = I_2 = I_3$",),
-        quote=(
-            "we can choose the directions of Laboratory axes as convenient, this will not violate the diagonal "
-            "form of inertia tensor"
-        ),
+        quote="we can choose the directions of Laboratory axes as convenient, this will not violate the diagonal "
+        "form of inertia tensor",
     ),
     Equation(
         name="(26)",
         alias="mf36",
-        section="III",
-        kind="claim",
         says="Angular momentum of the ball at any time",
-        tex=(
-            r"\mathbf{m}(t)=\begin{pmatrix} \cos\alpha t & \sin\alpha t & 0 \\ -\sin\alpha t & \cos\alpha t & 0 "
-            r"\\ 0 & 0 & 1 \end{pmatrix}\begin{pmatrix} 0 \\ m_2 \\ m_3 \end{pmatrix}=\begin{pmatrix} m_2\sin"
-            r"\alpha t \\ m_2\cos\alpha t \\ m_3 \end{pmatrix}"
-        ),
+        tex=r"\mathbf{m}(t)=\begin{pmatrix} \cos\alpha t & \sin\alpha t & 0 \\ -\sin\alpha t & \cos\alpha t & 0 "
+        r"\\ 0 & 0 & 1 \end{pmatrix}\begin{pmatrix} 0 \\ m_2 \\ m_3 \end{pmatrix}=\begin{pmatrix} m_2\sin"
+        r"\alpha t \\ m_2\cos\alpha t \\ m_3 \end{pmatrix}",
         assumptions=(
             "$I_1 = I_2 = I_3$",
             r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{m}(0)$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
@@ -176,42 +132,32 @@ EQUATIONS = (
     Equation(
         name="(27)",
         alias="mf37",
-        section="III",
         kind="definition",
         says="Larmor frequency",
         tex=r"\alpha=\frac{\mu\lvert \mathbf{B}\rvert}{2c}",
     ),
     Equation(
         name="text-ball-ansatz",
-        section="III",
-        kind="claim",
         says=r"At $t = 0$ the ansatz @(28) fixes $\hat{\mathbf{k}}$ and $\gamma$",
-        tex=(
-            r"\hat{k}_2=-\frac{m_2}{\gamma I_0},\qquad\hat{k}_3=-\frac{\alpha I_0+m_3}{\gamma I_0},\qquad I_0^2"
-            r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
-        ),
+        tex=r"\hat{k}_2=-\frac{m_2}{\gamma I_0},\qquad\hat{k}_3=-\frac{\alpha I_0+m_3}{\gamma I_0},\qquad I_0^2"
+        r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2",
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         name="(28)",
         alias="mf38",
-        section="III",
-        kind="claim",
         says="Rotation matrix of the ball: two rotations",
-        tex=(
-            r"\begin{aligned} "
-            r"&\begin{pmatrix}\cos\gamma t\cos\alpha t-\hat{k}_3\sin\gamma t\sin\alpha t&\hat{k}_3\sin\gamma t"
-            r"\cos\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\sin\alpha t&-\hat{k}_2\sin\gamma t\cos\alpha t+"
-            r"\hat{k}_2\hat{k}_3(1-\cos\gamma t)\sin\alpha t\\-\cos\gamma t\sin\alpha t-\hat{k}_3\sin\gamma t"
-            r"\cos\alpha t&-\hat{k}_3\sin\gamma t\sin\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\cos\alpha t&"
-            r"\hat{k}_2\sin\gamma t\sin\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\cos\alpha t\\\hat{k}_2\sin"
-            r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix}\\ &"
-            r"\equiv\begin{pmatrix}\cos\alpha t&\sin\alpha t&0\\-\sin\alpha t&\cos\alpha t&0\\0&0&1\end{pmatrix}"
-            r"\times\begin{pmatrix}\cos\gamma t&\hat{k}_3\sin\gamma t&-\hat{k}_2\sin\gamma t\\-\hat{k}_3\sin"
-            r"\gamma t&\hat{k}_2^2+\hat{k}_3^2\cos\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)\\\hat{k}_2\sin"
-            r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} &\begin{pmatrix}\cos\gamma t\cos\alpha t-\hat{k}_3\sin\gamma t\sin\alpha "
+        r"t&\hat{k}_3\sin\gamma t\cos\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\sin\alpha t&-\hat{k}_2\sin\gamma "
+        r"t\cos\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\sin\alpha t\\-\cos\gamma t\sin\alpha t-\hat{k}_3\sin\gamma "
+        r"t\cos\alpha t&-\hat{k}_3\sin\gamma t\sin\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\cos\alpha "
+        r"t&\hat{k}_2\sin\gamma t\sin\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\cos\alpha t\\\hat{k}_2\sin\gamma "
+        r"t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix}\\ "
+        r"&\equiv\begin{pmatrix}\cos\alpha t&\sin\alpha t&0\\-\sin\alpha t&\cos\alpha "
+        r"t&0\\0&0&1\end{pmatrix}\times\begin{pmatrix}\cos\gamma t&\hat{k}_3\sin\gamma t&-\hat{k}_2\sin\gamma "
+        r"t\\-\hat{k}_3\sin\gamma t&\hat{k}_2^2+\hat{k}_3^2\cos\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma "
+        r"t)\\\hat{k}_2\sin\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma "
+        r"t\end{pmatrix} \end{aligned}",
         assumptions=(
             "$I_1 = I_2 = I_3$",
             r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{m}(0)$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
@@ -221,30 +167,21 @@ EQUATIONS = (
     Equation(
         name="(29)",
         alias="mf39",
-        section="III",
-        kind="claim",
         says="Axis and frequency of the second rotation of the ball",
-        tex=(
-            r"\hat{k}_2=-\frac{m_2}{\sqrt{m_2^2+(\alpha I_0+m_3)^2}},\quad\hat{k}_3=-\frac{m_3+\alpha I_0}{\sqrt"
-            r"{m_2^2+(\alpha I_0+m_3)^2}},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
-        ),
+        tex=r"\hat{k}_2=-\frac{m_2}{\sqrt{m_2^2+(\alpha I_0+m_3)^2}},\quad\hat{k}_3=-\frac{m_3+\alpha I_0}{\sqrt"
+        r"{m_2^2+(\alpha I_0+m_3)^2}},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}",
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         name="text-ball-two-rotations",
-        section="III",
-        kind="claim",
-        says=r"The motion of the ball is a rotation about $\hat{\mathbf{k}}$ by $-\gamma t$, then one "
-        r"about $\mathbf{B}$ by $-\alpha "
-        "t$",
+        says=r"The motion of the ball is a rotation about $\hat{\mathbf{k}}$ by $-\gamma t$, then one about "
+        r"$\mathbf{B}$ by $-\alpha t$",
         tex=r"R(t)=R_{\hat{\mathbf{B}}}(-\alpha t)\,R_{\hat{\mathbf{k}}}(-\gamma t)",
         assumptions=("$I_1 = I_2 = I_3$",),
         quote="The total motion can be thought as a superposition of two rotations",
     ),
     Equation(
         name="text-ball-parallel",
-        section="III",
-        kind="claim",
         says=r"A ball launched along $\mathbf{B}$: $\hat{\mathbf{k}} = (0, 0, -1)$ and $\gamma = \alpha + m_3/I_0$",
         tex=r"\hat{\mathbf{k}}=(0,0,-1)^T,\qquad\gamma=\alpha+\frac{m_3}{I_0}",
         assumptions=(
@@ -257,13 +194,9 @@ EQUATIONS = (
     Equation(
         name="(30)",
         alias="mf40",
-        section="III",
-        kind="claim",
         says=r"A ball launched along $\mathbf{B}$ turns about $\mathbf{B}$ steadily",
-        tex=(
-            r"R=\begin{pmatrix} \cos(m_3t/I_0) & -\sin(m_3t/I_0) & 0 \\ \sin(m_3t/I_0) "
-            r"& \cos(m_3t/I_0) & 0 \\ 0 & 0 & 1 \end{pmatrix}"
-        ),
+        tex=r"R=\begin{pmatrix} \cos(m_3t/I_0) & -\sin(m_3t/I_0) & 0 \\ \sin(m_3t/I_0) "
+        r"& \cos(m_3t/I_0) & 0 \\ 0 & 0 & 1 \end{pmatrix}",
         assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{m}(0)$ along $\mathbf{B}$"),
     ),
 )

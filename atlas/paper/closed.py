@@ -7,13 +7,9 @@ _FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
 EQUATIONS = (
     Equation(
         name="theorem-closed",
-        section="Atlas",
-        kind="theorem",
         says=r"One elementary motion, and no other, has $\phi/k = \varrho$, for every $\varrho$ but two",
-        tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat B_3-I\varrho},"
-        r"\qquad\varrho\ne\frac{(1-I)\hat "
-        r"B_3}{I},\ "
-        r"\frac{2(1-I)\hat B_3}{I}",
+        tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat "
+        r"B_3-I\varrho},\qquad\varrho\ne\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}",
         assumptions=(
             _FIELD,
             r"$\omega_2$ differs from $-B'_2$",
@@ -23,8 +19,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-closed-free",
-        section="Atlas",
-        kind="theorem",
         says="What the field does to the proper rotation at the same precession depends on $k$ alone",
         tex=r"\frac{\phi_B}{\phi}=\frac{2b+k}{b+k}",
         assumptions=(

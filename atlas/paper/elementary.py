@@ -6,14 +6,10 @@ EQUATIONS = (
     Equation(
         name="(73)",
         alias="mf78",
-        section="V",
-        kind="claim",
         says="Angular velocity of the elementary motion",
-        tex=(
-            r"\boldsymbol{\Omega}(t)=\begin{pmatrix} \omega_2\sin\phi t \\ \omega_2\cos\phi t \\ \omega_3(\omega"
-            r"_2) \end{pmatrix}, \qquad \text{then} \quad \boldsymbol{\Omega}(0)=\begin{pmatrix} 0 \\ \omega_2 "
-            r"\\ \omega_3(\omega_2) \end{pmatrix}"
-        ),
+        tex=r"\boldsymbol{\Omega}(t)=\begin{pmatrix} \omega_2\sin\phi t \\ \omega_2\cos\phi t \\ \omega_3(\omega"
+        r"_2) \end{pmatrix}, \qquad \text{then} \quad \boldsymbol{\Omega}(0)=\begin{pmatrix} 0 \\ \omega_2 "
+        r"\\ \omega_3(\omega_2) \end{pmatrix}",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
@@ -21,23 +17,18 @@ EQUATIONS = (
     ),
     Equation(
         name="text-body-precession",
-        section="V",
-        kind="claim",
         says="In the body-fixed frame the angular velocity precesses about the third axis with the frequency $\\phi$",
         tex=r"""\dot{\boldsymbol{\Omega}}=-\phi\,[\mathbf{e}_3,\boldsymbol{\Omega}]""",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
         ),
-        quote=(
-            r"vector of angular velocity in the body-fixed frame $\mathbf{R}_i$ precesses around the third axis "
-            r"$\mathbf{R}_3$ with the frequency $\phi$"
-        ),
+        quote=r"vector of angular velocity in the body-fixed frame $\mathbf{R}_i$ precesses around the third axis "
+        r"$\mathbf{R}_3$ with the frequency $\phi$",
     ),
     Equation(
         name="(74)",
         alias="mf79",
-        section="V",
         kind="derivation step",
         says="Poisson equations for a row of $R$",
         tex=r"\dot{\boldsymbol{\gamma}}=[\boldsymbol{\gamma}, \boldsymbol{\Omega}(t)]",
@@ -45,21 +36,15 @@ EQUATIONS = (
     Equation(
         name="(75)",
         alias="mf80",
-        section="V",
         kind="derivation step",
         says="Poisson equations for a row of $R$ in components",
-        tex=(
-            r"\begin{aligned} "
-            r"\dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
-            r"\dot\gamma_2&=\gamma_3\Omega_1(t)-\gamma_1\omega_3,\\ "
-            r"\dot\gamma_3&=\gamma_1\Omega_2(t)-\gamma_2\Omega_1(t) "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
+        r"\dot\gamma_2&=\gamma_3\Omega_1(t)-\gamma_1\omega_3,\\ \dot\gamma_3&=\gamma_1\Omega_2(t)-\gamma_2\Omega_1(t) "
+        r"\end{aligned}",
     ),
     Equation(
         name="(76)",
         alias="mf81",
-        section="V",
         kind="derivation step",
         says="An integral of the rows",
         tex=r"\Omega_1\gamma_1+\Omega_2\gamma_2+\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3=c",
@@ -71,7 +56,6 @@ EQUATIONS = (
     Equation(
         name="(77)",
         alias="mf82",
-        section="V",
         kind="derivation step",
         says="One ratio of the components of the field",
         tex=r"\frac{B'_3}{B'_2}=\frac{B_3}{B_2}=\frac{\hat{B}_3}{\hat{B}_2}",
@@ -79,8 +63,6 @@ EQUATIONS = (
     ),
     Equation(
         name="text-row-constants",
-        section="V",
-        kind="claim",
         says="The constants $c$ of the three rows",
         tex=r"c_1=0,\qquad c_2=\omega_2,\qquad c_3=\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
@@ -88,26 +70,20 @@ EQUATIONS = (
     Equation(
         name="(78)",
         alias="mf83",
-        section="V",
         kind="derivation step",
         says="First two entries of a row through the third",
-        tex=(
-            r"\gamma_1=\frac{1}{\omega_2^2}\Bigl[\Omega_1\Bigl(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3"
-            r"\Bigr)+\Omega_2\dot\gamma_3\Bigr],\qquad\gamma_2=\frac{1}{\omega_2^2}\Bigl[\Omega_2\Bigl(c-\frac{"
-            r"\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3\Bigr)-\Omega_1\dot\gamma_3\Bigr]"
-        ),
+        tex=r"\gamma_1=\frac{1}{\omega_2^2}\Bigl[\Omega_1\Bigl(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3"
+        r"\Bigr)+\Omega_2\dot\gamma_3\Bigr],\qquad\gamma_2=\frac{1}{\omega_2^2}\Bigl[\Omega_2\Bigl(c-\frac{"
+        r"\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3\Bigr)-\Omega_1\dot\gamma_3\Bigr]",
         assumptions=(r"$\omega_2$ differs from 0",),
     ),
     Equation(
         name="(79)",
         alias="mf84",
-        section="V",
         kind="derivation step",
         says="The third entry of a row is a harmonic oscillator with frequency $k$",
-        tex=(
-            r"\ddot\gamma_3+k^2\gamma_3=c\frac{\hat{B}_3\omega_2}{\hat{B}_2}, \qquad \text{where} \quad k=\frac{"
-            r"\omega_2}{\hat{B}_2}"
-        ),
+        tex=r"\ddot\gamma_3+k^2\gamma_3=c\frac{\hat{B}_3\omega_2}{\hat{B}_2}, \qquad \text{where} \quad k=\frac{"
+        r"\omega_2}{\hat{B}_2}",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
@@ -116,7 +92,6 @@ EQUATIONS = (
     Equation(
         name="(80)",
         alias="mf85",
-        section="V",
         kind="derivation step",
         says="General solution for the third entry of a row",
         tex=r"\gamma_3(t)=b\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2 k^2}",
@@ -125,47 +100,34 @@ EQUATIONS = (
     Equation(
         name="(81)",
         alias="mf86",
-        section="V",
         kind="derivation step",
         says="First two entries of a row at any time",
-        tex=(
-            r"\begin{aligned} "
-            r"\gamma_1(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
-            r"_3^2\Bigr]\sin\phi t-\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ "
-            r"\gamma_2(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
-            r"_3^2\Bigr]\cos\phi t+\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"\gamma_1(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
+        r"_3^2\Bigr]\sin\phi t-\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ "
+        r"\gamma_2(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
+        r"_3^2\Bigr]\cos\phi t+\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t "
+        r"\end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         name="(82)",
         alias="mf87",
-        section="V",
         kind="derivation step",
         says="A row at $t = 0$",
-        tex=(
-            r"\begin{aligned} "
-            r"\gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
-            r"\gamma_2(0)&=\frac{1}{\omega_2}[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos k_0- c\hat{B}_3^2],\\ "
-            r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
+        r"\gamma_2(0)&=\frac{1}{\omega_2}[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos k_0- c\hat{B}_3^2],\\ "
+        r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} \end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         name="(83)",
         alias="mf88",
-        section="V",
         kind="derivation step",
         says="The constants of the three rows",
-        tex=(
-            r"\begin{aligned} "
-            r"c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
-            r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
-            r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
+        r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
+        r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 \end{aligned}",
         assumptions=(
             "$\\omega_2$ differs from 0",
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
@@ -174,17 +136,12 @@ EQUATIONS = (
     Equation(
         name="(84)",
         alias="mf89",
-        section="V",
-        kind="claim",
         says="Rotation matrix of the elementary motion",
-        tex=(
-            r"\begin{pmatrix} \cos kt\cos\phi t-\hat{B}_3\sin kt\sin\phi t & -\cos kt\sin\phi t-\hat{B}_3\sin kt"
-            r"\cos\phi t & \hat{B}_2\sin kt \\ \hat{B}_3 \sin kt\cos\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\sin"
-            r"\phi t & -\hat{B}_3 \sin kt\sin\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\cos\phi t & \hat{B}_2"
-            r"\hat{B}_3(1-\cos kt) \\ -\hat{B}_2 \sin kt\cos\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\sin\phi t & "
-            r"\hat{B}_2 \sin kt\sin\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\cos\phi t & \hat{B}_3^2 +\hat{B}_2^2"
-            r"\cos kt \end{pmatrix}"
-        ),
+        tex=r"\begin{pmatrix} \cos kt\cos\phi t-\hat{B}_3\sin kt\sin\phi t & -\cos kt\sin\phi t-\hat{B}_3\sin "
+        r"kt\cos\phi t & \hat{B}_2\sin kt \\ \hat{B}_3 \sin kt\cos\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\sin\phi t "
+        r"& -\hat{B}_3 \sin kt\sin\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\cos\phi t & \hat{B}_2\hat{B}_3(1-\cos kt) "
+        r"\\ -\hat{B}_2 \sin kt\cos\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\sin\phi t & \hat{B}_2 \sin kt\sin\phi "
+        r"t+\hat{B}_2 \hat{B}_3(1-\cos kt)\cos\phi t & \hat{B}_3^2 +\hat{B}_2^2\cos kt \end{pmatrix}",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
@@ -193,64 +150,44 @@ EQUATIONS = (
     ),
     Equation(
         name="text-hidden",
-        section="V",
-        kind="claim",
         says=r"Of the moments and of $\mu$ the matrix @(84) knows only through $\phi$: $k$ does not depend on them",
         tex=r"""k=\frac{\omega_2\lvert\mathbf{B}\rvert}{B_2}""",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
-        quote=(
-            "The dependence of the rotation matrix on the inertia moments $I_2$, $I_3$ as well as on the "
-            r"charge-mass ratio $\mu$ is hidden in the frequency $\phi$"
-        ),
+        quote="The dependence of the rotation matrix on the inertia moments $I_2$, $I_3$ as well as on the "
+        r"charge-mass ratio $\mu$ is hidden in the frequency $\phi$",
     ),
     Equation(
         name="(85)",
         alias="mf90",
-        section="V",
-        kind="claim",
         says=r"The rotation matrix is a proper rotation followed by a precession about $\mathbf{B}$",
-        tex=(
-            r"R(t)=R_{\hat{\mathbf{B}}}(t,k)\times R_{OZ}(t,\phi)=\begin{pmatrix}\cos kt&-\hat{B}_3\sin kt&"
-            r"\hat{B}_2\sin kt\\\hat{B}_3\sin kt&\hat{B}_2^2+\hat{B}_3^2\cos kt&\hat{B}_2\hat{B}_3(1-\cos kt)\\-"
-            r"\hat{B}_2\sin kt&\hat{B}_2\hat{B}_3(1-\cos kt)&\hat{B}_3^2+\hat{B}_2^2\cos kt\end{pmatrix}\times"
-            r"\begin{pmatrix}\cos\phi t&-\sin\phi t&0\\\sin\phi t&\cos\phi t&0\\0&0&1\end{pmatrix}"
-        ),
+        tex=r"R(t)=R_{\hat{\mathbf{B}}}(t,k)\times R_{OZ}(t,\phi)=\begin{pmatrix}\cos kt&-\hat{B}_3\sin kt&"
+        r"\hat{B}_2\sin kt\\\hat{B}_3\sin kt&\hat{B}_2^2+\hat{B}_3^2\cos kt&\hat{B}_2\hat{B}_3(1-\cos kt)\\-"
+        r"\hat{B}_2\sin kt&\hat{B}_2\hat{B}_3(1-\cos kt)&\hat{B}_3^2+\hat{B}_2^2\cos kt\end{pmatrix}\times"
+        r"\begin{pmatrix}\cos\phi t&-\sin\phi t&0\\\sin\phi t&\cos\phi t&0\\0&0&1\end{pmatrix}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         name="text-precession",
-        section="V",
-        kind="claim",
         says=r"The two factors of @(85) turn about $\mathbf{B}$ by $kt$ and about $OZ$ by $\phi t$",
-        tex=(
-            r"R_{\hat{\mathbf{B}}}(t,k)=\cos kt\,\mathbf{1}+(1-\cos kt)\,\hat{\mathbf{B}}\hat{\mathbf{B}}^T+"
-            r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]"
-        ),
+        tex=r"R_{\hat{\mathbf{B}}}(t,k)=\cos kt\,\mathbf{1}+(1-\cos kt)\,\hat{\mathbf{B}}\hat{\mathbf{B}}^T+"
+        r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
-        quote=(
-            r"first around the laboratory axis $OZ$ by the angle $\phi t$ and then around the $\mathbf{B}$-axis "
-            "by the angle $kt$"
-        ),
+        quote=r"first around the laboratory axis $OZ$ by the angle $\phi t$ and then around the $\mathbf{B}$-axis "
+        "by the angle $kt$",
     ),
     Equation(
         name="text-axis-precesses",
-        section="V",
-        kind="claim",
         says="The third inertia axis precesses about the field with the frequency $k$",
         tex=r"""\dot{\mathbf{R}}_3=k\,[\hat{\mathbf{B}},\mathbf{R}_3]""",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
         ),
-        quote=(
-            "the motion is the composition of a proper rotation around third inertia axis with precession of "
-            "this axis around the vector of magnetic field"
-        ),
+        quote="the motion is the composition of a proper rotation around third inertia axis with precession of "
+        "this axis around the vector of magnetic field",
     ),
     Equation(
         name="text-ball-limit",
-        section="V",
-        kind="claim",
         says=r"For $I_2 = I_3$ there is no proper rotation: $\phi = 0$",
         tex=r"I_2=I_3\implies\phi=0",
         assumptions=(
@@ -262,13 +199,8 @@ EQUATIONS = (
     Equation(
         name="(86)",
         alias="mf91",
-        section="V",
-        kind="claim",
         says="Relation between the two frequencies",
-        tex=(
-            r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+"
-            "k_B)}k_B"
-        ),
+        tex=r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+k_B)}k_B",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
@@ -276,12 +208,8 @@ EQUATIONS = (
     ),
     Equation(
         name="text-free-general",
-        section="V",
-        kind="claim",
-        says=(
-            "Every motion of a free symmetrical body is a precession without nutation: its axis turns about "
-            "$\\mathbf{m}$ with the frequency $|\\mathbf{m}|/I_2$"
-        ),
+        says="Every motion of a free symmetrical body is a precession without nutation: its axis turns about "
+        "$\\mathbf{m}$ with the frequency $|\\mathbf{m}|/I_2$",
         tex=r"""\dot{\mathbf{R}}_3=\frac{1}{I_2}[\mathbf{m},\mathbf{R}_3],\qquad(\mathbf{m},\mathbf{R}_3)=\text{const}""",
         assumptions=("no magnetic field", "$I_1 = I_2$"),
         quote="the most general motion of a free symmetrical body is the precession without nutation",
@@ -289,46 +217,32 @@ EQUATIONS = (
     Equation(
         name="(87)",
         alias="mf92",
-        section="V",
-        kind="claim",
         says="Proper rotation of the free body beside it",
         tex=r"\phi=\frac{I_2-I_3}{I_3}\hat{B}_3k_B",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         name="text-affirmation-free",
-        section="V",
-        kind="claim",
-        says=(
-            "Affirmation: the matrix @(84) with the frequency @(87) is the motion of the free body launched "
-            r"with $\boldsymbol{\Omega}(0) = (0, \omega_2, I_2 \omega_2 B_3/(I_3 B_2))$"
-        ),
-        tex=(
-            r"\boldsymbol{\Omega}(0)=\Bigl(0,\omega_2,\frac{I_2\omega_2B_3}{I_3B_2}\Bigr)^T,\qquad\mathbf{m}="
-            r"\frac{I_2\omega_2}{B_2}\mathbf{B}"
-        ),
+        says="Affirmation: the matrix @(84) with the frequency @(87) is the motion of the free body launched "
+        r"with $\boldsymbol{\Omega}(0) = (0, \omega_2, I_2 \omega_2 B_3/(I_3 B_2))$",
+        tex=r"\boldsymbol{\Omega}(0)=\Bigl(0,\omega_2,\frac{I_2\omega_2B_3}{I_3B_2}\Bigr)^T,\qquad\mathbf{m}="
+        r"\frac{I_2\omega_2}{B_2}\mathbf{B}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         name="text-free-frequency",
-        section="V",
-        kind="claim",
         says=r"The free body precesses with $k = |\mathbf{m}|/I_2 = \omega_2/\hat{B}_2$",
         tex=r"k=\frac{\lvert\mathbf{m}\rvert}{I_2}=\frac{\omega_2}{\hat{B}_2}=k_B",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         name="text-free-proper",
-        section="V",
-        kind="claim",
         says="Proper rotation of the free body through its angular momentum",
         tex=r"""\phi=\frac{I_2-I_3}{I_2I_3}m_3=\frac{I_2-I_3}{I_3}\hat{B}_3\frac{\omega_2}{\hat{B}_2}=\frac{I_2-I_3}{I_3}\hat{B}_3k_B""",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         name="text-momentum-moves",
-        section="V",
-        kind="claim",
         says="The components of angular momentum are not conserved in the elementary motion",
         tex=r"\dot{\mathbf{m}}\ne0",
         assumptions=(
@@ -336,15 +250,11 @@ EQUATIONS = (
             r"$\omega_2$ differs from $-B'_2$",
             "$I$ differs from 1, $\\omega_2$ from 0",
         ),
-        quote=(
-            r"Components of angular momentum $\mathbf{m}(t)$ for our solutions in elementary functions are not "
-            "conserved quantities"
-        ),
+        quote=r"Components of angular momentum $\mathbf{m}(t)$ for our solutions in elementary functions are not "
+        "conserved quantities",
     ),
     Equation(
         name="text-constant-omega3",
-        section="V",
-        kind="claim",
         says=r"In the elementary motion $\Omega_3(t) = \omega_2 = \text{const}$",
         tex=r"\Omega_3(t)=\omega_2=\text{const}",
         assumptions=(
@@ -355,8 +265,6 @@ EQUATIONS = (
     Equation(
         name="(88)",
         alias="mf93",
-        section="V",
-        kind="claim",
         says=r"The projection of the angular momentum on $\mathbf{B}$ is conserved in the elementary motion",
         tex=r"(\mathbf{m}(t), \mathbf{B})=\text{const}",
         assumptions=(
@@ -366,8 +274,6 @@ EQUATIONS = (
     ),
     Equation(
         name="text-momentum-plane",
-        section="V",
-        kind="claim",
         says=r"The angular momentum always lies in the plane orthogonal to $\mathbf{B}$",
         tex=r"(\mathbf{m}(t),\mathbf{B})=0",
         assumptions=(

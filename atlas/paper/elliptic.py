@@ -5,8 +5,6 @@ from atlas.paper.equation import Equation
 EQUATIONS = (
     Equation(
         name="theorem-elliptic",
-        section="Atlas",
-        kind="theorem",
         says="The paper's family for any body: wherever $v^2=P$, the angular velocity is one linear function of the "
         r"field for all times, and $\mathbf{K}$ turns like a free body",
         tex=r"\boldsymbol{\Omega}=-\left[1+v(zJ+D)^{-1}\right]\mathbf{K},\qquad\dot{\mathbf{K}}=[\mathbf{K},E\mathbf{K}"
@@ -18,8 +16,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-splitting",
-        section="Atlas",
-        kind="theorem",
         says="$DH+zF/2$ is, but for the Casimirs, a sum of three squares that vanish on an elliptic motion; across the "
         "curve of the motion they are of one sign if $C>0$",
         tex=r"\begin{aligned} \sum_i\frac{(x_iM_i+vK_i)^2}{x_i}&=2DH+zF+2cv+b^2z(z+e_2),\qquad x_i=z+\frac{D}{I_i},\\ "
@@ -32,8 +28,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-bifurcation",
-        section="Atlas",
-        kind="theorem",
         says=r"At given $b$ and $c=(\mathbf{M},\mathbf{K})$ the integrals of the elliptic motions lie on a rational "
         "curve, whose slope is a function of $z$",
         tex=r"\begin{aligned} F&=-\frac{cP'}{v}-2b^2z-e_2b^2,\qquad 2DH=-2cv-b^2z^2-z(F+e_2b^2),\\ \frac{dF}{dz}&="
@@ -42,8 +36,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-edge",
-        section="Atlas",
-        kind="theorem",
         says=r"For $(\mathbf{M},\mathbf{K})=0$, Neumann's and Weber's case, the lower edge of all motions is a "
         "straight line, reached by plane pendulums",
         tex=r"2H-\frac{F}{I_3}-(I_1+I_2)\mathbf{K}^2=\left(\frac1{I_1}-\frac1{I_3}\right)M_1^2+\left(\frac1{I_2}"

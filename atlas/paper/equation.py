@@ -18,23 +18,24 @@ class Equation:
 
     name         the number that it has in print, "(72)"; one without, such as a claim made in words, has a name
                  `text-...` of our own, a theorem that the paper doesn't have `theorem-...`
-    section      II to V, VII (the appendix, numbered as a section), or Atlas for what the paper doesn't have
-    kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours)
     says         what it says, in one line
     tex          the formula as printed, slips included, in modern TeX
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
     assumptions  what must hold for it, each in a few words
     quote        the words of the paper that make the claim, where it has no formula for it
+    kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours)
+    section      II to V, VII (the appendix, numbered as a section), or Atlas for what the paper doesn't have; its file
+                 stands in one section, and all of Atlas are theorems: `atlas.paper` says so of each entry
     """
 
     name: str
-    section: Section
-    kind: Kind
     says: str
     tex: str
     alias: str = ""
     assumptions: tuple[str, ...] = ()
     quote: str = ""
+    kind: Kind = "claim"
+    section: Section = "Atlas"
 
     @property
     def number(self) -> int | None:

@@ -6,7 +6,6 @@ EQUATIONS = (
     Equation(
         name="(10)",
         alias="The.1",
-        section="II",
         kind="definition",
         says="Second-order system for $R$ and the multipliers with a given matrix $A$",
         tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}-A_{ik}g_{kj}, \qquad R^TR=\mathbf{1}",
@@ -15,16 +14,12 @@ EQUATIONS = (
     Equation(
         name="text-affirmation",
         alias="Aff100",
-        section="II",
-        kind="claim",
         says="Affirmation: the second-order system @(10) is equivalent to the first-order system @(11), @(12)",
         tex=r"\text{(10)}\iff\text{(11), (12)}",
         assumptions=("$R$ is a rotation", "the inertia tensor is invertible"),
     ),
     Equation(
         name="text-multipliers-algebraic",
-        section="II",
-        kind="claim",
         says="The multipliers are functions of $R$ and $\\dot R$ alone",
         tex=r"\lambda=-\bigl(\hat\Omega^2+\hat w+R^TA\bigr)g=\lambda^T,\qquad"
         r"\mathbf{w}=I^{-1}\{\text{right side of (11)}\}",
@@ -33,8 +28,6 @@ EQUATIONS = (
     ),
     Equation(
         name="text-nondegenerate",
-        section="II",
-        kind="claim",
         says="The mass matrix of the body is not degenerate",
         tex=r"""\det g=g_1g_2g_3\ne0""",
         quote="as before, $g_{kj}$ is a numerical symmetric non-degenerate matrix",
@@ -42,19 +35,15 @@ EQUATIONS = (
     Equation(
         name="(11)",
         alias="mf22",
-        section="II",
         kind="derivation step",
         says="Euler equations for a given matrix $A$",
-        tex=(
-            r"I_{ka}\dot\Omega_a=[I\boldsymbol{\Omega},\boldsymbol{\Omega}]_k+\frac12 \epsilon_{kij}\left"
-            r"[(AI)_{ai}R_{aj}+(RI)_{ai}A_{aj}\right]-\frac12 I_{ka}\epsilon_{aij}A_{bi}R_{bj}"
-        ),
+        tex=r"I_{ka}\dot\Omega_a=[I\boldsymbol{\Omega},\boldsymbol{\Omega}]_k+\frac12 \epsilon_{kij}\left"
+        r"[(AI)_{ai}R_{aj}+(RI)_{ai}A_{aj}\right]-\frac12 I_{ka}\epsilon_{aij}A_{bi}R_{bj}",
         assumptions=("$R$ is a rotation", "$A$ is any matrix"),
     ),
     Equation(
         name="(12)",
         alias="mf21",
-        section="II",
         kind="derivation step",
         says="Poisson equations: the components of angular velocity in the body-fixed frame drive $R$",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
@@ -62,120 +51,88 @@ EQUATIONS = (
     ),
     Equation(
         name="text-inertia-tensor",
-        section="II",
-        kind="claim",
         says=r"The inertia tensor is $\operatorname{tr}(g) - g$: it gives the kinetic energy of the rotating particles",
         tex=r"I_{ij}=\Bigl(\sum_a g_{aa}\Bigr)\delta_{ij}-g_{ij}",
     ),
     Equation(
         name="text-mass-moments",
-        section="II",
-        kind="claim",
         says="Moments of mass and of inertia: $2 g_1 = I_2 + I_3 - I_1$, and so on",
         tex=r"2g_1=I_2+I_3-I_1,\qquad 2g_2=I_3+I_1-I_2,\qquad 2g_3=I_1+I_2-I_3",
     ),
     Equation(
         name="text-inertia-axes",
-        section="II",
-        kind="claim",
         says="The columns of $R$ are the axes of inertia, and at $t = 0$ the axes of the laboratory",
         tex=r"(R\,I\,R^T)\,\mathbf{R}_i=I_i\mathbf{R}_i,\qquad\mathbf{R}_i(0)=\mathbf{e}_i",
         assumptions=("$R$ is a rotation", "$I$ and $g$ are diagonal"),
-        quote=(
-            r"at initial instant $t=0$ the Laboratory basis vectors $\mathbf{e}_i$ were taken in the directions of "
-            r"axes of inertia $\mathbf{R}_i(t)$"
-        ),
+        quote=r"at initial instant $t=0$ the Laboratory basis vectors $\mathbf{e}_i$ were taken in the directions of "
+        r"axes of inertia $\mathbf{R}_i(t)$",
     ),
     Equation(
         name="text-orthogonal",
-        section="II",
-        kind="claim",
         says="Poisson equations keep $R$ orthogonal: $R R^T$ stays what it is at $t = 0$",
         tex=r"\frac{d}{dt}(RR^T)=0",
     ),
     Equation(
         name="text-covariance",
-        section="II",
-        kind="claim",
         says="The system is covariant under rotations of the laboratory",
-        tex=(
-            r"\begin{aligned} &[I'\boldsymbol{\Omega}',\boldsymbol{\Omega}']-\frac{\mu}{c}[g'\mathbf{K}',"
-            r"\boldsymbol{\Omega}']=S\Bigl\{[I\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu}{c}[g\mathbf{K},"
-            r"\boldsymbol{\Omega}]\Bigr\},\\ &I'=SIS^T,\quad g'=SgS^T,\quad\boldsymbol{\Omega}'=S\boldsymbol{"
-            r"\Omega},\quad\mathbf{K}'=S\mathbf{K} \end{aligned}"
-        ),
+        tex=r"\begin{aligned} &[I'\boldsymbol{\Omega}',\boldsymbol{\Omega}']-\frac{\mu}{c}[g'\mathbf{K}',"
+        r"\boldsymbol{\Omega}']=S\Bigl\{[I\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu}{c}[g\mathbf{K},"
+        r"\boldsymbol{\Omega}]\Bigr\},\\ &I'=SIS^T,\quad g'=SgS^T,\quad\boldsymbol{\Omega}'=S\boldsymbol{"
+        r"\Omega},\quad\mathbf{K}'=S\mathbf{K} \end{aligned}",
         assumptions=("$S$ is a rotation", "$\\mathbf{K}=R^T\\mathbf{B}$, $R'=SRS^T$"),
-        quote=(
-            "Note that this system is composed of $SO(3)$ vectors and tensors, so it is covariant under the rotations"
-        ),
+        quote="Note that this system is composed of $SO(3)$ vectors and tensors, so it is covariant under the "
+        "rotations",
     ),
     Equation(
         name="text-force-matrix",
         alias="mf23",
-        section="II",
         kind="derivation step",
         says=r"The matrix $A$ of the magnetic force written through $R$ and $\boldsymbol{\Omega}$, step by step",
-        tex=(
-            r"\begin{aligned} "
-            r"\epsilon_{ijk}B_j\dot R_{ka}&=\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\epsilon_{ijk}\epsilon"
-            r"_{\alpha\beta\gamma}R_{\alpha a}R_{\beta b}R_{\gamma c}B_j\Omega_bR_{kc}\\ "
-            r"&=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta(RR^T)_{"
-            r"\gamma k}=\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta\\ "
-            r"&=R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \epsilon_{ijk}B_j\dot "
+        r"R_{ka}&=\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha "
+        r"a}R_{\beta b}R_{\gamma c}B_j\Omega_bR_{kc}\\ &=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha "
+        r"a}B_j(R\boldsymbol{\Omega})_\beta(RR^T)_{\gamma k}=\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha "
+        r"a}B_j(R\boldsymbol{\Omega})_\beta\\ "
+        r"&=R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a \end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         name="(13)",
         alias="mf24",
-        section="II",
         kind="derivation step",
         says=r"The matrix $A$ of the magnetic force through $R$ and $\boldsymbol{\Omega}$",
-        tex=(
-            r"\begin{aligned} "
-            r"A_{ia}&=-\frac{\mu}{c}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_b R_{kc}=\frac{\mu}{c}\left[(R"
-            r"\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})\right] "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"A_{ia}&=-\frac{\mu}{c}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_b R_{kc}=\frac{\mu}{c}\left[(R"
+        r"\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})\right] "
+        r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         name="(14)",
         alias="mf25",
-        section="II",
         kind="derivation step",
         says="Euler equations with the magnetic torque, through the inertia tensor",
-        tex=(
-            r"\begin{aligned} "
-            r"I\dot{\boldsymbol{\Omega}}&=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{2c}\left\{I[R^T"
-            r"\mathbf{B}, \boldsymbol{\Omega}]-[IR^T\mathbf{B}, \boldsymbol{\Omega}]+[R^T\mathbf{B}, I"
-            r"\boldsymbol{\Omega}]\right\} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} I\dot{\boldsymbol{\Omega}}&=[I\boldsymbol{\Omega}, "
+        r"\boldsymbol{\Omega}]-\frac{\mu}{2c}\left\{I[R^T\mathbf{B}, \boldsymbol{\Omega}]-[IR^T\mathbf{B}, "
+        r"\boldsymbol{\Omega}]+[R^T\mathbf{B}, I\boldsymbol{\Omega}]\right\} \end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         name="(15)",
         alias="mf26",
-        section="II",
         kind="derivation step",
         says="First component of the magnetic torque, through the mass matrix",
-        tex=(
-            r"\begin{aligned} "
-            r"&(I[R^T\mathbf{B},\boldsymbol{\Omega}])_1-[IR^T\mathbf{B},\boldsymbol{\Omega}]_1+[R^T\mathbf{B},I"
-            r"\boldsymbol{\Omega}]_1\\ "
-            r"&\quad=(I_1-I_2+I_3)(R^T\mathbf{B})_2\Omega_3-(I_1-I_3+I_2)(R^T\mathbf{B})_3\Omega_2\\ "
-            r"&\quad=2g_2(R^T\mathbf{B})_2\Omega_3-2g_3(R^T\mathbf{B})_3\Omega_2=2[gR^T\mathbf{B},\boldsymbol{"
-            r"\Omega}]_1 "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"&(I[R^T\mathbf{B},\boldsymbol{\Omega}])_1-[IR^T\mathbf{B},\boldsymbol{\Omega}]_1+[R^T\mathbf{B},I"
+        r"\boldsymbol{\Omega}]_1\\ "
+        r"&\quad=(I_1-I_2+I_3)(R^T\mathbf{B})_2\Omega_3-(I_1-I_3+I_2)(R^T\mathbf{B})_3\Omega_2\\ "
+        r"&\quad=2g_2(R^T\mathbf{B})_2\Omega_3-2g_3(R^T\mathbf{B})_3\Omega_2=2[gR^T\mathbf{B},\boldsymbol{"
+        r"\Omega}]_1 "
+        r"\end{aligned}",
         assumptions=("$I$ and $g$ are diagonal",),
     ),
     Equation(
         name="text-other-components",
-        section="II",
-        kind="claim",
         says="What @(15) says of the first component holds for the second and third",
         tex=r"""I[R^T\mathbf{B},\boldsymbol{\Omega}]-[IR^T\mathbf{B},\boldsymbol{\Omega}]+[R^T\mathbf{B},I\boldsymbol{\Omega}]=2[gR^T\mathbf{B},\boldsymbol{\Omega}]""",
         assumptions=("$I$ and $g$ are diagonal",),
@@ -184,19 +141,15 @@ EQUATIONS = (
     Equation(
         name="(16)",
         alias="mf27",
-        section="II",
         kind="derivation step",
         says="Euler equations of the charged body in the magnetic field",
-        tex=(
-            r"I\dot{\boldsymbol{\Omega}}=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{c}[gR^T"
-            r"\mathbf{B}, \boldsymbol{\Omega}]"
-        ),
+        tex=r"I\dot{\boldsymbol{\Omega}}=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{c}[gR^T"
+        r"\mathbf{B}, \boldsymbol{\Omega}]",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         name="(17)",
         alias="mf28",
-        section="II",
         kind="derivation step",
         says="Rate of the angular momentum in the laboratory frame",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{c}[RgR^T\mathbf{B}, RI^{-1}R^T\mathbf{m}]",
@@ -205,7 +158,6 @@ EQUATIONS = (
     Equation(
         name="(18)",
         alias="mf29",
-        section="II",
         kind="derivation step",
         says="Rate of the angular momentum in the body-fixed frame",
         tex=r"\dot{\mathbf{M}}=[\mathbf{M}, I^{-1}\mathbf{M}]-\frac{\mu}{c}[gR^T\mathbf{B}, I^{-1}\mathbf{M}]",
@@ -213,20 +165,14 @@ EQUATIONS = (
     ),
     Equation(
         name="text-grioli",
-        section="II",
-        kind="claim",
         says=r"With $\mathbf{e}_3$ along $\mathbf{B}$ the magnetic torque holds the third row of $R$, the form "
         "deduced by Grioli",
-        tex=(
-            r"I'\dot{\boldsymbol{\Omega}}=[I'\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu\lvert\mathbf{B}"
-            r"\rvert}{c}[g'\mathbf{G}_3,\boldsymbol{\Omega}]"
-        ),
+        tex=r"I'\dot{\boldsymbol{\Omega}}=[I'\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu\lvert\mathbf{B}"
+        r"\rvert}{c}[g'\mathbf{G}_3,\boldsymbol{\Omega}]",
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$",),
     ),
     Equation(
         name="text-flight",
-        section="II",
-        kind="claim",
         says="The path of any point of the body: flight and rotation together",
         tex=r"""\mathbf{y}_N(t)=\mathbf{y}_0(t)+R(t)\,\mathbf{x}_N(0)""",
         assumptions=("the constraint forces do no work in a rigid motion", "@(4), @(12) and @(16)"),

@@ -9,8 +9,6 @@ _CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-top"
 EQUATIONS = (
     Equation(
         name="theorem-top",
-        section="Atlas",
-        kind="theorem",
         says=r"In Larmor's frame: an uncharged symmetric top in the potential $(I_3 - I_2) b^2 \nu^2/2$, $\nu = \cos "
         r"(\theta)$",
         tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(2H-\frac{M_3^2}{I}-b^2-(I-1)b^2\nu^2\right)"
@@ -19,20 +17,15 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-top-quartic",
-        section="Atlas",
-        kind="theorem",
         says="The quartic $q$ of the top is the quartic $Q$ of the pseudo-oscillator in other letters",
         tex=r"Q(u)=b^2q\left(\frac{c_3-u}{b}\right),\qquad E'=2(H-bp),\qquad c_5=bp-b^2+(1-I)c_3^2",
         assumptions=(_BODY, _LETTERS),
     ),
     Equation(
         name="theorem-weierstrass",
-        section="Atlas",
-        kind="theorem",
         says="From a root $e$ of any quartic $Q$ the solution of $du^2 = Q(u)$ in the function of Weierstrass",
         tex=r"\begin{aligned} u&=e+\frac{Q'(e)/4}{\wp(t)-Q''(e)/24},\\ g_2&=a_0a_4-4a_1a_3+3a_2^2,\qquad "
-        r"g_3=a_0a_2a_4+2a_1"
-        r"a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
+        r"g_3=a_0a_2a_4+2a_1a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
         assumptions=(
             "$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$",
             "$Q(e) = 0$, $Q'(e)$ differs from 0, $u = e$ at $t = 0$",
@@ -40,8 +33,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-lame",
-        section="Atlas",
-        kind="theorem",
         says="Up to a steady turn the Cayley–Klein parameters obey real equations of Lamé's kind, the same for any $p$",
         tex=r"\ddot a=\left(\tfrac34A\nu^2-\tfrac12A\nu-C\right)a,\qquad\ddot\eta=\left(\tfrac34A\nu^2+\tfrac12A\nu-C"
         r"\right)\eta,\qquad A=(I-1)b^2,\quad 4C=2H-\frac{M_3^2}{I}-b^2+M_3^2",
@@ -49,8 +40,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-residues",
-        section="Atlas",
-        kind="theorem",
         says=r"Where $\nu = -1$ or 1 the rate $d\nu/dt$ is imaginary, and of its two signs one alone leaves a residue, "
         "which is 1",
         tex=r"q(\mp1)=-(p\pm M_3)^2,\qquad\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}=\frac{\dot\nu+i(p-M_3"
@@ -60,8 +49,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-sigma",
-        section="Atlas",
-        kind="theorem",
         says="The Cayley–Klein parameters in sigma functions, their exponents in closed form",
         tex=r"\begin{aligned} \frac{\dot\xi}{\xi}&=i\lambda_-+\zeta(z_-)+\zeta(t-z_-)-\tfrac12\zeta(t-z_0)-"
         r"\tfrac12"

@@ -6,27 +6,18 @@ EQUATIONS = (
     Equation(
         name="(58)",
         alias="mf64",
-        section="V",
         kind="definition",
         says="Motions with a constant third component of angular velocity are looked for",
-        tex=(
-            r"\boldsymbol{\Omega}(t)=(\Omega_1(t), \Omega_2(t), \omega_3=\text{const})^T, \qquad \boldsymbol{"
-            r"\Omega}(0)=(\omega_1, \omega_2, \omega_3)^T"
-        ),
+        tex=r"\boldsymbol{\Omega}(t)=(\Omega_1(t), \Omega_2(t), \omega_3=\text{const})^T, \qquad \boldsymbol{"
+        r"\Omega}(0)=(\omega_1, \omega_2, \omega_3)^T",
     ),
     Equation(
         name="(59)",
         alias="mf65",
-        section="V",
         kind="derivation step",
         says=r"Euler equations for a constant $\Omega_3$",
-        tex=(
-            r"\begin{aligned} "
-            r"\dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
-            r"\dot\Omega_2&=-[(1-I)\omega_3+(2-I)B'_3]\Omega_1+I\omega_3K_1,\\ "
-            r"\Omega_1K_2-\Omega_2K_1&=0 "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
+        r"\dot\Omega_2&=-[(1-I)\omega_3+(2-I)B'_3]\Omega_1+I\omega_3K_1,\\ \Omega_1K_2-\Omega_2K_1&=0 \end{aligned}",
         assumptions=(
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
             r"$\Omega_3 = \omega_3 = \text{const}$",
@@ -35,7 +26,6 @@ EQUATIONS = (
     Equation(
         name="(60)",
         alias="mf66",
-        section="V",
         kind="derivation step",
         says=r"Rate of the field seen from the body for a constant $\Omega_3$",
         tex=r"\dot K_1=\omega_3K_2-B'_3\Omega_2, \qquad \dot K_2=-\omega_3K_1+B'_3\Omega_1, \qquad K_3=B'_3",
@@ -44,37 +34,28 @@ EQUATIONS = (
     Equation(
         name="(61)",
         alias="mf67",
-        section="V",
         kind="derivation step",
         says=r"Three integrals for a constant $\Omega_3$",
-        tex=(
-            r"\Omega_1^2(t)+\Omega_2^2(t)=\omega_1^2+\omega_2^2, \qquad K_1^2(t)+K_2^2(t)={B'_2}^2, \qquad "
-            r"\Omega_1(t)K_1(t)+\Omega_2(t)K_2(t)=\omega_2B'_2"
-        ),
+        tex=r"\Omega_1^2(t)+\Omega_2^2(t)=\omega_1^2+\omega_2^2, \qquad K_1^2(t)+K_2^2(t)={B'_2}^2, \qquad "
+        r"\Omega_1(t)K_1(t)+\Omega_2(t)K_2(t)=\omega_2B'_2",
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$",),
     ),
     Equation(
         name="(62)",
         alias="mf68",
-        section="V",
         kind="derivation step",
         says=r"$K_1$, $K_2$ are proportional to $\Omega_1$, $\Omega_2$",
-        tex=(
-            r"K_1=\frac{\omega_2B'_2}{\omega_1^2+\omega_2^2}\Omega_1, \qquad K_2=\frac{\omega_2B'_2}{\omega_1^2+"
-            r"\omega_2^2}\Omega_2"
-        ),
+        tex=r"K_1=\frac{\omega_2B'_2}{\omega_1^2+\omega_2^2}\Omega_1, \qquad K_2=\frac{\omega_2B'_2}{\omega_1^2+"
+        r"\omega_2^2}\Omega_2",
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$", r"$\omega_1^2 + \omega_2^2 > 0$"),
     ),
     Equation(
         name="(63)",
         alias="mf69",
-        section="V",
         kind="derivation step",
         says=r"Precession of $\boldsymbol{\Omega}$ by the Euler equations",
-        tex=(
-            r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\text{where}\quad\phi'\equiv(1-I)"
-            r"\omega_3+(2-I)B'_3-\frac{IB'_2\omega_2\omega_3}{\omega_1^2+\omega_2^2}"
-        ),
+        tex=r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\text{where}\quad\phi'\equiv(1-I)"
+        r"\omega_3+(2-I)B'_3-\frac{IB'_2\omega_2\omega_3}{\omega_1^2+\omega_2^2}",
         assumptions=(
             "$\\omega_1^2+\\omega_2^2>0$",
             r"$\Omega_3 = \omega_3 = \text{const}$",
@@ -83,31 +64,24 @@ EQUATIONS = (
     Equation(
         name="(64)",
         alias="mf70",
-        section="V",
         kind="derivation step",
         says=r"Precession of $\boldsymbol{\Omega}$ by the equations for $\mathbf{K}$",
-        tex=(
-            r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\text{where}\quad\phi\equiv\omega_3"
-            r"-\frac{B'_3(\omega_1^2+\omega_2^2)}{B'_2\omega_2}"
-        ),
+        tex=r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\text{where}\quad\phi\equiv\omega_3"
+        r"-\frac{B'_3(\omega_1^2+\omega_2^2)}{B'_2\omega_2}",
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         name="(65)",
         alias="mf71",
-        section="V",
         kind="derivation step",
         says="Both precessions agree",
-        tex=(
-            r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-\frac{I{B'_2}^2\omega_2^2"
-            r"\omega_3}{\omega_1^2+\omega_2^2}=0"
-        ),
+        tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-\frac{I{B'_2}^2\omega_2^2"
+        r"\omega_3}{\omega_1^2+\omega_2^2}=0",
         assumptions=(r"$\omega_2$ differs from 0",),
     ),
     Equation(
         name="(66)",
         alias="mf71.1",
-        section="V",
         kind="derivation step",
         says="The necessary condition @(50) again",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
@@ -116,7 +90,6 @@ EQUATIONS = (
     Equation(
         name="(67)",
         alias="mf72",
-        section="V",
         kind="derivation step",
         says=r"The initial data of the motions: a hyperbola in the plane $\omega_1 = 0$",
         tex=r"B'_3\omega_2^2-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
@@ -127,86 +100,58 @@ EQUATIONS = (
     ),
     Equation(
         name="text-combining",
-        section="V",
-        kind="claim",
         says=r"@(65) and @(66) together leave only $\omega_1 = 0$",
         tex=r"\text{(65), (66)}\implies\omega_1=0",
         assumptions=(
             "$\\omega_2$ differs from 0",
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
         ),
-        quote=(
-            "Combining this with the necessary condition [...], we conclude that the initial data should be "
-            r"taken on the curve [...] that lie on the plane $\omega_1=0$"
-        ),
+        quote="Combining this with the necessary condition [...], we conclude that the initial data should be "
+        r"taken on the curve [...] that lie on the plane $\omega_1=0$",
     ),
     Equation(
         name="(68)",
         alias="mf73",
-        section="V",
-        kind="claim",
         says="The hyperbola of the circular loop and the short solenoid",
-        tex=(
-            r"\begin{aligned} "
-            r"\frac{{\omega'_2}^2}{C_2^2}-\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
-            r"\text{where}\quad C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-            r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \frac{{\omega'_2}^2}{C_2^2}-\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
+        r"C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
     ),
     Equation(
         name="(69)",
         alias="mf74",
-        section="V",
-        kind="claim",
         says="The hyperbola of the long solenoid",
-        tex=(
-            r"\begin{aligned} "
-            r"-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
-            r"\text{where}\quad C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-            r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} -\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
+        r"C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
         name="(70)",
         alias="mf75",
-        section="V",
-        kind="claim",
         says="The ball: the hyperbola degenerates into two lines",
-        tex=(
-            r"\begin{aligned} "
-            r"\frac{\omega'_2}{a_2}&=\pm\frac{\omega'_3}{a_3},\\ "
-            r"\text{where}\quad a_2&\equiv\sqrt{\frac{2\sin\beta}{1-\sin\beta}},\\ "
-            r"a_3&\equiv\sqrt{\frac{2\sin\beta}{1+\sin\beta}} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \frac{\omega'_2}{a_2}&=\pm\frac{\omega'_3}{a_3},\\ \text{where}\quad "
+        r"a_2&\equiv\sqrt{\frac{2\sin\beta}{1-\sin\beta}},\\ a_3&\equiv\sqrt{\frac{2\sin\beta}{1+\sin\beta}} "
+        r"\end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
         name="(71)",
         alias="mf76",
-        section="V",
         kind="derivation step",
         says=r"The hyperbola resolved for $\omega_3$",
-        tex=(
-            r"\omega_3(\omega_2)=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}, \qquad \omega_2"
-            r"\in\mathbb{R}\setminus\{-B'_2\}"
-        ),
+        tex=r"\omega_3(\omega_2)=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}, \qquad \omega_2"
+        r"\in\mathbb{R}\setminus\{-B'_2\}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         name="(72)",
         alias="mf77",
-        section="V",
         kind="derivation step",
         says="Frequency of proper rotation",
-        tex=(
-            r"\phi=\omega_3(\omega_2)-\frac{B'_3}{B'_2}\omega_2=\frac{B'_3\omega_2(1-I)(\omega_2+2B'_2)}{IB'_2("
-            r"\omega_2+B'_2)}"
-        ),
+        tex=r"\phi=\omega_3(\omega_2)-\frac{B'_3}{B'_2}\omega_2=\frac{B'_3\omega_2(1-I)(\omega_2+2B'_2)}{IB'_2("
+        r"\omega_2+B'_2)}",
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",

@@ -5,34 +5,25 @@ from atlas.paper.equation import Equation
 EQUATIONS = (
     Equation(
         name="text-mass-matrix",
-        section="IV",
-        kind="claim",
         says="Mass matrix of the symmetric body",
         tex=r"g=\frac12 \,\mathrm{diag}(I_3,I_3,2I_2-I_3)",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         name="text-laboratory",
-        section="IV",
-        kind="claim",
-        says=(
-            "The laboratory may be turned about $\\mathbf{e}_3$ until the field lies in the plane of "
-            "$\\mathbf{e}_2$ and $\\mathbf{e}_3$"
-        ),
+        says="The laboratory may be turned about $\\mathbf{e}_3$ until the field lies in the plane of "
+        "$\\mathbf{e}_2$ and $\\mathbf{e}_3$",
         tex=r"""S\,\mathbb{I}\,S^T=\mathbb{I},\qquad S\mathbf{B}=(0,B_2,B_3)^T""",
         assumptions=(
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
             r"$S$ is a rotation about $\mathbf{e}_3$",
         ),
-        quote=(
-            "without spoiling the diagonal form of inertia tensor in our equations, the Laboratory system can "
-            "be chosen as shown"
-        ),
+        quote="without spoiling the diagonal form of inertia tensor in our equations, the Laboratory system can "
+        "be chosen as shown",
     ),
     Equation(
         name="(31)",
         alias="mf41.0",
-        section="IV",
         kind="definition",
         says="Initial angular velocity: the same components in both frames",
         tex=r"\boldsymbol{\Omega}(0)=\boldsymbol{\omega}(0)=(\omega_1, \omega_2, \omega_3)^T",
@@ -40,22 +31,17 @@ EQUATIONS = (
     Equation(
         name="(32)",
         alias="mf41",
-        section="IV",
         kind="definition",
         says=r"The field in units of a frequency, $\mathbf{B}'$, and its components $\mathbf{K}$ in the body-fixed "
         "frame",
-        tex=(
-            r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, "
-            r"\qquad \mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ ("
-            r"\mathbf{B}'R)_2 \\ (\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)="
-            r"\mathbf{B}'"
-        ),
+        tex=r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, \qquad "
+        r"\mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ (\mathbf{B}'R)_2 \\ "
+        r"(\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)=\mathbf{B}'",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         name="(33)",
         alias="mf41.1",
-        section="IV",
         kind="definition",
         says="The ratio of moments $I$ and the energy $E'$",
         tex=r"I\equiv\frac{I_3}{I_2}, \qquad E'\equiv\frac{2E}{I_2}",
@@ -63,19 +49,15 @@ EQUATIONS = (
     Equation(
         name="(34)",
         alias="mf42",
-        section="IV",
         kind="derivation step",
         says=r"Euler equations through $\mathbf{K}$",
-        tex=(
-            r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
-            r"\mathbf{K}g, \boldsymbol{\Omega}]"
-        ),
+        tex=r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
+        r"\mathbf{K}g, \boldsymbol{\Omega}]",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         name="(35)",
         alias="mf43",
-        section="IV",
         kind="derivation step",
         says="Rate of the field seen from the body",
         tex=r"\dot{\mathbf{K}}=-[\boldsymbol{\Omega}, \mathbf{K}]",
@@ -84,7 +66,6 @@ EQUATIONS = (
     Equation(
         name="(36)",
         alias="mf44",
-        section="IV",
         kind="derivation step",
         says="First integral: energy",
         tex=r"\Omega_1^2+\Omega_2^2+I\Omega_3^2=E'=\omega_1^2+\omega_2^2+I\omega_3^2",
@@ -93,7 +74,6 @@ EQUATIONS = (
     Equation(
         name="(37)",
         alias="mf45",
-        section="IV",
         kind="derivation step",
         says="Second integral: length of the field",
         tex=r"\mathbf{K}^2={B'_2}^2+{B'_3}^2",
@@ -102,37 +82,25 @@ EQUATIONS = (
     Equation(
         name="(38)",
         alias="mf46",
-        section="IV",
         kind="derivation step",
         says="Euler equations of the symmetric body in components",
-        tex=(
-            r"\begin{aligned} "
-            r"\dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
-            r"\dot\Omega_2&=-(1-I)\Omega_3\Omega_1+I\Omega_3 K_1-(2-I)\Omega_1 K_3,\\ "
-            r"\dot\Omega_3&=\Omega_1 K_2-\Omega_2 K_1 "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
+        r"\dot\Omega_2&=-(1-I)\Omega_3\Omega_1+I\Omega_3 K_1-(2-I)\Omega_1 K_3,\\ \dot\Omega_3&=\Omega_1 K_2-\Omega_2 "
+        r"K_1 \end{aligned}",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         name="(39)",
         alias="mf47",
-        section="IV",
         kind="derivation step",
         says="Rate of the field seen from the body in components",
-        tex=(
-            r"\begin{aligned} "
-            r"\dot K_1&=\Omega_3 K_2-\Omega_2 K_3,\\ "
-            r"\dot K_2&=-\Omega_3 K_1+\Omega_1 K_3,\\ "
-            r"\dot K_3&=-(\Omega_1 K_2-\Omega_2 K_1) "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \dot K_1&=\Omega_3 K_2-\Omega_2 K_3,\\ \dot K_2&=-\Omega_3 K_1+\Omega_1 K_3,\\ \dot "
+        r"K_3&=-(\Omega_1 K_2-\Omega_2 K_1) \end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         name="(40)",
         alias="mf48",
-        section="IV",
         kind="derivation step",
         says="Third integral $c_3$",
         tex=r"K_3+\Omega_3=c_3=\omega_3+B'_3",
@@ -141,40 +109,28 @@ EQUATIONS = (
     Equation(
         name="(41)",
         alias="mf49",
-        section="IV",
         kind="derivation step",
         says="Fourth integral $c_5$",
-        tex=(
-            r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
-            r"B'_3)\omega_3"
-        ),
+        tex=r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
+        r"B'_3)\omega_3",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         name="text-four-integrals",
-        section="IV",
-        kind="claim",
         says="The four integrals @(36), @(37), @(40), @(41) are independent",
-        tex=(
-            r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}="
-            "4"
-        ),
+        tex=r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}=4",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
         quote="This system admits four integrals of motion",
     ),
     Equation(
         name="(42)",
         alias="mf50",
-        section="IV",
         kind="derivation step",
         says="The field in the body-fixed frame through the angular velocity",
-        tex=(
-            r"\begin{aligned} "
-            r"K_1&=\frac{\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot\Omega_3}{E'-I\Omega_3^2},\\ "
-            r"K_2&=\frac{\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3}{E'-I\Omega_3^2},\\ "
-            r"K_3&=-\Omega_3+c_3 "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"K_1&=\frac{\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot\Omega_3}{E'-I\Omega_3^2},\\ "
+        r"K_2&=\frac{\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3}{E'-I\Omega_3^2},\\ "
+        r"K_3&=-\Omega_3+c_3 \end{aligned}",
         assumptions=(
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
             r"$E' - I \Omega_3^2$ differs from 0",
@@ -183,13 +139,9 @@ EQUATIONS = (
     Equation(
         name="(43)",
         alias="mf51",
-        section="IV",
         kind="derivation step",
         says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
-        tex=(
-            r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
-            r"\Omega_2"
-        ),
+        tex=r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)\Omega_2",
         assumptions=(
             "$E'-I\\Omega_3^2$ differs from 0",
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
@@ -198,13 +150,10 @@ EQUATIONS = (
     Equation(
         name="(44)",
         alias="mf52",
-        section="IV",
         kind="derivation step",
         says="Coefficients of these linear equations",
-        tex=(
-            r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
-            r"\Omega_3^2(t)}"
-        ),
+        tex=r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
+        r"\Omega_3^2(t)}",
         assumptions=(
             "$E'-I\\Omega_3^2$ differs from 0",
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
@@ -214,13 +163,10 @@ EQUATIONS = (
     Equation(
         name="(45)",
         alias="mf53",
-        section="IV",
         kind="derivation step",
         says=r"$\Omega_1$, $\Omega_2$ by quadratures",
-        tex=(
-            r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
-            r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)"
-        ),
+        tex=r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
+        r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)",
         assumptions=(
             "$E'-I\\Omega_3^2$ differs from 0",
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
@@ -229,20 +175,15 @@ EQUATIONS = (
     Equation(
         name="(46)",
         alias="mf54",
-        section="IV",
         kind="derivation step",
         says=r"Second derivative of $\Omega_3$",
-        tex=(
-            r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
-            r"_3](\Omega_1^2+\Omega_2^2)"
-        ),
+        tex=r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
+        r"_3](\Omega_1^2+\Omega_2^2)",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         name="(47)",
         alias="mf55",
-        section="IV",
-        kind="claim",
         says=r"$\Omega_3$ of any motion obeys a cubic pseudo-oscillator",
         tex=r"\ddot\Omega_3=a_0+a_1\Omega_3+a_2\Omega_3^2+a_3\Omega_3^3",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
@@ -250,23 +191,15 @@ EQUATIONS = (
     Equation(
         name="(48)",
         alias="mf56",
-        section="IV",
         kind="derivation step",
         says="Coefficients of the cubic",
-        tex=(
-            r"\begin{aligned} "
-            r"a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ "
-            r"a_1(\boldsymbol{\omega}, \mathbf{B}')&=-2c_5+[I-(2-1)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
-            r"a_2(\boldsymbol{\omega}, \mathbf{B}')&=6(1-I)c_3,\\ "
-            "a_3&=-2(1-I) "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ a_1(\boldsymbol{\omega}, "
+        r"\mathbf{B}')&=-2c_5+[I-(2-1)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ a_2(\boldsymbol{\omega}, "
+        r"\mathbf{B}')&=6(1-I)c_3,\\ a_3&=-2(1-I) \end{aligned}",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         name="text-cubic-degree",
-        section="IV",
-        kind="claim",
         says="The polynomial on the right side of @(47) has the degree three",
         tex=r"""a_3=-2(1-I)\ne0""",
         assumptions=("$I$ differs from 1 (the paper does not except it)",),
@@ -275,17 +208,14 @@ EQUATIONS = (
     Equation(
         name="(49)",
         alias="mf57",
-        section="IV",
         kind="derivation step",
         says="The cubic through the initial data",
-        tex=(
-            r"\begin{aligned} "
-            r"\ddot\Omega_3=&[(2-I)B'_3-I\omega_3+2(\omega_3-\Omega_3)][\omega_2B'_2-(\omega_3^2-\Omega_3^2)+(2-"
-            r"I)(B'_3+\omega_3)(\omega_3-\Omega_3)]\\ "
-            r"&-I\Omega_3[{\mathbf{B}'}^2-(B'_3+(\omega_3-\Omega_3))^2]+[B'_3+(\omega_3-\Omega_3)][\omega_1^2+"
-            r"\omega_2^2+I(\omega_3^2-\Omega_3^2)] "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"\ddot\Omega_3=&[(2-I)B'_3-I\omega_3+2(\omega_3-\Omega_3)][\omega_2B'_2-(\omega_3^2-\Omega_3^2)+(2-"
+        r"I)(B'_3+\omega_3)(\omega_3-\Omega_3)]\\ "
+        r"&-I\Omega_3[{\mathbf{B}'}^2-(B'_3+(\omega_3-\Omega_3))^2]+[B'_3+(\omega_3-\Omega_3)][\omega_1^2+"
+        r"\omega_2^2+I(\omega_3^2-\Omega_3^2)] "
+        r"\end{aligned}",
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
 )

@@ -6,7 +6,6 @@ EQUATIONS = (
     Equation(
         name="(50)",
         alias="mf58.1",
-        section="IV",
         kind="derivation step",
         says=r"Condition on the initial data for a constant $\Omega_3$",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
@@ -18,7 +17,6 @@ EQUATIONS = (
     Equation(
         name="(51)",
         alias="mf58",
-        section="IV",
         kind="derivation step",
         says="The same condition: a surface of second order",
         tex=r"\omega_1^2+(\omega_2+B'_2)^2-\frac{IB'_2}{B'_3}(\omega_2+B'_2)(\omega_3+B'_3)=(1-I){B'_2}^2",
@@ -29,8 +27,6 @@ EQUATIONS = (
     ),
     Equation(
         name="text-quadric-origin",
-        section="IV",
-        kind="claim",
         says="The surface passes through the origin",
         tex=r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
@@ -39,63 +35,44 @@ EQUATIONS = (
     Equation(
         name="(52)",
         alias="mf59",
-        section="IV",
         kind="derivation step",
         says=r"The condition resolved for $\omega_3$: a two-parametric family of constant solutions",
-        tex=(
-            r"\begin{aligned} "
-            r"\Omega_3(t)&=\omega_3(\omega_1, \omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega"
-            r"_2]}{IB'_2(\omega_2+B'_2)},\\ "
-            r"\omega_1&\in\mathbb{R},\\ "
-            r"\omega_2&\in\mathbb{R}\setminus \{-B'_2\} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} \Omega_3(t)&=\omega_3(\omega_1, "
+        r"\omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)},\\ "
+        r"\omega_1&\in\mathbb{R},\\ \omega_2&\in\mathbb{R}\setminus \{-B'_2\} \end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         name="(53)",
         alias="mf61",
-        section="IV",
         kind="definition",
         says="Canonical coordinates of the quadric",
-        tex=(
-            r"\begin{aligned} "
-            r"\omega'_1&=\omega_1,\\ "
-            r"\omega'_2&=(\omega_2+B'_2)\cos\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\sin\left("
-            r"\frac{\beta}{2}+\frac{\pi}{4}\right),\\ "
-            r"\omega'_3&=-(\omega_2+B'_2)\sin\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\cos\left"
-            r"(\frac{\beta}{2}+\frac{\pi}{4}\right) "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"\omega'_1&=\omega_1,\\ "
+        r"\omega'_2&=(\omega_2+B'_2)\cos\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\sin\left("
+        r"\frac{\beta}{2}+\frac{\pi}{4}\right),\\ "
+        r"\omega'_3&=-(\omega_2+B'_2)\sin\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\cos\left"
+        r"(\frac{\beta}{2}+\frac{\pi}{4}\right) "
+        r"\end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\tan\beta = B'_3/(I B'_2)$"),
     ),
     Equation(
         name="text-turned",
-        section="IV",
-        kind="claim",
-        says=(
-            "The canonical coordinates are those from the origin $-\\mathbf{B}'$ along axes turned "
-            "counter-clockwise by $\\beta/2+\\pi/4$"
-        ),
+        says="The canonical coordinates are those from the origin $-\\mathbf{B}'$ along axes turned "
+        "counter-clockwise by $\\beta/2+\\pi/4$",
         tex=r"""\boldsymbol{\omega}+\mathbf{B}'=\sum_i\omega'_i\mathbf{e}'_i,\qquad\mathbf{e}'_2=\cos\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_2+\sin\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_3""",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
-        quote=(
-            r"by shifting the origin of coordinate system to the point $-\mathbf{B}'$, and subsequent rotation "
-            "counter-clockwise"
-        ),
+        quote=r"by shifting the origin of coordinate system to the point $-\mathbf{B}'$, and subsequent rotation "
+        "counter-clockwise",
     ),
     Equation(
         name="text-beta",
-        section="IV",
-        kind="claim",
         says=r"$\beta$, the angle between $\mathbf{e}_2$ and $I^{-1} \mathbf{B}'$, has $\tan\beta = B'_3/(I B'_2)$",
         tex=r"\tan\beta=\frac{B'_3}{IB'_2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         name="text-beta-range",
-        section="IV",
-        kind="claim",
         says=r"The canonical axes are turned by more than $\pi/4$ and less than $\pi/2$",
         tex=r"\frac{\pi}{4}<\frac{\beta}{2}+\frac{\pi}{4}<\frac{\pi}{2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
@@ -103,38 +80,25 @@ EQUATIONS = (
     Equation(
         name="(54)",
         alias="mf60",
-        section="IV",
         kind="derivation step",
         says="The quadric in canonical form",
-        tex=(
-            r"\begin{aligned} "
-            r"{\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
-            r"\text{where}\quad a_2&\equiv\frac{2\sin\beta}{1-\sin\beta},\\ "
-            r"a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} {\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
+        r"\text{where}\quad a_2&\equiv\frac{2\sin\beta}{1-\sin\beta},\\ a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
+        r"\end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         name="(55)",
         alias="mf61",
-        section="IV",
-        kind="claim",
         says="$I > 1$: a hyperboloid of two sheets",
-        tex=(
-            r"\begin{aligned} "
-            r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
-            r"\text{where}\quad C_1^2&\equiv(I-1){B'_2}^2,\\ "
-            r"C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-            r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
+        r"\text{where}\quad C_1^2&\equiv(I-1){B'_2}^2,\\ C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
     ),
     Equation(
         name="text-two-sheets",
-        section="IV",
-        kind="claim",
         says="For $I > 1$ the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
@@ -142,8 +106,6 @@ EQUATIONS = (
     ),
     Equation(
         name="text-short-cylinder",
-        section="IV",
-        kind="claim",
         says="A sufficiently short cylindrical surface has $1 < I < 2$, a long one $0 < I < 1$",
         tex=r"I=\frac{12r^2}{6r^2+h^2}>1\iff h<\sqrt6\,r",
         assumptions=("shell of radius $r$, height $h$ and mass $m_0$: $I_3=m_0r^2$, $I_2=m_0r^2/2+m_0h^2/12$",),
@@ -151,16 +113,12 @@ EQUATIONS = (
     ),
     Equation(
         name="text-plane-body",
-        section="IV",
-        kind="claim",
         says="$I = 2$ is a plane body",
         tex=r"I=2\iff g_3=0",
         assumptions=("$I_1 = I_2$",),
     ),
     Equation(
         name="text-tangent-planes",
-        section="IV",
-        kind="claim",
         says=r"$I = 2$: the two sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$",
         tex=r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 2$"),
@@ -169,16 +127,12 @@ EQUATIONS = (
     Equation(
         name="(56)",
         alias="mf62",
-        section="IV",
-        kind="claim",
         says="$I = 1$: a cone",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3}=\frac{{\omega'_2}^2}{a_2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
         name="text-cone-semi-axes",
-        section="IV",
-        kind="claim",
         says="The cone @(56) has the semi-axes $a_2$ and $a_3$ of @(54)",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3^2}=\frac{{\omega'_2}^2}{a_2^2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
@@ -187,23 +141,15 @@ EQUATIONS = (
     Equation(
         name="(57)",
         alias="mf63",
-        section="IV",
-        kind="claim",
         says="$I < 1$: a hyperboloid of one sheet",
-        tex=(
-            r"\begin{aligned} "
-            r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
-            r"\text{where}\quad C_1^2&\equiv(1-I){B'_2}^2,\\ "
-            r"C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-            r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
-            r"\end{aligned}"
-        ),
+        tex=r"\begin{aligned} "
+        r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
+        r"C_1^2&\equiv(1-I){B'_2}^2,\\ C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
         name="text-one-sheet",
-        section="IV",
-        kind="claim",
         says="For $I < 1$ the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
@@ -211,8 +157,6 @@ EQUATIONS = (
     ),
     Equation(
         name="text-not-all",
-        section="IV",
-        kind="claim",
         says="Not all constant solutions of the pseudo-oscillator are motions of the body",
         tex=r"\omega_1B'_2\ne0\implies\dot\Omega_3(0)\ne0",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),

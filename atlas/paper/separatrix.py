@@ -17,14 +17,11 @@ _FAMILY = (
 EQUATIONS = (
     Equation(
         name="theorem-steady",
-        section="Atlas",
-        kind="theorem",
         says=r"The double roots $\nu_0$ of $q$ with $|\nu_0| < 1$: steady precessions with the rate $w$ in Larmor's "
         "frame",
-        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad 2H-\frac{M_3^2}{I}-b^2-A\nu_0^2"
-        r"=w^2(1-\nu_0^2),\\ w&="
-        r"\frac{p-"
-        r"M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 \end{aligned}",
+        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad "
+        r"2H-\frac{M_3^2}{I}-b^2-A\nu_0^2=w^2(1-\nu_0^2),\\ w&=\frac{p-M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 "
+        r"\end{aligned}",
         assumptions=(
             _BODY,
             _LETTERS,
@@ -33,8 +30,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-nutation",
-        section="Atlas",
-        kind="theorem",
         says=r"Nutation frequency of a steady precession: a square and a bound, for every $I$ and both signs of "
         r"$\nu_0$",
         tex=r"\nu_n^2=-\tfrac12q''(\nu_0)=w^2-A(3\nu_0^2-1)+\frac{A^2\nu_0^2}{w^2}=\left(w\mp\frac{A\nu_0}{w}\right)^2"
@@ -43,8 +38,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-companion-range",
-        section="Atlas",
-        kind="theorem",
         says=r"The other two roots of $q$ beside a double root $\nu_0$: real exactly if $\nu_0^2 \le z \le 1$",
         tex=r"q=A(\nu-\nu_0)^2(\nu-e_+)(\nu-e_-),\qquad e_\pm=-\nu_0\pm\sqrt{\frac{(1-z)(z-\nu_0^2)}{z}},\qquad z="
         r"\frac{w^2}{(1-I)b^2}",
@@ -52,19 +45,14 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-companion-roots",
-        section="Atlas",
-        kind="theorem",
         says=r"All these motions by two angles: $e = \cos (2 \delta)$ where the axis turns back, and $z = \cos "
         r"(\kappa)^2$",
-        tex=r"\nu_0=-\cos\kappa\cos(2\delta-\kappa),\qquad M_3=w\sin\kappa\tan\kappa\cos(2\delta-\kappa),\qquad A=-"
-        r"\frac{w^2}{"
-        r"\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
+        tex=r"\nu_0=-\cos\kappa\cos(2\delta-\kappa),\qquad M_3=w\sin\kappa\tan\kappa\cos(2\delta-\kappa),\qquad "
+        r"A=-\frac{w^2}{\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
         assumptions=_FAMILY,
     ),
     Equation(
         name="theorem-companion",
-        section="Atlas",
-        kind="theorem",
         says="The second elementary family: the Cayley–Klein parameters are turned vectors, linear in $C$ and $S$",
         tex=r"\begin{aligned} \begin{pmatrix}\xi\\\eta\end{pmatrix}&\propto\begin{pmatrix}\exp(i\lambda_-t)\left["
         r"\cos\delta"
@@ -77,8 +65,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-companion-nutation",
-        section="Atlas",
-        kind="theorem",
         says=r"The nutation of the second elementary family, for any quartic with a double root $\nu_0$ and a simple "
         "root $e$",
         tex=r"\nu=\nu_0+\frac{e-\nu_0}{1+\left(c-A(e-\nu_0)^2\right)S^2},\qquad C^2=1+cS^2",
@@ -89,8 +75,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-companion-triple",
-        section="Atlas",
-        kind="theorem",
         says="A triple root: the separatrix closes in rational functions of time",
         tex=r"\nu=\nu_0-\frac{4\nu_0}{1+4(1-I)b^2\nu_0^2t^2},\qquad e=-3\nu_0,\qquad q=-(1-I)b^2(\nu-\nu_0)^3"
         r"(\nu+3\nu_0)",
@@ -102,8 +86,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-axis-stable",
-        section="Atlas",
-        kind="theorem",
         says=r"A spin along the field is stable for $D \ge 0$, $M_3$ not 0, for all times: a conserved sum of squares",
         tex=r"\begin{aligned} M_1^2+M_2^2-A(1-\nu^2)-M_3(p-M_3)&=\left(M_1-\tfrac12M_3n_1\right)^2+\left(M_2-"
         r"\tfrac12M_3n_2"
@@ -117,8 +99,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-axis-escape",
-        section="Atlas",
-        kind="theorem",
         says=r"For $D < 0$ it is not: one motion leaves it as $\exp (\sqrt{-D} t/2)$, turns where $\nu = e$, and "
         "comes back to it",
         tex=r"e=\frac{\lvert M_3\rvert}{b\sqrt{I-1}}-1,\qquad\begin{pmatrix}\xi\\\eta\end{pmatrix}\propto"
@@ -136,8 +116,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-axis-pushed",
-        section="Atlas",
-        kind="theorem",
         says=r"Pushed across by $s_1$ a spin along the field turns back at a root of a cubic in $x = \tan "
         r"(\theta/2)^2$",
         tex=r"\dot x^2=x\left[s_1^2(1+x)^2+x\left(4A-M_3^2(1+x)^2\right)\right],\qquad\nu=\frac{1-x}{1+x}",
@@ -145,8 +123,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-axis-pendulum",
-        section="Atlas",
-        kind="theorem",
         says="A disk at rest in Larmor's frame, $M_3 = 0$: a plane pendulum that tips over from the field's axis to "
         "the other",
         tex=r"M_3=p=0,\quad 2H-b^2=A:\qquad\nu=-\tanh\sqrt At",

@@ -19,13 +19,10 @@ _CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-every-top
 EQUATIONS = (
     Equation(
         name="theorem-every-top",
-        section="Atlas",
-        kind="theorem",
         says="Every symmetric top whose forces come from the direction of its axis against one constant direction "
         r"$\mathbf{n}$: one quartic. The paper's body is $a=0$, $A=(I-1)b^2$, Lagrange's heavy top $A=0$",
         tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(g-2a\nu-A\nu^2\right)-(p-M_3\nu)^2,\\ "
-        r"\dot\psi+k_2&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=\frac{M_3}{I}-\nu(\dot\psi+k_2)+\kappa\nu"
-        r"\end{aligned}",
+        r"\dot\psi+k_2&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=\frac{M_3}{I}-\nu(\dot\psi+k_2)+\kappa\nu\end{aligned}",
         assumptions=(
             _BODY,
             _LETTERS,
@@ -35,8 +32,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-top-precession",
-        section="Atlas",
-        kind="theorem",
         says=r"The double roots $\nu_0$ of $q$ with $|\nu_0| < 1$: steady precessions with the rate $w - k_2$ about "
         r"$\mathbf{n}$",
         tex=r"q(\nu_0)=q'(\nu_0)=0\iff\nu_0w^2-M_3w+a+A\nu_0=0,\quad g-2a\nu_0-A\nu_0^2=w^2(1-\nu_0^2),\qquad w="
@@ -45,8 +40,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-top-nutation",
-        section="Atlas",
-        kind="theorem",
         says="Frequency of small nutations about a steady precession; where it is zero a push grows, unless $a = "
         r"-2 A \nu_0$",
         tex=r"-\tfrac12q''(\nu_0)=w^2+A(1-3\nu_0^2)-2a\nu_0+\frac{(a+A\nu_0)^2}{w^2},\qquad q'''(\nu_0)="
@@ -55,8 +48,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-sleeping-top",
-        section="Atlas",
-        kind="theorem",
         says=r"The spin about $\mathbf{n}$, upright ($\sigma = 1$) or turned over ($\sigma = -1$): stable for $M_3^2 > "
         r"4(\sigma a + A)$, unstable for the opposite sign; at the border the sign of $\sigma a + 2 A$ decides",
         tex=r"q=(1-\sigma\nu)^2\left[(1+\sigma\nu)\left(2\sigma a+A(1+\sigma\nu)\right)-M_3^2\right],\qquad q=-(1-"
@@ -65,8 +56,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-top-quadric",
-        section="Atlas",
-        kind="theorem",
         says=r"The paper's quadric exists for every symmetric top: where the second rate of $\nu$ is 0 at $t = "
         r"0$. Its kind is the sign of $D$: two sheets for $D > 0$, a cone for $D = 0$, one sheet for $D < 0$",
         tex=r"\begin{aligned} \ddot\nu(0)&=-n_3\left[\omega_1^2+w^2-I\frac{n_2}{n_3}wv+n_2^2D\right],\qquad"
@@ -81,8 +70,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-top-hyperbola",
-        section="Atlas",
-        kind="theorem",
         says="The true motions of the quadric, with $\\omega_1 = 0$: a hyperbola of steady precessions, elementary "
         r"motions in two turns, and the paper's hyperbola for $k_2 = b$, $k_3 = I b$ without a potential",
         tex=r"v=\frac{n_3(w^2+n_2^2D)}{I\,n_2w},\qquad \dot\psi=\frac{\omega_2}{n_2},\qquad\dot\chi=\omega_3-"

@@ -8,8 +8,6 @@ _SPIN = r"$\sigma = \pm 1$, the spin with $\nu = \sigma$ has $p = \sigma M_3$, $
 EQUATIONS = (
     Equation(
         name="theorem-cusp",
-        section="Atlas",
-        kind="theorem",
         says=r"The trace of the axis has cusps exactly if $\nu$ turns at some $\nu_c$ with $\dot\psi = 0$; it has "
         r"loops if $\dot\psi$ changes its sign inside the range of $\nu$, and waves otherwise",
         tex=r"\begin{aligned} p=M_3\nu_c+k_2(1-\nu_c^2)\implies q(\nu_c)&=(1-\nu_c^2)\left[g-2a\nu_c-A\nu_c^2-k_2^2"
@@ -18,8 +16,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-focus",
-        section="Atlas",
-        kind="theorem",
         says=r"Near a spin about $\mathbf{n}$ two integrals are, to second order, $\boldsymbol\pi^2 + D z^2/4$ and "
         r"$(\boldsymbol\pi, \mathbf{z})$: the spin is of focus-focus type for $D < 0$",
         tex=r"\begin{aligned} g-2\sigma a-A-\sigma M_3(p-\sigma M_3)&=\boldsymbol\pi^2+\tfrac14D\,\mathbf{z}^2+\left("
@@ -33,8 +29,6 @@ EQUATIONS = (
     ),
     Equation(
         name="theorem-residue",
-        section="Atlas",
-        kind="theorem",
         says=r"Over $\nu$ the differentials of $\psi$ and $\chi$ have at $\nu = \sigma$ residues $r$ and $-\sigma r$ "
         r"with $r^2 = -1/4$, whatever $p$, $M_3$ and $g$ are",
         tex=r"d\psi=\left[\frac{p-M_3\nu}{1-\nu^2}-k_2\right]\frac{d\nu}{\sqrt q},\qquad \operatorname{res}_{\sigma}^2"
