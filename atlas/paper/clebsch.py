@@ -1,6 +1,6 @@
 """The structure behind the motion: Larmor's frame, the Lie-Poisson form, and the integral of Clebsch."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import SYMMETRIC, Equation
 
 _ANY = (
     "$J$ any inertia tensor in the body",
@@ -77,10 +77,7 @@ EQUATIONS = (
         says=r"For $I_1 = I_2$ the integral $F$ is $H$, the square of $M_3 = I_3 c_3$, and $\mathbf{K}^2$",
         tex=r"F=2I_2H+\left(1-\frac{I_2}{I_3}\right)M_3^2-I_2(I_2+I_3)\mathbf{K}^2,\qquad c_5=\frac{(\mathbf{M},"
         r"\mathbf{K})}{I_2}-\mathbf{K}^2+(1-I)c_3^2",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{M} = J (\boldsymbol{\Omega} + \mathbf{K})$, $M_3 = I_3 c_3$",
-        ),
+        assumptions=(SYMMETRIC, r"$\mathbf{M} = J (\boldsymbol{\Omega} + \mathbf{K})$, $M_3 = I_3 c_3$"),
     ),
     Equation(
         name="theorem-pair",

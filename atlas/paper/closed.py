@@ -1,8 +1,6 @@
 """Closed motions of the elementary family, and the free body beside each."""
 
-from atlas.paper.equation import Equation
-
-_FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
+from atlas.paper.equation import FIELD, OFF_LINES, Equation
 
 EQUATIONS = (
     Equation(
@@ -10,20 +8,15 @@ EQUATIONS = (
         says=r"One elementary motion, and no other, has $\phi/k = \varrho$, for every $\varrho$ but two",
         tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat "
         r"B_3-I\varrho},\qquad\varrho\ne\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}",
-        assumptions=(
-            _FIELD,
-            r"$\omega_2$ differs from $-B'_2$",
-            "$I$ differs from 1",
-            "$k$ differs from 0, the motion at rest",
-        ),
+        assumptions=(FIELD, OFF_LINES, "$I$ differs from 1", "$k$ differs from 0, the motion at rest"),
     ),
     Equation(
         name="theorem-closed-free",
         says="What the field does to the proper rotation at the same precession depends on $k$ alone",
         tex=r"\frac{\phi_B}{\phi}=\frac{2b+k}{b+k}",
         assumptions=(
-            _FIELD,
-            r"$\omega_2$ differs from $-B'_2$",
+            FIELD,
+            OFF_LINES,
             r"$\phi$ of @(87) for the same $k$, $I$ differs from 1",
             "$k$ differs from 0, the motion at rest",
         ),

@@ -1,6 +1,6 @@
 """Section V, second half: the elementary motion, (73) to (88)."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import FIELD, OFF_LINES, Equation
 
 EQUATIONS = (
     Equation(
@@ -10,19 +10,13 @@ EQUATIONS = (
         tex=r"\boldsymbol{\Omega}(t)=\begin{pmatrix} \omega_2\sin\phi t \\ \omega_2\cos\phi t \\ \omega_3(\omega"
         r"_2) \end{pmatrix}, \qquad \text{then} \quad \boldsymbol{\Omega}(0)=\begin{pmatrix} 0 \\ \omega_2 "
         r"\\ \omega_3(\omega_2) \end{pmatrix}",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="text-body-precession",
         says="In the body-fixed frame the angular velocity precesses about the third axis with the frequency $\\phi$",
         tex=r"""\dot{\boldsymbol{\Omega}}=-\phi\,[\mathbf{e}_3,\boldsymbol{\Omega}]""",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
         quote=r"vector of angular velocity in the body-fixed frame $\mathbf{R}_i$ precesses around the third axis "
         r"$\mathbf{R}_3$ with the frequency $\phi$",
     ),
@@ -48,10 +42,7 @@ EQUATIONS = (
         kind="derivation step",
         says="An integral of the rows",
         tex=r"\Omega_1\gamma_1+\Omega_2\gamma_2+\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3=c",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="(77)",
@@ -59,13 +50,13 @@ EQUATIONS = (
         kind="derivation step",
         says="One ratio of the components of the field",
         tex=r"\frac{B'_3}{B'_2}=\frac{B_3}{B_2}=\frac{\hat{B}_3}{\hat{B}_2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="text-row-constants",
         says="The constants $c$ of the three rows",
         tex=r"c_1=0,\qquad c_2=\omega_2,\qquad c_3=\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(78)",
@@ -84,10 +75,7 @@ EQUATIONS = (
         says="The third entry of a row is a harmonic oscillator with frequency $k$",
         tex=r"\ddot\gamma_3+k^2\gamma_3=c\frac{\hat{B}_3\omega_2}{\hat{B}_2}, \qquad \text{where} \quad k=\frac{"
         r"\omega_2}{\hat{B}_2}",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="(80)",
@@ -95,7 +83,7 @@ EQUATIONS = (
         kind="derivation step",
         says="General solution for the third entry of a row",
         tex=r"\gamma_3(t)=b\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2 k^2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
+        assumptions=(FIELD, r"$\omega_2$ differs from 0"),
     ),
     Equation(
         name="(81)",
@@ -108,7 +96,7 @@ EQUATIONS = (
         r"\gamma_2(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
         r"_3^2\Bigr]\cos\phi t+\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t "
         r"\end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
+        assumptions=(FIELD, r"$\omega_2$ differs from 0"),
     ),
     Equation(
         name="(82)",
@@ -118,7 +106,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} \gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
         r"\gamma_2(0)&=\frac{1}{\omega_2}[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos k_0- c\hat{B}_3^2],\\ "
         r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} \end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
+        assumptions=(FIELD, r"$\omega_2$ differs from 0"),
     ),
     Equation(
         name="(83)",
@@ -128,10 +116,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
         r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
         r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 \end{aligned}",
-        assumptions=(
-            "$\\omega_2$ differs from 0",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-        ),
+        assumptions=("$\\omega_2$ differs from 0", FIELD),
     ),
     Equation(
         name="(84)",
@@ -142,17 +127,13 @@ EQUATIONS = (
         r"& -\hat{B}_3 \sin kt\sin\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\cos\phi t & \hat{B}_2\hat{B}_3(1-\cos kt) "
         r"\\ -\hat{B}_2 \sin kt\cos\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\sin\phi t & \hat{B}_2 \sin kt\sin\phi "
         r"t+\hat{B}_2 \hat{B}_3(1-\cos kt)\cos\phi t & \hat{B}_3^2 +\hat{B}_2^2\cos kt \end{pmatrix}",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-            r"$k = \omega_2/\hat{B}_2$, $\phi$ of @(72)",
-        ),
+        assumptions=(FIELD, OFF_LINES, r"$k = \omega_2/\hat{B}_2$, $\phi$ of @(72)"),
     ),
     Equation(
         name="text-hidden",
         says=r"Of the moments and of $\mu$ the matrix @(84) knows only through $\phi$: $k$ does not depend on them",
         tex=r"""k=\frac{\omega_2\lvert\mathbf{B}\rvert}{B_2}""",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
         quote="The dependence of the rotation matrix on the inertia moments $I_2$, $I_3$ as well as on the "
         r"charge-mass ratio $\mu$ is hidden in the frequency $\phi$",
     ),
@@ -164,14 +145,14 @@ EQUATIONS = (
         r"\hat{B}_2\sin kt\\\hat{B}_3\sin kt&\hat{B}_2^2+\hat{B}_3^2\cos kt&\hat{B}_2\hat{B}_3(1-\cos kt)\\-"
         r"\hat{B}_2\sin kt&\hat{B}_2\hat{B}_3(1-\cos kt)&\hat{B}_3^2+\hat{B}_2^2\cos kt\end{pmatrix}\times"
         r"\begin{pmatrix}\cos\phi t&-\sin\phi t&0\\\sin\phi t&\cos\phi t&0\\0&0&1\end{pmatrix}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="text-precession",
         says=r"The two factors of @(85) turn about $\mathbf{B}$ by $kt$ and about $OZ$ by $\phi t$",
         tex=r"R_{\hat{\mathbf{B}}}(t,k)=\cos kt\,\mathbf{1}+(1-\cos kt)\,\hat{\mathbf{B}}\hat{\mathbf{B}}^T+"
         r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
         quote=r"first around the laboratory axis $OZ$ by the angle $\phi t$ and then around the $\mathbf{B}$-axis "
         "by the angle $kt$",
     ),
@@ -179,10 +160,7 @@ EQUATIONS = (
         name="text-axis-precesses",
         says="The third inertia axis precesses about the field with the frequency $k$",
         tex=r"""\dot{\mathbf{R}}_3=k\,[\hat{\mathbf{B}},\mathbf{R}_3]""",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
         quote="the motion is the composition of a proper rotation around third inertia axis with precession of "
         "this axis around the vector of magnetic field",
     ),
@@ -190,10 +168,7 @@ EQUATIONS = (
         name="text-ball-limit",
         says=r"For $I_2 = I_3$ there is no proper rotation: $\phi = 0$",
         tex=r"I_2=I_3\implies\phi=0",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
         quote=r"admits the limit of totally symmetric body $I_2=I_3$, this implies $\phi=0$",
     ),
     Equation(
@@ -201,10 +176,7 @@ EQUATIONS = (
         alias="mf91",
         says="Relation between the two frequencies",
         tex=r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+k_B)}k_B",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="text-free-general",
@@ -219,7 +191,7 @@ EQUATIONS = (
         alias="mf92",
         says="Proper rotation of the free body beside it",
         tex=r"\phi=\frac{I_2-I_3}{I_3}\hat{B}_3k_B",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
+        assumptions=(FIELD, "no magnetic field"),
     ),
     Equation(
         name="text-affirmation-free",
@@ -227,29 +199,25 @@ EQUATIONS = (
         r"with $\boldsymbol{\Omega}(0) = (0, \omega_2, I_2 \omega_2 B_3/(I_3 B_2))$",
         tex=r"\boldsymbol{\Omega}(0)=\Bigl(0,\omega_2,\frac{I_2\omega_2B_3}{I_3B_2}\Bigr)^T,\qquad\mathbf{m}="
         r"\frac{I_2\omega_2}{B_2}\mathbf{B}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
+        assumptions=(FIELD, "no magnetic field"),
     ),
     Equation(
         name="text-free-frequency",
         says=r"The free body precesses with $k = |\mathbf{m}|/I_2 = \omega_2/\hat{B}_2$",
         tex=r"k=\frac{\lvert\mathbf{m}\rvert}{I_2}=\frac{\omega_2}{\hat{B}_2}=k_B",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
+        assumptions=(FIELD, "no magnetic field"),
     ),
     Equation(
         name="text-free-proper",
         says="Proper rotation of the free body through its angular momentum",
         tex=r"""\phi=\frac{I_2-I_3}{I_2I_3}m_3=\frac{I_2-I_3}{I_3}\hat{B}_3\frac{\omega_2}{\hat{B}_2}=\frac{I_2-I_3}{I_3}\hat{B}_3k_B""",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
+        assumptions=(FIELD, "no magnetic field"),
     ),
     Equation(
         name="text-momentum-moves",
         says="The components of angular momentum are not conserved in the elementary motion",
         tex=r"\dot{\mathbf{m}}\ne0",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-            "$I$ differs from 1, $\\omega_2$ from 0",
-        ),
+        assumptions=(FIELD, OFF_LINES, "$I$ differs from 1, $\\omega_2$ from 0"),
         quote=r"Components of angular momentum $\mathbf{m}(t)$ for our solutions in elementary functions are not "
         "conserved quantities",
     ),
@@ -257,29 +225,20 @@ EQUATIONS = (
         name="text-constant-omega3",
         says=r"In the elementary motion $\Omega_3(t) = \omega_2 = \text{const}$",
         tex=r"\Omega_3(t)=\omega_2=\text{const}",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="(88)",
         alias="mf93",
         says=r"The projection of the angular momentum on $\mathbf{B}$ is conserved in the elementary motion",
         tex=r"(\mathbf{m}(t), \mathbf{B})=\text{const}",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="text-momentum-plane",
         says=r"The angular momentum always lies in the plane orthogonal to $\mathbf{B}$",
         tex=r"(\mathbf{m}(t),\mathbf{B})=0",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
         quote="the angular momentum always lies in the plane orthogonal to the constant vector of magnetic field",
     ),
 )

@@ -6,6 +6,11 @@ from typing import Literal
 Kind = Literal["definition", "derivation step", "claim", "theorem"]
 Section = Literal["II", "III", "IV", "V", "VII", "Atlas"]
 
+# what many entries take for granted
+SYMMETRIC = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
+FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
+OFF_LINES = r"$\omega_2$ differs from $-B'_2$"
+
 
 def slug(name: str) -> str:
     """Return the name of an equation as it stands in a link or in the name of a file: 72, theorem-pair."""

@@ -1,8 +1,7 @@
 """The general motion of the symmetric body: a top in a quadratic potential, and its solution in sigma functions."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import SYMMETRIC, Equation
 
-_BODY = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
 _LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $\nu = K_3/b$, $b > 0$"
 _CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-top"
 
@@ -13,13 +12,13 @@ EQUATIONS = (
         r"(\theta)$",
         tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(2H-\frac{M_3^2}{I}-b^2-(I-1)b^2\nu^2\right)"
         r"-(p-M_3\nu)^2,\\ \dot\psi+b&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=c_3-\nu(\dot\psi+b) \end{aligned}",
-        assumptions=(_BODY, _LETTERS, r"$z$ along $\mathbf{B}$, $|\nu| < 1$ for the angles"),
+        assumptions=(SYMMETRIC, _LETTERS, r"$z$ along $\mathbf{B}$, $|\nu| < 1$ for the angles"),
     ),
     Equation(
         name="theorem-top-quartic",
         says="The quartic $q$ of the top is the quartic $Q$ of the pseudo-oscillator in other letters",
         tex=r"Q(u)=b^2q\left(\frac{c_3-u}{b}\right),\qquad E'=2(H-bp),\qquad c_5=bp-b^2+(1-I)c_3^2",
-        assumptions=(_BODY, _LETTERS),
+        assumptions=(SYMMETRIC, _LETTERS),
     ),
     Equation(
         name="theorem-weierstrass",
@@ -36,7 +35,7 @@ EQUATIONS = (
         says="Up to a steady turn the Cayley–Klein parameters obey real equations of Lamé's kind, the same for any $p$",
         tex=r"\ddot a=\left(\tfrac34A\nu^2-\tfrac12A\nu-C\right)a,\qquad\ddot\eta=\left(\tfrac34A\nu^2+\tfrac12A\nu-C"
         r"\right)\eta,\qquad A=(I-1)b^2,\quad 4C=2H-\frac{M_3^2}{I}-b^2+M_3^2",
-        assumptions=(_BODY, _LETTERS, _CURVE, r"$a=\xi\exp(i(M_3-c_3)t/2)$, with $\eta$ the opposite sign"),
+        assumptions=(SYMMETRIC, _LETTERS, _CURVE, r"$a=\xi\exp(i(M_3-c_3)t/2)$, with $\eta$ the opposite sign"),
     ),
     Equation(
         name="theorem-residues",
@@ -45,7 +44,7 @@ EQUATIONS = (
         tex=r"q(\mp1)=-(p\pm M_3)^2,\qquad\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}=\frac{\dot\nu+i(p-M_3"
         r"\nu)}{2"
         r"\dot\nu}=\frac{1\pm1}{2}\quad\text{where}\quad\dot\nu=\pm i(p+M_3)",
-        assumptions=(_BODY, _LETTERS, _CURVE, r"$p$ differs from $M_3$ and from $-M_3$"),
+        assumptions=(SYMMETRIC, _LETTERS, _CURVE, r"$p$ differs from $M_3$ and from $-M_3$"),
     ),
     Equation(
         name="theorem-sigma",
@@ -56,7 +55,7 @@ EQUATIONS = (
         r"t+z_0)}},\\ 2\lambda_-&=c_3-M_3-b+\frac{p+M_3}{1+e},\qquad2\lambda_+=M_3-c_3-b+\frac{p-M_3}{1-e} "
         r"\end{aligned}",
         assumptions=(
-            _BODY,
+            SYMMETRIC,
             _LETTERS,
             r"$\nu = e$ at $t = 0$, $q(e) = 0$, $|e| < 1$",
             (

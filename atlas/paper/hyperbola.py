@@ -1,6 +1,6 @@
 """Section V, first half: the hyperbola of the motions, (58) to (72)."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import FIELD, OFF_LINES, SYMMETRIC, Equation
 
 EQUATIONS = (
     Equation(
@@ -18,10 +18,7 @@ EQUATIONS = (
         says=r"Euler equations for a constant $\Omega_3$",
         tex=r"\begin{aligned} \dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
         r"\dot\Omega_2&=-[(1-I)\omega_3+(2-I)B'_3]\Omega_1+I\omega_3K_1,\\ \Omega_1K_2-\Omega_2K_1&=0 \end{aligned}",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\Omega_3 = \omega_3 = \text{const}$",
-        ),
+        assumptions=(SYMMETRIC, r"$\Omega_3 = \omega_3 = \text{const}$"),
     ),
     Equation(
         name="(60)",
@@ -56,10 +53,7 @@ EQUATIONS = (
         says=r"Precession of $\boldsymbol{\Omega}$ by the Euler equations",
         tex=r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\text{where}\quad\phi'\equiv(1-I)"
         r"\omega_3+(2-I)B'_3-\frac{IB'_2\omega_2\omega_3}{\omega_1^2+\omega_2^2}",
-        assumptions=(
-            "$\\omega_1^2+\\omega_2^2>0$",
-            r"$\Omega_3 = \omega_3 = \text{const}$",
-        ),
+        assumptions=("$\\omega_1^2+\\omega_2^2>0$", r"$\Omega_3 = \omega_3 = \text{const}$"),
     ),
     Equation(
         name="(64)",
@@ -85,7 +79,7 @@ EQUATIONS = (
         kind="derivation step",
         says="The necessary condition @(50) again",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(67)",
@@ -93,19 +87,13 @@ EQUATIONS = (
         kind="derivation step",
         says=r"The initial data of the motions: a hyperbola in the plane $\omega_1 = 0$",
         tex=r"B'_3\omega_2^2-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\Omega_3 = \omega_3 = \text{const}$",
-        ),
+        assumptions=(FIELD, r"$\Omega_3 = \omega_3 = \text{const}$"),
     ),
     Equation(
         name="text-combining",
         says=r"@(65) and @(66) together leave only $\omega_1 = 0$",
         tex=r"\text{(65), (66)}\implies\omega_1=0",
-        assumptions=(
-            "$\\omega_2$ differs from 0",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-        ),
+        assumptions=("$\\omega_2$ differs from 0", FIELD),
         quote="Combining this with the necessary condition [...], we conclude that the initial data should be "
         r"taken on the curve [...] that lie on the plane $\omega_1=0$",
     ),
@@ -116,7 +104,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} \frac{{\omega'_2}^2}{C_2^2}-\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
         r"C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
         r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
+        assumptions=(FIELD, r"$1 < I \le 2$"),
     ),
     Equation(
         name="(69)",
@@ -125,7 +113,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} -\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
         r"C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
         r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
+        assumptions=(FIELD, "$0 < I < 1$"),
     ),
     Equation(
         name="(70)",
@@ -134,7 +122,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} \frac{\omega'_2}{a_2}&=\pm\frac{\omega'_3}{a_3},\\ \text{where}\quad "
         r"a_2&\equiv\sqrt{\frac{2\sin\beta}{1-\sin\beta}},\\ a_3&\equiv\sqrt{\frac{2\sin\beta}{1+\sin\beta}} "
         r"\end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
+        assumptions=(FIELD, "$I = 1$"),
     ),
     Equation(
         name="(71)",
@@ -143,7 +131,7 @@ EQUATIONS = (
         says=r"The hyperbola resolved for $\omega_3$",
         tex=r"\omega_3(\omega_2)=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}, \qquad \omega_2"
         r"\in\mathbb{R}\setminus\{-B'_2\}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(72)",
@@ -152,9 +140,6 @@ EQUATIONS = (
         says="Frequency of proper rotation",
         tex=r"\phi=\omega_3(\omega_2)-\frac{B'_3}{B'_2}\omega_2=\frac{B'_3\omega_2(1-I)(\omega_2+2B'_2)}{IB'_2("
         r"\omega_2+B'_2)}",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
 )

@@ -2,6 +2,8 @@
 
 from atlas.paper.equation import Equation
 
+_FIELDS = r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$"
+
 EQUATIONS = (
     Equation(
         name="(89)",
@@ -44,7 +46,7 @@ EQUATIONS = (
         kind="derivation step",
         says=r"Motion along $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\Vert}=\mathbf{C}_{\Vert}+\mu\mathbf{E}_{\Vert}t",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(92)",
@@ -53,7 +55,7 @@ EQUATIONS = (
         says=r"Motion across $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\bot}=\frac{\mu}{c}[\mathbf{y}_{\bot}, \mathbf{B}]+\mathbf{C}_{\bot}+\mu"
         r"\mathbf{E}_{\bot}t",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(93)",
@@ -61,13 +63,13 @@ EQUATIONS = (
         kind="derivation step",
         says=r"Motion along $\mathbf{B}$",
         tex=r"\mathbf{y}_{\Vert}(t)=\mathbf{y}_{\Vert 0}+\mathbf{C}_{\Vert}t+\frac12 \mu\mathbf{E}_{\Vert}t^2",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="text-parallel-acceleration",
         says=r"Along $\mathbf{B}$ the particle moves with the acceleration $|\mu \mathbf{E}_\bot|$",
         tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\bot}\rvert",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
         quote=r"moves with the acceleration $\lvert\mu\mathbf{E}_{\bot}\rvert$ along the axis $\mathbf{B}$",
     ),
     Equation(
@@ -83,7 +85,7 @@ EQUATIONS = (
         says=r"The electric field across $\mathbf{B}$ absorbed by a uniform motion",
         tex=r"\begin{aligned} \dot{\mathbf{y}}_{\bot}&=\frac{\mu}{c}[\mathbf{y}_{\bot}-\frac{c t[\mathbf{E}_{\bot}, "
         r"\mathbf{B}]}{\lvert \mathbf{B}\rvert^2}, \mathbf{B}]+\mathbf{C}_{\bot} \end{aligned}",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(95)",
@@ -94,7 +96,7 @@ EQUATIONS = (
         r"\bot},\mathbf{B}]}{\mathbf{B}^2},\quad\text{or}\quad\dot{\mathbf{y}}_1=\frac{\mu}{c}\Bigl["
         r"\mathbf{y}_1-\frac{c[\mathbf{C}_{\bot},\mathbf{B}]+c^2\mathbf{E}_{\bot}}{\mu\mathbf{B}^2},"
         r"\mathbf{B}\Bigr]",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(96)",
@@ -102,7 +104,7 @@ EQUATIONS = (
         kind="derivation step",
         says=r"The twice shifted variable precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{y}}_2=-\frac{\mu}{c}[\mathbf{B}, \mathbf{y}_2]",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(97)",
@@ -111,13 +113,13 @@ EQUATIONS = (
         says="General solution for the twice shifted variable",
         tex=r"\begin{aligned} \mathbf{y}_2(t)&=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega "
         r"t+\omega_0)\right\},\\ \omega&=\frac{\lvert \mu\mathbf{B}\rvert}{c} \end{aligned}",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="text-drift-direction",
         says=r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{e}_1$",
         tex=r"[\mathbf{E}_{\bot},\mathbf{B}]=\lvert\mathbf{E}_{\bot}\rvert\lvert\mathbf{B}\rvert\mathbf{e}_1",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(98)",
@@ -127,7 +129,7 @@ EQUATIONS = (
         tex=r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert"
         r"\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+a\left\{\mathbf{e}"
         r"_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="text-time-shift",
@@ -135,7 +137,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} &\mathbf{y}_{\bot}(t;\mathbf{C}_{\bot},\omega_0)=\mathbf{y}_{\bot}\Bigl(t+\frac{"
         r"\omega_0}{\omega};\mathbf{C}'_{\bot},0\Bigr),\\ &\mathbf{C}'_{\bot}=\mathbf{C}_{\bot}-\mu\mathbf{E}_{"
         r"\bot}\frac{\omega_0}{\omega} \end{aligned}",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
         quote=r"By choosing the time reference point, we can give any desired value to the constant $\omega_0$",
     ),
     Equation(
@@ -145,17 +147,14 @@ EQUATIONS = (
         tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies\frac{[\mathbf{C}_{"
         r"\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{"
         r"\bot}\rvert}{\omega}t\mathbf{e}_1=0",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
         quote="the first two terms in Eq. (98) vanish",
     ),
     Equation(
         name="text-initial-position",
         says=r"That choice puts the particle at $\mathbf{y}_\bot(0) = a \mathbf{e}_2$",
         tex=r"\mathbf{y}_{\bot}(0)=a\mathbf{e}_2",
-        assumptions=(
-            r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
-            r"$\omega_0 = 0$",
-        ),
+        assumptions=(_FIELDS, r"$\omega_0 = 0$"),
         quote="This corresponds to the choice of initial position",
     ),
     Equation(
@@ -165,13 +164,13 @@ EQUATIONS = (
         tex=r"\begin{aligned} \mathbf{y}_{\bot}(t)&=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+ "
         r"a\left\{\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}\equiv \mathbf{O}(t)+\mathbf{P}(t) "
         r"\end{aligned}",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="text-drift",
         says=r"The guiding centre moves along $\mathbf{e}_1$ with the speed $\mu |\mathbf{E}_\bot|/\omega$",
         tex=r"\dot{\mathbf{O}}=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
         quote=r"the point $\mathbf{O}(t)$ moves in the direction of $\mathbf{e}_1$ with the speed equal to "
         r"$\mu\lvert\mathbf{E}_{\bot}\rvert/\omega$",
     ),
@@ -181,7 +180,7 @@ EQUATIONS = (
         "is a constant of @(90): a velocity",
         tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}-\mu\lvert\mathbf{E}_{\bot}"
         r"\rvert\mathbf{e}_1",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(100)",
@@ -189,14 +188,14 @@ EQUATIONS = (
         says="The trochoid in components",
         tex=r"x(t)=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t, \qquad y(t)=\frac{\mu "
         r"\lvert \mathbf{E}_{\bot}\rvert}{\omega}+a\cos\omega t",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="text-trochoid",
         says="The curve is a trochoid: the path of a point that a rolling circle carries along",
         tex=r"x=r\omega t+a\sin\omega t,\qquad y=r+a\cos\omega t,\qquad "
         r"r=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
         quote="These are parametric equations of a plane curve called trochoid",
     ),
     Equation(
@@ -204,7 +203,7 @@ EQUATIONS = (
         alias="mf10.2",
         says=r"The trajectory: motion along $\mathbf{B}$ by @(93) plus motion across $\mathbf{B}$ by @(99)",
         tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
-        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
+        assumptions=(_FIELDS,),
     ),
     Equation(
         name="(102)",

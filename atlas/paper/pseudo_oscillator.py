@@ -1,23 +1,20 @@
 """Section IV, first half: the symmetric body and the cubic pseudo-oscillator, (31) to (49)."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import FIELD, SYMMETRIC, Equation
 
 EQUATIONS = (
     Equation(
         name="text-mass-matrix",
         says="Mass matrix of the symmetric body",
         tex=r"g=\frac12 \,\mathrm{diag}(I_3,I_3,2I_2-I_3)",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="text-laboratory",
         says="The laboratory may be turned about $\\mathbf{e}_3$ until the field lies in the plane of "
         "$\\mathbf{e}_2$ and $\\mathbf{e}_3$",
         tex=r"""S\,\mathbb{I}\,S^T=\mathbb{I},\qquad S\mathbf{B}=(0,B_2,B_3)^T""",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$S$ is a rotation about $\mathbf{e}_3$",
-        ),
+        assumptions=(SYMMETRIC, r"$S$ is a rotation about $\mathbf{e}_3$"),
         quote="without spoiling the diagonal form of inertia tensor in our equations, the Laboratory system can "
         "be chosen as shown",
     ),
@@ -37,7 +34,7 @@ EQUATIONS = (
         tex=r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, \qquad "
         r"\mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ (\mathbf{B}'R)_2 \\ "
         r"(\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)=\mathbf{B}'",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(33)",
@@ -53,7 +50,7 @@ EQUATIONS = (
         says=r"Euler equations through $\mathbf{K}$",
         tex=r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
         r"\mathbf{K}g, \boldsymbol{\Omega}]",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="(35)",
@@ -69,7 +66,7 @@ EQUATIONS = (
         kind="derivation step",
         says="First integral: energy",
         tex=r"\Omega_1^2+\Omega_2^2+I\Omega_3^2=E'=\omega_1^2+\omega_2^2+I\omega_3^2",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="(37)",
@@ -87,7 +84,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} \dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
         r"\dot\Omega_2&=-(1-I)\Omega_3\Omega_1+I\Omega_3 K_1-(2-I)\Omega_1 K_3,\\ \dot\Omega_3&=\Omega_1 K_2-\Omega_2 "
         r"K_1 \end{aligned}",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="(39)",
@@ -104,7 +101,7 @@ EQUATIONS = (
         kind="derivation step",
         says="Third integral $c_3$",
         tex=r"K_3+\Omega_3=c_3=\omega_3+B'_3",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="(41)",
@@ -113,13 +110,13 @@ EQUATIONS = (
         says="Fourth integral $c_5$",
         tex=r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
         r"B'_3)\omega_3",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="text-four-integrals",
         says="The four integrals @(36), @(37), @(40), @(41) are independent",
         tex=r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}=4",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
         quote="This system admits four integrals of motion",
     ),
     Equation(
@@ -131,10 +128,7 @@ EQUATIONS = (
         r"K_1&=\frac{\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot\Omega_3}{E'-I\Omega_3^2},\\ "
         r"K_2&=\frac{\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3}{E'-I\Omega_3^2},\\ "
         r"K_3&=-\Omega_3+c_3 \end{aligned}",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$E' - I \Omega_3^2$ differs from 0",
-        ),
+        assumptions=(SYMMETRIC, r"$E' - I \Omega_3^2$ differs from 0"),
     ),
     Equation(
         name="(43)",
@@ -142,10 +136,7 @@ EQUATIONS = (
         kind="derivation step",
         says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
         tex=r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)\Omega_2",
-        assumptions=(
-            "$E'-I\\Omega_3^2$ differs from 0",
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-        ),
+        assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC),
     ),
     Equation(
         name="(44)",
@@ -154,11 +145,7 @@ EQUATIONS = (
         says="Coefficients of these linear equations",
         tex=r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
         r"\Omega_3^2(t)}",
-        assumptions=(
-            "$E'-I\\Omega_3^2$ differs from 0",
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            "$f$ is meant up to a constant",
-        ),
+        assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC, "$f$ is meant up to a constant"),
     ),
     Equation(
         name="(45)",
@@ -167,10 +154,7 @@ EQUATIONS = (
         says=r"$\Omega_1$, $\Omega_2$ by quadratures",
         tex=r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
         r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)",
-        assumptions=(
-            "$E'-I\\Omega_3^2$ differs from 0",
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-        ),
+        assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC),
     ),
     Equation(
         name="(46)",
@@ -179,14 +163,14 @@ EQUATIONS = (
         says=r"Second derivative of $\Omega_3$",
         tex=r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
         r"_3](\Omega_1^2+\Omega_2^2)",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="(47)",
         alias="mf55",
         says=r"$\Omega_3$ of any motion obeys a cubic pseudo-oscillator",
         tex=r"\ddot\Omega_3=a_0+a_1\Omega_3+a_2\Omega_3^2+a_3\Omega_3^3",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="(48)",
@@ -196,7 +180,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ a_1(\boldsymbol{\omega}, "
         r"\mathbf{B}')&=-2c_5+[I-(2-1)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ a_2(\boldsymbol{\omega}, "
         r"\mathbf{B}')&=6(1-I)c_3,\\ a_3&=-2(1-I) \end{aligned}",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
     Equation(
         name="text-cubic-degree",
@@ -216,6 +200,6 @@ EQUATIONS = (
         r"&-I\Omega_3[{\mathbf{B}'}^2-(B'_3+(\omega_3-\Omega_3))^2]+[B'_3+(\omega_3-\Omega_3)][\omega_1^2+"
         r"\omega_2^2+I(\omega_3^2-\Omega_3^2)] "
         r"\end{aligned}",
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(SYMMETRIC,),
     ),
 )

@@ -1,6 +1,6 @@
 """Section IV, second half: the quadric of constant solutions, (50) to (57)."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import FIELD, SYMMETRIC, Equation
 
 EQUATIONS = (
     Equation(
@@ -9,10 +9,7 @@ EQUATIONS = (
         kind="derivation step",
         says=r"Condition on the initial data for a constant $\Omega_3$",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-        ),
+        assumptions=(SYMMETRIC, FIELD),
     ),
     Equation(
         name="(51)",
@@ -20,16 +17,13 @@ EQUATIONS = (
         kind="derivation step",
         says="The same condition: a surface of second order",
         tex=r"\omega_1^2+(\omega_2+B'_2)^2-\frac{IB'_2}{B'_3}(\omega_2+B'_2)(\omega_3+B'_3)=(1-I){B'_2}^2",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-        ),
+        assumptions=(SYMMETRIC, FIELD),
     ),
     Equation(
         name="text-quadric-origin",
         says="The surface passes through the origin",
         tex=r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
         quote="the surface always pass through the origin of coordinate system",
     ),
     Equation(
@@ -40,7 +34,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} \Omega_3(t)&=\omega_3(\omega_1, "
         r"\omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)},\\ "
         r"\omega_1&\in\mathbb{R},\\ \omega_2&\in\mathbb{R}\setminus \{-B'_2\} \end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(53)",
@@ -54,14 +48,14 @@ EQUATIONS = (
         r"\omega'_3&=-(\omega_2+B'_2)\sin\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\cos\left"
         r"(\frac{\beta}{2}+\frac{\pi}{4}\right) "
         r"\end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\tan\beta = B'_3/(I B'_2)$"),
+        assumptions=(FIELD, r"$\tan\beta = B'_3/(I B'_2)$"),
     ),
     Equation(
         name="text-turned",
         says="The canonical coordinates are those from the origin $-\\mathbf{B}'$ along axes turned "
         "counter-clockwise by $\\beta/2+\\pi/4$",
         tex=r"""\boldsymbol{\omega}+\mathbf{B}'=\sum_i\omega'_i\mathbf{e}'_i,\qquad\mathbf{e}'_2=\cos\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_2+\sin\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_3""",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
         quote=r"by shifting the origin of coordinate system to the point $-\mathbf{B}'$, and subsequent rotation "
         "counter-clockwise",
     ),
@@ -69,13 +63,13 @@ EQUATIONS = (
         name="text-beta",
         says=r"$\beta$, the angle between $\mathbf{e}_2$ and $I^{-1} \mathbf{B}'$, has $\tan\beta = B'_3/(I B'_2)$",
         tex=r"\tan\beta=\frac{B'_3}{IB'_2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="text-beta-range",
         says=r"The canonical axes are turned by more than $\pi/4$ and less than $\pi/2$",
         tex=r"\frac{\pi}{4}<\frac{\beta}{2}+\frac{\pi}{4}<\frac{\pi}{2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(54)",
@@ -85,7 +79,7 @@ EQUATIONS = (
         tex=r"\begin{aligned} {\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
         r"\text{where}\quad a_2&\equiv\frac{2\sin\beta}{1-\sin\beta},\\ a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
         r"\end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
     ),
     Equation(
         name="(55)",
@@ -95,13 +89,13 @@ EQUATIONS = (
         r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
         r"\text{where}\quad C_1^2&\equiv(I-1){B'_2}^2,\\ C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
         r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
+        assumptions=(FIELD, r"$1 < I \le 2$"),
     ),
     Equation(
         name="text-two-sheets",
         says="For $I > 1$ the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
+        assumptions=(FIELD, r"$1 < I \le 2$"),
         quote="Hence the surface of initial data is a hyperboloid of two sheets",
     ),
     Equation(
@@ -121,7 +115,7 @@ EQUATIONS = (
         name="text-tangent-planes",
         says=r"$I = 2$: the two sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$",
         tex=r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 2$"),
+        assumptions=(FIELD, "$I = 2$"),
         quote="the sheets of the hyperboloid are tangent to the horizontal planes",
     ),
     Equation(
@@ -129,13 +123,13 @@ EQUATIONS = (
         alias="mf62",
         says="$I = 1$: a cone",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3}=\frac{{\omega'_2}^2}{a_2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
+        assumptions=(FIELD, "$I = 1$"),
     ),
     Equation(
         name="text-cone-semi-axes",
         says="The cone @(56) has the semi-axes $a_2$ and $a_3$ of @(54)",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3^2}=\frac{{\omega'_2}^2}{a_2^2}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
+        assumptions=(FIELD, "$I = 1$"),
         quote="turn into the cone [...] with semi axes $a_2$ and $a_3$ written in equation (54)",
     ),
     Equation(
@@ -146,20 +140,20 @@ EQUATIONS = (
         r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
         r"C_1^2&\equiv(1-I){B'_2}^2,\\ C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
         r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
+        assumptions=(FIELD, "$0 < I < 1$"),
     ),
     Equation(
         name="text-one-sheet",
         says="For $I < 1$ the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
+        assumptions=(FIELD, "$0 < I < 1$"),
         quote="Hence the surface of initial data is a hyperboloid of one sheet",
     ),
     Equation(
         name="text-not-all",
         says="Not all constant solutions of the pseudo-oscillator are motions of the body",
         tex=r"\omega_1B'_2\ne0\implies\dot\Omega_3(0)\ne0",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
+        assumptions=(FIELD,),
         quote="Not all of them generate solutions to the original problem",
     ),
 )

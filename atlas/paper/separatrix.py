@@ -1,14 +1,13 @@
 """Where the quartic has a double root: steady precessions, their stability, and the second elementary family."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import SYMMETRIC, Equation
 
-_BODY = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
 _LETTERS = (
     r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $A = (I - 1) b^2$, $b > 0$, $q$ as in "
     "@theorem-top"
 )
 _FAMILY = (
-    _BODY,
+    SYMMETRIC,
     _LETTERS,
     "$0 < I < 1$, $w^2 < (1-I) b^2$",
     r"$\nu_0$ is a double root of $q$, $e$ a simple one, $t = 0$ where $\nu = e$",
@@ -23,7 +22,7 @@ EQUATIONS = (
         r"2H-\frac{M_3^2}{I}-b^2-A\nu_0^2=w^2(1-\nu_0^2),\\ w&=\frac{p-M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 "
         r"\end{aligned}",
         assumptions=(
-            _BODY,
+            SYMMETRIC,
             _LETTERS,
             r"$k$, $\hat{B}_3$ of the elementary motion with the same integrals, for the last two",
         ),
@@ -34,14 +33,14 @@ EQUATIONS = (
         r"$\nu_0$",
         tex=r"\nu_n^2=-\tfrac12q''(\nu_0)=w^2-A(3\nu_0^2-1)+\frac{A^2\nu_0^2}{w^2}=\left(w\mp\frac{A\nu_0}{w}\right)^2"
         r"+A(1\mp\nu_0)(1\pm3\nu_0)",
-        assumptions=(_BODY, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0"),
+        assumptions=(SYMMETRIC, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0"),
     ),
     Equation(
         name="theorem-companion-range",
         says=r"The other two roots of $q$ beside a double root $\nu_0$: real exactly if $\nu_0^2 \le z \le 1$",
         tex=r"q=A(\nu-\nu_0)^2(\nu-e_+)(\nu-e_-),\qquad e_\pm=-\nu_0\pm\sqrt{\frac{(1-z)(z-\nu_0^2)}{z}},\qquad z="
         r"\frac{w^2}{(1-I)b^2}",
-        assumptions=(_BODY, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0", "$0 < I < 1$"),
+        assumptions=(SYMMETRIC, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0", "$0 < I < 1$"),
     ),
     Equation(
         name="theorem-companion-roots",
@@ -79,7 +78,7 @@ EQUATIONS = (
         tex=r"\nu=\nu_0-\frac{4\nu_0}{1+4(1-I)b^2\nu_0^2t^2},\qquad e=-3\nu_0,\qquad q=-(1-I)b^2(\nu-\nu_0)^3"
         r"(\nu+3\nu_0)",
         assumptions=(
-            _BODY,
+            SYMMETRIC,
             _LETTERS,
             r"$0 < I < 1$, $z$ at an end of the unstable band, $z^2 + (3\nu_0^2-1) z + \nu_0^2 = 0$",
         ),
@@ -92,7 +91,7 @@ EQUATIONS = (
         r"\right)^2+\tfrac14D(1-\nu^2)+\tfrac12M_3^2(1-\nu)^2,\\ D&=M_3^2-4A=I^2(\omega_3+B'_3)^2+4(1-I){B'_3}^2 "
         r"\end{aligned}",
         assumptions=(
-            _BODY,
+            SYMMETRIC,
             _LETTERS,
             r"$n = \mathbf{K}/b$, $\nu = n_3$; the motion itself has $\nu = 1$, $M_1 = M_2 = 0$",
         ),
@@ -107,7 +106,7 @@ EQUATIONS = (
         r"\end{pmatrix},\qquad"
         r" c=-D",
         assumptions=(
-            _BODY,
+            SYMMETRIC,
             _LETTERS,
             "$I > 1$, $D < 0$, $M_3$ differs from 0, $p = M_3$",
             r"$e = \cos 2\delta$; $C$, $S$, $\lambda$ of @theorem-companion, $\nu_0 = 1$",
@@ -119,13 +118,13 @@ EQUATIONS = (
         says=r"Pushed across by $s_1$ a spin along the field turns back at a root of a cubic in $x = \tan "
         r"(\theta/2)^2$",
         tex=r"\dot x^2=x\left[s_1^2(1+x)^2+x\left(4A-M_3^2(1+x)^2\right)\right],\qquad\nu=\frac{1-x}{1+x}",
-        assumptions=(_BODY, _LETTERS, r"$B'_2 = 0$, $\boldsymbol{\omega} = (s_1, 0, \omega_3)$ at $t = 0$"),
+        assumptions=(SYMMETRIC, _LETTERS, r"$B'_2 = 0$, $\boldsymbol{\omega} = (s_1, 0, \omega_3)$ at $t = 0$"),
     ),
     Equation(
         name="theorem-axis-pendulum",
         says="A disk at rest in Larmor's frame, $M_3 = 0$: a plane pendulum that tips over from the field's axis to "
         "the other",
         tex=r"M_3=p=0,\quad 2H-b^2=A:\qquad\nu=-\tanh\sqrt At",
-        assumptions=(_BODY, _LETTERS, "$I > 1$"),
+        assumptions=(SYMMETRIC, _LETTERS, "$I > 1$"),
     ),
 )

@@ -1,6 +1,6 @@
 """What the atlas adds to the paper."""
 
-from atlas.paper.equation import Equation
+from atlas.paper.equation import FIELD, OFF_LINES, SYMMETRIC, Equation
 
 EQUATIONS = (
     Equation(
@@ -9,10 +9,7 @@ EQUATIONS = (
         "$Q'$ is twice the cubic",
         tex=r"\dot u^2=Q(u)=(E'-Iu^2)\left(b^2-(c_3-u)^2\right)-\left(u^2-(2-I)c_3u+c_5\right)^2,\qquad Q'(u)="
         "2(a_0+a_1u+a_2u^2+a_3u^3)",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$u = \Omega_3$, $b = |\mathbf{B}'|$",
-        ),
+        assumptions=(SYMMETRIC, r"$u = \Omega_3$, $b = |\mathbf{B}'|$"),
     ),
     Equation(
         name="theorem-points",
@@ -22,10 +19,7 @@ EQUATIONS = (
         r"\dot\Omega_3(0)&=\omega_1B'_2,\\ "
         r"\ddot\Omega_3(0)&=B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2"
         r"-I{B'_2}^2\omega_3 \end{aligned}",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            "$B'_2$ differs from 0, for the points of the quadric",
-        ),
+        assumptions=(SYMMETRIC, "$B'_2$ differs from 0, for the points of the quadric"),
     ),
     Equation(
         name="theorem-stability",
@@ -33,9 +27,9 @@ EQUATIONS = (
         tex=r"\begin{aligned} \nu_n^2=-\tfrac12Q''(\omega_3)&={B'_2}^2\,\frac{(1+\tau^2)x^4+(1-I)(2\tau^2-1)x^2"
         r"+\tau^2(1-I)^2}{x^2}\\ &=w^2+(1-I)b^2(3\hat{B}_3^2-1)+(1-I)^2\frac{b^4\hat{B}_3^2}{w^2} \end{aligned}",
         assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            "$\\omega_2$ differs from $-B'_2$",
+            SYMMETRIC,
+            FIELD,
+            OFF_LINES,
             "$\\tau=B'_3/B'_2$, $x=(\\omega_2+B'_2)/B'_2$, $b=|\\mathbf{B}'|$, $w=k+b$",
         ),
     ),
@@ -44,22 +38,14 @@ EQUATIONS = (
         says="The quartic about an elementary motion: $\\omega_3$ is a double root of it, and a triple one where "
         "$\\nu_n$ vanishes",
         tex=r"Q(\omega_3+v)=v^2\left[-\nu_n^2+(1-I)\,v\,(4B'_3-v)\right],\qquad\nu_n^2=-\tfrac12Q''(\omega_3)",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            "an elementary motion: $\\omega_1=0$ and @(50)",
-        ),
+        assumptions=(SYMMETRIC, "an elementary motion: $\\omega_1=0$ and @(50)"),
     ),
     Equation(
         name="theorem-stable-short",
         says="For $I\\ge1$ the elementary motions are stable everywhere",
         tex=r"\nu_n^2=X^2+(I-1){B'_2}^2+\tau^2\,\frac{\left[X^2-(I-1){B'_2}^2\right]^2}{X^2}>(I-1){B'_2}^2\ge0,\qquad "
         r"X=\omega_2+B'_2",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            "$\\omega_2$ differs from $-B'_2$",
-            "$1\\le I\\le2$",
-        ),
+        assumptions=(SYMMETRIC, FIELD, OFF_LINES, "$1\\le I\\le2$"),
     ),
     Equation(
         name="theorem-band",
@@ -67,12 +53,7 @@ EQUATIONS = (
         " $\\tau\\le1/(2\\sqrt2)$",
         tex=r"\nu_n^2\le0\iff y_-\le x^2\le y_+,\qquad y_\pm=(1-I)\frac{1-2\tau^2\pm\sqrt{1-8\tau^2}}{2(1+\tau^2)}"
         r",\qquad\tau\le\frac{1}{2\sqrt2}",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            "$\\omega_2$ differs from $-B'_2$",
-            "$0<I<1$",
-        ),
+        assumptions=(SYMMETRIC, FIELD, OFF_LINES, "$0<I<1$"),
     ),
     Equation(
         name="theorem-band-ends",
@@ -80,21 +61,14 @@ EQUATIONS = (
         " constants leaves the elementary one by $4B'_3$",
         tex=r"\nu_n=0:\qquad Q(\omega_3+v)=(1-I)\,v^3\,(4B'_3-v),\qquad "
         r"\Omega_3(t)=\omega_3+\frac{4B'_3}{1+4(1-I){B'_3}^2t^2}",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            "$0<I<1$",
-        ),
+        assumptions=(SYMMETRIC, FIELD, "$0<I<1$"),
     ),
     Equation(
         name="theorem-equatorial-stability",
         says="$B'_3=0$: nutation on the line $\\omega_2=-B'_2$ with any $\\omega_3$, and on the line $\\omega_3=0$",
         tex=r"\omega_2=-B'_2:\quad\nu_n^2=I^2\omega_3^2-(1-I){B'_2}^2,\qquad\omega_3=0:\quad\nu_n^2=(\omega_2+B'_2)^2"
         r"-(1-I){B'_2}^2",
-        assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            "$\\mathbf{B}'=(0,B'_2,0)$",
-        ),
+        assumptions=(SYMMETRIC, "$\\mathbf{B}'=(0,B'_2,0)$"),
     ),
     Equation(
         name="theorem-ball-nutation",
@@ -107,7 +81,7 @@ EQUATIONS = (
         name="theorem-ball-line",
         says=r"$I = 1$: every point of the line $\omega_1 = 0$, $\omega_2 = -B'_2$ is a motion",
         tex=r"R=R_{\hat{\mathbf{B}}}(-bt)\,R_{OZ}\left((\omega_3+B'_3)t\right)",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
+        assumptions=(FIELD, "$I = 1$"),
     ),
     Equation(
         name="theorem-equatorial-field",
@@ -120,16 +94,13 @@ EQUATIONS = (
         says=r"$I < 1$: the quadric holds the two lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$, "
         r"$\omega_3$ free, which @(52) loses",
         tex=r"\omega_2=-B'_2,\qquad\omega_1=\pm\sqrt{1-I}\,B'_2",
-        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
+        assumptions=(FIELD, "$0 < I < 1$"),
     ),
     Equation(
         name="theorem-momentum",
         says=r"In the elementary motion the angular momentum precesses about $\mathbf{B}$ with the frequency $k$",
         tex=r"\dot{\mathbf{m}}=k[\hat{\mathbf{B}},\mathbf{m}]",
-        assumptions=(
-            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
-            r"$\omega_2$ differs from $-B'_2$",
-        ),
+        assumptions=(FIELD, OFF_LINES),
     ),
     Equation(
         name="theorem-moment",
@@ -158,7 +129,7 @@ EQUATIONS = (
         says=r"Rates of the Euler angles about $\mathbf{B}$",
         tex=r"\dot\psi=\frac{P/b}{1-\nu^2},\qquad\dot\chi=u-\nu\dot\psi,\qquad\nu=\frac{c_3-u}{b}",
         assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            SYMMETRIC,
             r"$z$ along $\mathbf{B}$, $\nu = K_3/b$, $P = \Omega_1 K_1 + \Omega_2 K_2$",
             "$b>0$, $|\\nu|<1$",
         ),
@@ -170,7 +141,7 @@ EQUATIONS = (
         r"\right],\qquad\frac{\dot\eta}{\eta}=\frac12 \left[-\frac{\dot\nu}{1-\nu}+i\left(\frac{P/b}{1-\nu"
         r"}-u\right)\right]",
         assumptions=(
-            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            SYMMETRIC,
             r"$z$ along $\mathbf{B}$",
             r"$\xi=\cos\frac{\theta}{2}\,e^{i(\psi+\chi)/2}$, $\eta=\sin\frac{\theta}{2}\,e^{i(\psi-\chi)/2}$",
             "$b>0$, $|\\nu|<1$",
