@@ -147,17 +147,18 @@ EQUATIONS = (
         name="(28)",
         alias="mf38",
         says="Rotation matrix of the ball: two rotations",
-        tex=r"\begin{aligned} &\begin{pmatrix}\cos\gamma t\cos\alpha t-\hat{k}_3\sin\gamma t\sin\alpha "
-        r"t&\hat{k}_3\sin\gamma t\cos\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\sin\alpha t&-\hat{k}_2\sin\gamma "
-        r"t\cos\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\sin\alpha t\\-\cos\gamma t\sin\alpha t-\hat{k}_3\sin\gamma "
-        r"t\cos\alpha t&-\hat{k}_3\sin\gamma t\sin\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\cos\alpha "
-        r"t&\hat{k}_2\sin\gamma t\sin\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\cos\alpha t\\\hat{k}_2\sin\gamma "
-        r"t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix}\\ "
-        r"&\equiv\begin{pmatrix}\cos\alpha t&\sin\alpha t&0\\-\sin\alpha t&\cos\alpha "
-        r"t&0\\0&0&1\end{pmatrix}\times\begin{pmatrix}\cos\gamma t&\hat{k}_3\sin\gamma t&-\hat{k}_2\sin\gamma "
-        r"t\\-\hat{k}_3\sin\gamma t&\hat{k}_2^2+\hat{k}_3^2\cos\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma "
-        r"t)\\\hat{k}_2\sin\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma "
-        r"t\end{pmatrix} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"&\begin{pmatrix}\cos\gamma t\cos\alpha t-\hat{k}_3\sin\gamma t\sin\alpha t&\hat{k}_3\sin\gamma t"
+        r"\cos\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\sin\alpha t&-\hat{k}_2\sin\gamma t\cos\alpha t+"
+        r"\hat{k}_2\hat{k}_3(1-\cos\gamma t)\sin\alpha t\\-\cos\gamma t\sin\alpha t-\hat{k}_3\sin\gamma t"
+        r"\cos\alpha t&-\hat{k}_3\sin\gamma t\sin\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\cos\alpha t&"
+        r"\hat{k}_2\sin\gamma t\sin\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\cos\alpha t\\\hat{k}_2\sin"
+        r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix}\\ &"
+        r"\equiv\begin{pmatrix}\cos\alpha t&\sin\alpha t&0\\-\sin\alpha t&\cos\alpha t&0\\0&0&1\end{pmatrix}"
+        r"\times\begin{pmatrix}\cos\gamma t&\hat{k}_3\sin\gamma t&-\hat{k}_2\sin\gamma t\\-\hat{k}_3\sin"
+        r"\gamma t&\hat{k}_2^2+\hat{k}_3^2\cos\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)\\\hat{k}_2\sin"
+        r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix} "
+        r"\end{aligned}",
         assumptions=(
             "$I_1 = I_2 = I_3$",
             r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{m}(0)$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",

@@ -32,8 +32,10 @@ EQUATIONS = (
         alias="mf80",
         kind="derivation step",
         says="Poisson equations for a row of $R$ in components",
-        tex=r"\begin{aligned} \dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
-        r"\dot\gamma_2&=\gamma_3\Omega_1(t)-\gamma_1\omega_3,\\ \dot\gamma_3&=\gamma_1\Omega_2(t)-\gamma_2\Omega_1(t) "
+        tex=r"\begin{aligned} "
+        r"\dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
+        r"\dot\gamma_2&=\gamma_3\Omega_1(t)-\gamma_1\omega_3,\\ "
+        r"\dot\gamma_3&=\gamma_1\Omega_2(t)-\gamma_2\Omega_1(t) "
         r"\end{aligned}",
     ),
     Equation(
@@ -103,9 +105,11 @@ EQUATIONS = (
         alias="mf87",
         kind="derivation step",
         says="A row at $t = 0$",
-        tex=r"\begin{aligned} \gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
+        tex=r"\begin{aligned} "
+        r"\gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
         r"\gamma_2(0)&=\frac{1}{\omega_2}[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos k_0- c\hat{B}_3^2],\\ "
-        r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} \end{aligned}",
+        r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} "
+        r"\end{aligned}",
         assumptions=(FIELD, r"$\omega_2$ differs from 0"),
     ),
     Equation(
@@ -113,20 +117,23 @@ EQUATIONS = (
         alias="mf88",
         kind="derivation step",
         says="The constants of the three rows",
-        tex=r"\begin{aligned} c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
+        tex=r"\begin{aligned} "
+        r"c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
         r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
-        r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 \end{aligned}",
+        r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 "
+        r"\end{aligned}",
         assumptions=("$\\omega_2$ differs from 0", FIELD),
     ),
     Equation(
         name="(84)",
         alias="mf89",
         says="Rotation matrix of the elementary motion",
-        tex=r"\begin{pmatrix} \cos kt\cos\phi t-\hat{B}_3\sin kt\sin\phi t & -\cos kt\sin\phi t-\hat{B}_3\sin "
-        r"kt\cos\phi t & \hat{B}_2\sin kt \\ \hat{B}_3 \sin kt\cos\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\sin\phi t "
-        r"& -\hat{B}_3 \sin kt\sin\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\cos\phi t & \hat{B}_2\hat{B}_3(1-\cos kt) "
-        r"\\ -\hat{B}_2 \sin kt\cos\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\sin\phi t & \hat{B}_2 \sin kt\sin\phi "
-        r"t+\hat{B}_2 \hat{B}_3(1-\cos kt)\cos\phi t & \hat{B}_3^2 +\hat{B}_2^2\cos kt \end{pmatrix}",
+        tex=r"\begin{pmatrix} \cos kt\cos\phi t-\hat{B}_3\sin kt\sin\phi t & -\cos kt\sin\phi t-\hat{B}_3\sin kt"
+        r"\cos\phi t & \hat{B}_2\sin kt \\ \hat{B}_3 \sin kt\cos\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\sin"
+        r"\phi t & -\hat{B}_3 \sin kt\sin\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\cos\phi t & \hat{B}_2"
+        r"\hat{B}_3(1-\cos kt) \\ -\hat{B}_2 \sin kt\cos\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\sin\phi t & "
+        r"\hat{B}_2 \sin kt\sin\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\cos\phi t & \hat{B}_3^2 +\hat{B}_2^2"
+        r"\cos kt \end{pmatrix}",
         assumptions=(FIELD, OFF_LINES, r"$k = \omega_2/\hat{B}_2$, $\phi$ of @(72)"),
     ),
     Equation(
@@ -175,7 +182,8 @@ EQUATIONS = (
         name="(86)",
         alias="mf91",
         says="Relation between the two frequencies",
-        tex=r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+k_B)}k_B",
+        tex=r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+"
+        "k_B)}k_B",
         assumptions=(FIELD, OFF_LINES),
     ),
     Equation(

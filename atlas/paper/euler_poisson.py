@@ -88,12 +88,13 @@ EQUATIONS = (
         alias="mf23",
         kind="derivation step",
         says=r"The matrix $A$ of the magnetic force written through $R$ and $\boldsymbol{\Omega}$, step by step",
-        tex=r"\begin{aligned} \epsilon_{ijk}B_j\dot "
-        r"R_{ka}&=\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha "
-        r"a}R_{\beta b}R_{\gamma c}B_j\Omega_bR_{kc}\\ &=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha "
-        r"a}B_j(R\boldsymbol{\Omega})_\beta(RR^T)_{\gamma k}=\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha "
-        r"a}B_j(R\boldsymbol{\Omega})_\beta\\ "
-        r"&=R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\epsilon_{ijk}B_j\dot R_{ka}&=\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\epsilon_{ijk}\epsilon"
+        r"_{\alpha\beta\gamma}R_{\alpha a}R_{\beta b}R_{\gamma c}B_j\Omega_bR_{kc}\\ "
+        r"&=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta(RR^T)_{"
+        r"\gamma k}=\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta\\ "
+        r"&=R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a "
+        r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
@@ -112,9 +113,11 @@ EQUATIONS = (
         alias="mf25",
         kind="derivation step",
         says="Euler equations with the magnetic torque, through the inertia tensor",
-        tex=r"\begin{aligned} I\dot{\boldsymbol{\Omega}}&=[I\boldsymbol{\Omega}, "
-        r"\boldsymbol{\Omega}]-\frac{\mu}{2c}\left\{I[R^T\mathbf{B}, \boldsymbol{\Omega}]-[IR^T\mathbf{B}, "
-        r"\boldsymbol{\Omega}]+[R^T\mathbf{B}, I\boldsymbol{\Omega}]\right\} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"I\dot{\boldsymbol{\Omega}}&=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{2c}\left\{I[R^T"
+        r"\mathbf{B}, \boldsymbol{\Omega}]-[IR^T\mathbf{B}, \boldsymbol{\Omega}]+[R^T\mathbf{B}, I"
+        r"\boldsymbol{\Omega}]\right\} "
+        r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(

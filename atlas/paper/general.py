@@ -24,7 +24,8 @@ EQUATIONS = (
         name="theorem-weierstrass",
         says="From a root $e$ of any quartic $Q$ the solution of $du^2 = Q(u)$ in the function of Weierstrass",
         tex=r"\begin{aligned} u&=e+\frac{Q'(e)/4}{\wp(t)-Q''(e)/24},\\ g_2&=a_0a_4-4a_1a_3+3a_2^2,\qquad "
-        r"g_3=a_0a_2a_4+2a_1a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
+        r"g_3=a_0a_2a_4+2a_1"
+        r"a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
         assumptions=(
             "$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$",
             "$Q(e) = 0$, $Q'(e)$ differs from 0, $u = e$ at $t = 0$",

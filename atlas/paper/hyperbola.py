@@ -16,8 +16,11 @@ EQUATIONS = (
         alias="mf65",
         kind="derivation step",
         says=r"Euler equations for a constant $\Omega_3$",
-        tex=r"\begin{aligned} \dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
-        r"\dot\Omega_2&=-[(1-I)\omega_3+(2-I)B'_3]\Omega_1+I\omega_3K_1,\\ \Omega_1K_2-\Omega_2K_1&=0 \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
+        r"\dot\Omega_2&=-[(1-I)\omega_3+(2-I)B'_3]\Omega_1+I\omega_3K_1,\\ "
+        r"\Omega_1K_2-\Omega_2K_1&=0 "
+        r"\end{aligned}",
         assumptions=(SYMMETRIC, r"$\Omega_3 = \omega_3 = \text{const}$"),
     ),
     Equation(
@@ -101,26 +104,32 @@ EQUATIONS = (
         name="(68)",
         alias="mf73",
         says="The hyperbola of the circular loop and the short solenoid",
-        tex=r"\begin{aligned} \frac{{\omega'_2}^2}{C_2^2}-\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
-        r"C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-        r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\frac{{\omega'_2}^2}{C_2^2}-\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
+        r"\text{where}\quad C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
+        r"\end{aligned}",
         assumptions=(FIELD, r"$1 < I \le 2$"),
     ),
     Equation(
         name="(69)",
         alias="mf74",
         says="The hyperbola of the long solenoid",
-        tex=r"\begin{aligned} -\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
-        r"C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-        r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
+        r"\text{where}\quad C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
+        r"\end{aligned}",
         assumptions=(FIELD, "$0 < I < 1$"),
     ),
     Equation(
         name="(70)",
         alias="mf75",
         says="The ball: the hyperbola degenerates into two lines",
-        tex=r"\begin{aligned} \frac{\omega'_2}{a_2}&=\pm\frac{\omega'_3}{a_3},\\ \text{where}\quad "
-        r"a_2&\equiv\sqrt{\frac{2\sin\beta}{1-\sin\beta}},\\ a_3&\equiv\sqrt{\frac{2\sin\beta}{1+\sin\beta}} "
+        tex=r"\begin{aligned} "
+        r"\frac{\omega'_2}{a_2}&=\pm\frac{\omega'_3}{a_3},\\ "
+        r"\text{where}\quad a_2&\equiv\sqrt{\frac{2\sin\beta}{1-\sin\beta}},\\ "
+        r"a_3&\equiv\sqrt{\frac{2\sin\beta}{1+\sin\beta}} "
         r"\end{aligned}",
         assumptions=(FIELD, "$I = 1$"),
     ),

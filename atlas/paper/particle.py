@@ -10,8 +10,10 @@ EQUATIONS = (
         alias="mf1",
         kind="derivation step",
         says="Lorentz force: the equation of motion of a charged particle",
-        tex=r"\begin{aligned} m\ddot{\mathbf{y}}&=e\mathbf{E}+\frac{e}{c}[\dot{\mathbf{y}}, \mathbf{B}],\\ "
-        r"\text{or}\quad \ddot{\mathbf{y}}&=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}, \mathbf{B}] \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"m\ddot{\mathbf{y}}&=e\mathbf{E}+\frac{e}{c}[\dot{\mathbf{y}}, \mathbf{B}],\\ "
+        r"\text{or}\quad \ddot{\mathbf{y}}&=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}, \mathbf{B}] "
+        r"\end{aligned}",
     ),
     Equation(
         name="(90)",
@@ -83,8 +85,10 @@ EQUATIONS = (
         alias="mf6",
         kind="derivation step",
         says=r"The electric field across $\mathbf{B}$ absorbed by a uniform motion",
-        tex=r"\begin{aligned} \dot{\mathbf{y}}_{\bot}&=\frac{\mu}{c}[\mathbf{y}_{\bot}-\frac{c t[\mathbf{E}_{\bot}, "
-        r"\mathbf{B}]}{\lvert \mathbf{B}\rvert^2}, \mathbf{B}]+\mathbf{C}_{\bot} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\dot{\mathbf{y}}_{\bot}&=\frac{\mu}{c}[\mathbf{y}_{\bot}-\frac{c t[\mathbf{E}_{\bot}, \mathbf{B}"
+        r"]}{\lvert \mathbf{B}\rvert^2}, \mathbf{B}]+\mathbf{C}_{\bot} "
+        r"\end{aligned}",
         assumptions=(_FIELDS,),
     ),
     Equation(
@@ -111,8 +115,11 @@ EQUATIONS = (
         alias="mf9",
         kind="derivation step",
         says="General solution for the twice shifted variable",
-        tex=r"\begin{aligned} \mathbf{y}_2(t)&=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega "
-        r"t+\omega_0)\right\},\\ \omega&=\frac{\lvert \mu\mathbf{B}\rvert}{c} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\mathbf{y}_2(t)&=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)"
+        r"\right\},\\ "
+        r"\omega&=\frac{\lvert \mu\mathbf{B}\rvert}{c} "
+        r"\end{aligned}",
         assumptions=(_FIELDS,),
     ),
     Equation(
@@ -161,8 +168,9 @@ EQUATIONS = (
         name="(99)",
         alias="mf11",
         says="The trochoid: a uniform drift plus a rotation",
-        tex=r"\begin{aligned} \mathbf{y}_{\bot}(t)&=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+ "
-        r"a\left\{\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}\equiv \mathbf{O}(t)+\mathbf{P}(t) "
+        tex=r"\begin{aligned} "
+        r"\mathbf{y}_{\bot}(t)&=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+ a\left\{"
+        r"\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}\equiv \mathbf{O}(t)+\mathbf{P}(t) "
         r"\end{aligned}",
         assumptions=(_FIELDS,),
     ),
@@ -211,12 +219,14 @@ EQUATIONS = (
         kind="definition",
         says="Scalar and vector potentials of constant fields",
         tex=r"A_0(\mathbf{y})=(\mathbf{y}, \mathbf{E}), \qquad \mathbf{A}(\mathbf{y})=\frac12 [\mathbf{B}, "
-        r"\mathbf{y}]=\frac12 \begin{pmatrix} B_2 y_3-B_3 y_2 \\ B_3y_1-b_1 y_3 \\ B_1 y_2-B_2 y_1 \end{pmatrix}",
+        r"\mathbf{y}]=\frac12 \begin{pmatrix} B_2 y_3-B_3 y_2 \\ B_3y_1-b_1 y_3 \\ B_1 y_2-B_2 y_1 "
+        r"\end{pmatrix}",
     ),
     Equation(
         name="text-potentials",
         says="The fields that these potentials give",
-        tex=r"\mathbf{E}=-\frac1c\frac{\partial\mathbf{A}}{\partial t}+\nabla A_0,\qquad\mathbf{B}=[\nabla,\mathbf{A}]",
+        tex=r"\mathbf{E}=-\frac1c\frac{\partial\mathbf{A}}{\partial t}+\nabla A_0,\qquad\mathbf{B}=[\nabla,"
+        r"\mathbf{A}]",
         quote="This implies the standard agreement",
     ),
     Equation(

@@ -31,9 +31,10 @@ EQUATIONS = (
         kind="definition",
         says=r"The field in units of a frequency, $\mathbf{B}'$, and its components $\mathbf{K}$ in the body-fixed "
         "frame",
-        tex=r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, \qquad "
-        r"\mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ (\mathbf{B}'R)_2 \\ "
-        r"(\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)=\mathbf{B}'",
+        tex=r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, "
+        r"\qquad \mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ ("
+        r"\mathbf{B}'R)_2 \\ (\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)="
+        r"\mathbf{B}'",
         assumptions=(FIELD,),
     ),
     Equation(
@@ -81,9 +82,11 @@ EQUATIONS = (
         alias="mf46",
         kind="derivation step",
         says="Euler equations of the symmetric body in components",
-        tex=r"\begin{aligned} \dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
-        r"\dot\Omega_2&=-(1-I)\Omega_3\Omega_1+I\Omega_3 K_1-(2-I)\Omega_1 K_3,\\ \dot\Omega_3&=\Omega_1 K_2-\Omega_2 "
-        r"K_1 \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
+        r"\dot\Omega_2&=-(1-I)\Omega_3\Omega_1+I\Omega_3 K_1-(2-I)\Omega_1 K_3,\\ "
+        r"\dot\Omega_3&=\Omega_1 K_2-\Omega_2 K_1 "
+        r"\end{aligned}",
         assumptions=(SYMMETRIC,),
     ),
     Equation(
@@ -91,8 +94,11 @@ EQUATIONS = (
         alias="mf47",
         kind="derivation step",
         says="Rate of the field seen from the body in components",
-        tex=r"\begin{aligned} \dot K_1&=\Omega_3 K_2-\Omega_2 K_3,\\ \dot K_2&=-\Omega_3 K_1+\Omega_1 K_3,\\ \dot "
-        r"K_3&=-(\Omega_1 K_2-\Omega_2 K_1) \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\dot K_1&=\Omega_3 K_2-\Omega_2 K_3,\\ "
+        r"\dot K_2&=-\Omega_3 K_1+\Omega_1 K_3,\\ "
+        r"\dot K_3&=-(\Omega_1 K_2-\Omega_2 K_1) "
+        r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
@@ -115,7 +121,8 @@ EQUATIONS = (
     Equation(
         name="text-four-integrals",
         says="The four integrals @(36), @(37), @(40), @(41) are independent",
-        tex=r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}=4",
+        tex=r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}="
+        "4",
         assumptions=(SYMMETRIC,),
         quote="This system admits four integrals of motion",
     ),
@@ -127,7 +134,8 @@ EQUATIONS = (
         tex=r"\begin{aligned} "
         r"K_1&=\frac{\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot\Omega_3}{E'-I\Omega_3^2},\\ "
         r"K_2&=\frac{\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3}{E'-I\Omega_3^2},\\ "
-        r"K_3&=-\Omega_3+c_3 \end{aligned}",
+        r"K_3&=-\Omega_3+c_3 "
+        r"\end{aligned}",
         assumptions=(SYMMETRIC, r"$E' - I \Omega_3^2$ differs from 0"),
     ),
     Equation(
@@ -135,7 +143,8 @@ EQUATIONS = (
         alias="mf51",
         kind="derivation step",
         says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
-        tex=r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)\Omega_2",
+        tex=r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
+        r"\Omega_2",
         assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC),
     ),
     Equation(
@@ -177,9 +186,12 @@ EQUATIONS = (
         alias="mf56",
         kind="derivation step",
         says="Coefficients of the cubic",
-        tex=r"\begin{aligned} a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ a_1(\boldsymbol{\omega}, "
-        r"\mathbf{B}')&=-2c_5+[I-(2-1)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ a_2(\boldsymbol{\omega}, "
-        r"\mathbf{B}')&=6(1-I)c_3,\\ a_3&=-2(1-I) \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ "
+        r"a_1(\boldsymbol{\omega}, \mathbf{B}')&=-2c_5+[I-(2-1)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
+        r"a_2(\boldsymbol{\omega}, \mathbf{B}')&=6(1-I)c_3,\\ "
+        "a_3&=-2(1-I) "
+        r"\end{aligned}",
         assumptions=(SYMMETRIC,),
     ),
     Equation(

@@ -31,9 +31,12 @@ EQUATIONS = (
         alias="mf59",
         kind="derivation step",
         says=r"The condition resolved for $\omega_3$: a two-parametric family of constant solutions",
-        tex=r"\begin{aligned} \Omega_3(t)&=\omega_3(\omega_1, "
-        r"\omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)},\\ "
-        r"\omega_1&\in\mathbb{R},\\ \omega_2&\in\mathbb{R}\setminus \{-B'_2\} \end{aligned}",
+        tex=r"\begin{aligned} "
+        r"\Omega_3(t)&=\omega_3(\omega_1, \omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega"
+        r"_2]}{IB'_2(\omega_2+B'_2)},\\ "
+        r"\omega_1&\in\mathbb{R},\\ "
+        r"\omega_2&\in\mathbb{R}\setminus \{-B'_2\} "
+        r"\end{aligned}",
         assumptions=(FIELD,),
     ),
     Equation(
@@ -76,8 +79,10 @@ EQUATIONS = (
         alias="mf60",
         kind="derivation step",
         says="The quadric in canonical form",
-        tex=r"\begin{aligned} {\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
-        r"\text{where}\quad a_2&\equiv\frac{2\sin\beta}{1-\sin\beta},\\ a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
+        tex=r"\begin{aligned} "
+        r"{\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
+        r"\text{where}\quad a_2&\equiv\frac{2\sin\beta}{1-\sin\beta},\\ "
+        r"a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
         r"\end{aligned}",
         assumptions=(FIELD,),
     ),
@@ -87,8 +92,10 @@ EQUATIONS = (
         says="$I > 1$: a hyperboloid of two sheets",
         tex=r"\begin{aligned} "
         r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
-        r"\text{where}\quad C_1^2&\equiv(I-1){B'_2}^2,\\ C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-        r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
+        r"\text{where}\quad C_1^2&\equiv(I-1){B'_2}^2,\\ "
+        r"C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
+        r"\end{aligned}",
         assumptions=(FIELD, r"$1 < I \le 2$"),
     ),
     Equation(
@@ -137,9 +144,11 @@ EQUATIONS = (
         alias="mf63",
         says="$I < 1$: a hyperboloid of one sheet",
         tex=r"\begin{aligned} "
-        r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ \text{where}\quad "
-        r"C_1^2&\equiv(1-I){B'_2}^2,\\ C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
-        r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} \end{aligned}",
+        r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
+        r"\text{where}\quad C_1^2&\equiv(1-I){B'_2}^2,\\ "
+        r"C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+        r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
+        r"\end{aligned}",
         assumptions=(FIELD, "$0 < I < 1$"),
     ),
     Equation(

@@ -18,9 +18,10 @@ EQUATIONS = (
         name="theorem-steady",
         says=r"The double roots $\nu_0$ of $q$ with $|\nu_0| < 1$: steady precessions with the rate $w$ in Larmor's "
         "frame",
-        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad "
-        r"2H-\frac{M_3^2}{I}-b^2-A\nu_0^2=w^2(1-\nu_0^2),\\ w&=\frac{p-M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 "
-        r"\end{aligned}",
+        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad 2H-\frac{M_3^2}{I}-b^2-A\nu_0^2"
+        r"=w^2(1-\nu_0^2),\\ w&="
+        r"\frac{p-"
+        r"M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 \end{aligned}",
         assumptions=(
             SYMMETRIC,
             _LETTERS,
@@ -46,8 +47,9 @@ EQUATIONS = (
         name="theorem-companion-roots",
         says=r"All these motions by two angles: $e = \cos (2 \delta)$ where the axis turns back, and $z = \cos "
         r"(\kappa)^2$",
-        tex=r"\nu_0=-\cos\kappa\cos(2\delta-\kappa),\qquad M_3=w\sin\kappa\tan\kappa\cos(2\delta-\kappa),\qquad "
-        r"A=-\frac{w^2}{\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
+        tex=r"\nu_0=-\cos\kappa\cos(2\delta-\kappa),\qquad M_3=w\sin\kappa\tan\kappa\cos(2\delta-\kappa),\qquad A=-"
+        r"\frac{w^2}{"
+        r"\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
         assumptions=_FAMILY,
     ),
     Equation(

@@ -106,10 +106,8 @@ EQUATIONS = (
         name="theorem-moment",
         says="The torque on any charged body is that on the magnetic moment $(\\mu/2c)\\,\\mathbf{m}$ and a rate, which"
         " is zero for a ball",
-        tex=(
-            r"\dot{\mathbf{m}}=\frac{\mu}{2c}\Bigl\{[\mathbf{m},\mathbf{B}]-\frac{d}{dt}\bigl(R\,\mathbb{I}\,R^T\mathbf{B}"
-            r"\bigr)\Bigr\}"
-        ),
+        tex=r"\dot{\mathbf{m}}=\frac{\mu}{2c}\Bigl\{[\mathbf{m},\mathbf{B}]-\frac{d}{dt}\bigl(R\,\mathbb{I}\,R^T"
+        r"\mathbf{B}\bigr)\Bigr\}",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
     ),
     Equation(

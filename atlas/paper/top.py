@@ -22,7 +22,8 @@ EQUATIONS = (
         says="Every symmetric top whose forces come from the direction of its axis against one constant direction "
         r"$\mathbf{n}$: one quartic. The paper's body is $a=0$, $A=(I-1)b^2$, Lagrange's heavy top $A=0$",
         tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(g-2a\nu-A\nu^2\right)-(p-M_3\nu)^2,\\ "
-        r"\dot\psi+k_2&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=\frac{M_3}{I}-\nu(\dot\psi+k_2)+\kappa\nu\end{aligned}",
+        r"\dot\psi+k_2&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=\frac{M_3}{I}-\nu(\dot\psi+k_2)+\kappa\nu"
+        r"\end{aligned}",
         assumptions=(_BODY, _LETTERS, _RATES, r"$z$ along $\mathbf{n}$, $|\nu| < 1$ for the angles"),
     ),
     Equation(
