@@ -235,8 +235,7 @@ TRIALS = (
         grade="sign of the charge",
         slip="(97)",
         note="The centre of any body with one charge-to-mass ratio does, not only that of a ball; for a negative "
-        "charge it "
-        "takes the sign that @(99) takes.",
+        "charge it takes the sign that @(99) takes.",
     ),
     Trial(
         name="text-ball-axis",
@@ -264,10 +263,8 @@ TRIALS = (
         model=body_flow_model,
         follows=r"@(21) and @(35): a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
         "second rate",
-        corrected_tex=(
-            r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
-            r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}"
-        ),
+        corrected_tex=r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
+        r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}",
         grade="wording",
         note=r"It is so at each instant, but $R^T \mathbf{B}$ moves as well. What stands still in the body is "
         r"$\boldsymbol{\Omega} + \mathbf{K}$, and the components turn about that with the frequency $\gamma$ of "
@@ -292,9 +289,8 @@ TRIALS = (
         slip="text-affirmation",
         corrected_model=lambda: (orthogonal_model(), orthogonal_model(-1)),
         corrected_tex=mended("text-linear-poisson", {r"-\frac{1}": r"-\frac{\boxed{\det R}}"}),
-        note="Said of all orthogonal matrices, it holds for the rotations; for the determinant $-1$ the sign "
-        "changes. With "
-        "$R(0) = 1$ no such matrix occurs.",
+        note="Said of all orthogonal matrices, it holds for the rotations; for the determinant $-1$ the sign changes. "
+        "With $R(0) = 1$ no such matrix occurs.",
         false=Falsehood("The sign does not depend on the determinant", "-det(R)/I0", "-1/I0"),
     ),
     Trial(
@@ -331,10 +327,8 @@ TRIALS = (
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
         grade="missing case",
         slip="(29)",
-        corrected_tex=(
-            r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\qquad\gamma\hat{k}_3=-\frac{\alpha I_0+m_3}{I_0}},\qquad I_0^2"
-            r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
-        ),
+        corrected_tex=r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\qquad\gamma\hat{k}_3=-\frac{\alpha I_0+m_3}{I_0}},"
+        r"\qquad I_0^2\gamma^2=m_2^2+(\alpha I_0+m_3)^2",
         note=r"Where $\gamma = 0$ the quotients have no value.",
         false=Falsehood(
             r"$\hat{\mathbf{k}}$ points along $\mathbf{m}$ and $\mathbf{B}$, not against them", "k2 = -m2", "k2 = m2"
@@ -357,10 +351,8 @@ TRIALS = (
         corrected_model=true_constants_model,
         corrected_defines=(),
         corrected_solves="",
-        corrected_tex=(
-            r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\quad\gamma\hat{k}_3=-\frac{m_3+\alpha I_0}{I_0},\quad"
-            r"\hat{k}_2^2+\hat{k}_3^2=1},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
-        ),
+        corrected_tex=r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\quad\gamma\hat{k}_3=-\frac{m_3+\alpha I_0}{I_0},\quad"
+        r"\hat{k}_2^2+\hat{k}_3^2=1},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}",
         grade="missing case",
         note=r"Right but for one point, $m_2 = 0$ and $m_3 = -\alpha I_0$, where it reads $0/0$: there $\gamma = 0$ "
         r"and $\hat{\mathbf{k}}$ is any unit vector, see @theorem-ball-rest.",
@@ -385,10 +377,8 @@ TRIALS = (
         grade="missing case",
         corrected_model=lambda: (parallel_model(), parallel_model(-1)),
         corrected_signs={r"\text{for}\quad m_3\gtrless-\alpha I_0": "sign*(m3 + alpha*I0) > 0"},
-        corrected_tex=(
-            r"\hat{\mathbf{k}}=(0,0,\boxed{\mp1})^T,\qquad\gamma=\boxed{\pm}\Bigl(\alpha+\frac{m_3}{I_0}\Bigr)\quad"
-            r"\boxed{\text{for}\quad m_3\gtrless-\alpha I_0}"
-        ),
+        corrected_tex=r"\hat{\mathbf{k}}=(0,0,\boxed{\mp1})^T,\qquad\gamma=\boxed{\pm}\Bigl(\alpha+\frac{m_3}{I_0}"
+        r"\Bigr)\quad\boxed{\text{for}\quad m_3\gtrless-\alpha I_0}",
         note=r"For a fast spin against $\mathbf{B}$, $m_3 < -\alpha I_0$, both signs turn round, since $\gamma$ is a "
         r"root and never negative. The product, and so @(30), is the same; for $m_3 = -\alpha I_0$ see "
         "@theorem-ball-rest.",

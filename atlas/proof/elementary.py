@@ -301,14 +301,12 @@ TRIALS = (
         grade="missing case",
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
         corrected_signs={r"\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0": ""},
-        corrected_tex=(
-            r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)+"
-            r"\Omega_2"
-            r"\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)-"
-            r"\Omega_1"
-            r"\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0} "
-            r"\end{aligned}"
-        ),
+        corrected_tex=r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
+        r"\gamma_3)+\Omega_2"
+        r"\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)-"
+        r"\Omega_1"
+        r"\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0} "
+        r"\end{aligned}",
         note=_AT_REST,
     ),
     Trial(name="(79)", model=integral_model, follows="@(75), @(76) and @(78)"),
@@ -336,14 +334,12 @@ TRIALS = (
         slip="(78)",
         corrected_defines=(),
         corrected_solves="",
-        corrected_tex=(
-            r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c"
-            r"\hat{B}_3^2]"
-            r"\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}\gamma_2&=[c-b"
-            r"\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi "
-            r"t+\boxed{\omega_2}\frac{b}{\hat{B}_2}"
-            r"\sin(kt+k_0)\sin\phi t \end{aligned}"
-        ),
+        corrected_tex=r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c"
+        r"\hat{B}_3^2]"
+        r"\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}\gamma_2&=[c-b"
+        r"\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi "
+        r"t+\boxed{\omega_2}\frac{b}{\hat{B}_2}"
+        r"\sin(kt+k_0)\sin\phi t \end{aligned}",
         note=_AT_REST,
     ),
     Trial(
@@ -353,11 +349,9 @@ TRIALS = (
         follows="@(80) and @(81) at $t = 0$",
         grade="missing case",
         slip="(78)",
-        corrected_tex=(
-            r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3\omega_2}{"
-            r"\hat{B}_2}"
-            r"\cos k_0-c\hat{B}_3^2,\quad\boxed{\omega_2}\gamma_3(0)=\omega_2b\cos k_0+c\hat{B}_2\hat{B}_3"
-        ),
+        corrected_tex=r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3"
+        r"\omega_2}{\hat{B}_2}"
+        r"\cos k_0-c\hat{B}_3^2,\quad\boxed{\omega_2}\gamma_3(0)=\omega_2b\cos k_0+c\hat{B}_2\hat{B}_3",
         note=_AT_REST,
     ),
     Trial(
@@ -373,8 +367,7 @@ TRIALS = (
         form=_rows,
         corrected_tex=mended("(83)", {"1-\\hat{B}_3^2=": ""}, r"\qquad\boxed{\text{if}\quad\omega_2\ne0}"),
         note=r"At $\omega_2 = 0$ all three constants $c$ are 0, and @(80) and @(81) do not reach the second and the "
-        r"third row: the "
-        "body is at rest, and @(84) says so.",
+        "third row: the body is at rest, and @(84) says so.",
     ),
     Trial(
         name="(84)",
@@ -450,9 +443,8 @@ TRIALS = (
         follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for positive $\omega_2$",
         corrected_model=free_frequency_model,
         false=Falsehood(r"It holds for negative $\omega_2$ as it stands", "abs(k)", "k"),
-        corrected_tex=(
-            r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}=k_B"
-        ),
+        corrected_tex=r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}="
+        "k_B",
         grade="missing case",
         note=r"For $\omega_2 < 0$ the length $|\mathbf{m}|$ loses the sign; @(87) holds with $k = \omega_2/\hat{B}_2$.",
     ),

@@ -226,9 +226,8 @@ TRIALS = (
         model=multiplier_model,
         follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
         note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
-        "every rotation, every symmetric mass matrix and every matrix $A$. That $g$ be non-degenerate is not "
-        "needed, only $I$. But @(10) says nothing of $R(0)$, where @(12) has 1: it admits any other orthogonal "
-        "matrix at the "
+        "every rotation, every symmetric mass matrix and every matrix $A$. That $g$ be non-degenerate is not needed, "
+        "only $I$. But @(10) says nothing of $R(0)$, where @(12) has 1: it admits any other orthogonal matrix at the "
         "start, one of the determinant $-1$ among them, for which the identity holds too.",
         grade="missing case",
         corrected_model=lambda: (multiplier_model(), mirrored_model()),

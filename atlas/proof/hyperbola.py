@@ -180,11 +180,9 @@ TRIALS = (
         follows="@(61) and the last equation of @(59)",
         grade="missing case",
         slip="(78)",
-        corrected_tex=(
-            r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+\omega_2^2)}K_2="
-            r"\omega_2B'_2"
-            r"\Omega_2"
-        ),
+        corrected_tex=r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+"
+        r"\omega_2^2)}K_2=\omega_2B'_2"
+        r"\Omega_2",
         note=_REST,
     ),
     Trial(
@@ -195,11 +193,9 @@ TRIALS = (
         grade="missing case",
         slip="(78)",
         corrected_defines=(),
-        corrected_tex=(
-            r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\boxed{(\omega_1^2+\omega_2^2)}"
-            r"\phi'=[(1-I)\omega_3+(2-I)B'_3](\omega_1^2+\omega_2^2)-IB'_2\omega_2"
-            r"\omega_3"
-        ),
+        corrected_tex=r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\boxed{(\omega_1^2+"
+        r"\omega_2^2)}\phi'=[(1-I)\omega_3+(2-I)B'_3](\omega_1^2+\omega_2^2)-IB'_2\omega_2"
+        r"\omega_3",
         note=_REST,
     ),
     Trial(
@@ -211,10 +207,8 @@ TRIALS = (
         grade="missing case",
         slip="(78)",
         corrected_defines=(),
-        corrected_tex=(
-            r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\boxed{B'_2\omega_2}\phi=B'_2\omega_2"
-            r"\omega_3-B'_3(\omega_1^2+\omega_2^2)"
-        ),
+        corrected_tex=r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\boxed{B'_2\omega_2}\phi=B'_2"
+        r"\omega_2\omega_3-B'_3(\omega_1^2+\omega_2^2)",
         note=r"At $\omega_2 = 0$ it has no value. Of these launches only rest has a constant $\Omega_3$.",
     ),
     Trial(
@@ -223,10 +217,8 @@ TRIALS = (
         follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
         grade="missing case",
         slip="(78)",
-        corrected_tex=(
-            r"[B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2]\boxed{(\omega_1^2+\omega_2^2)}"
-            r"-I{B'_2}^2\omega_2^2\omega_3=0"
-        ),
+        corrected_tex=r"[B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2]\boxed{(\omega_1^2+"
+        r"\omega_2^2)}-I{B'_2}^2\omega_2^2\omega_3=0",
         note=_REST,
     ),
     Trial(name="(66)", model=condition_model, follows="@(50)"),
@@ -291,12 +283,10 @@ TRIALS = (
             ),
         ),
         corrected_signs={r"\text{or}\quad\omega_2=-B'_2,\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I=1": ""},
-        corrected_tex=(
-            r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}"
-            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in"
-            r"\mathbb{R}"
-            r"\quad\text{if}\quad I=1} \end{aligned}"
-        ),
+        corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}"
+        r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in"
+        r"\mathbb{R}"
+        r"\quad\text{if}\quad I=1} \end{aligned}",
         grade="missing case",
         slip="(52)",
         note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "

@@ -317,9 +317,8 @@ TRIALS = (
         model=rotation_model,
         follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
         "summed; the electric force kept",
-        corrected_tex=(
-            r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j(0)}\Bigr)-A_{ia}g_{aj}"
-        ),
+        corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j(0)}\Bigr)"
+        r"-A_{ia}g_{aj}",
         grade="misprint",
         note="The second term lacks its index $j$, and its places are those at $t = 0$. It vanishes "
         "about the centre of mass, so nothing later suffers.",

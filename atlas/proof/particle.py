@@ -390,10 +390,8 @@ TRIALS = (
         defines=("Cperp",),
         model=lambda: signed_model("origin"),
         follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
-        corrected_tex=(
-            r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
-            r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}"
-        ),
+        corrected_tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
+        r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}",
         grade="wording",
         note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @(99) has it.",
     ),
@@ -450,10 +448,8 @@ TRIALS = (
     Trial(
         name="text-trochoid",
         model=rolling_model,
-        follows=(
-            "@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
-            "turns by one radian"
-        ),
+        follows="@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
+        "turns by one radian",
         false=Falsehood("The circle rolls along the line through its middle", "y = r + a*cos", "y = a*cos"),
     ),
     Trial(
@@ -487,8 +483,7 @@ TRIALS = (
         model=potentials_model,
         follows="the potentials @(102)",
         note=r"With $\mathbf{E} = +\nabla A_0$ the paper has the opposite of the sign that is customary; $A_0$ is "
-        r"minus the "
-        "usual potential, and @(103) agrees with it.",
+        "minus the usual potential, and @(103) agrees with it.",
         false=Falsehood(r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$", "+ grad(A0)", "- grad(A0)"),
     ),
     Trial(

@@ -250,9 +250,8 @@ TRIALS = (
             r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},"
             r"\mathbf{K})}": "rank([E, dot(K, K), c3, c5])"
         },
-        follows=r"their rates, and their gradients at one point, $\boldsymbol{\Omega} = (1, 2, 3)$, "
-        r"$\mathbf{K} = (4, 5, "
-        "6)$",
+        follows=r"their rates, and their gradients at one point, $\boldsymbol{\Omega} = (1, 2, 3)$, $\mathbf{K} = (4, "
+        "5, 6)$",
         note="Independent at one point, so at all but those of a set of measure zero.",
         false=Falsehood(
             "The component of the angular velocity along the field is conserved", "d([E,", "d([dot(Omega, K),"
@@ -263,16 +262,13 @@ TRIALS = (
         model=state_model,
         follows="@(38), @(40) and @(41)",
         grade="missing case",
-        corrected_tex=(
-            r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}K_1&=\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot"
-            r"\Omega_3,\\ "
-            r"\boxed{(E'-I\Omega_3^2)}K_2&=\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3,\qquad"
-            r" K_3=-\Omega_3+c_3 \end{aligned}"
-        ),
+        corrected_tex=r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}K_1&=\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2"
+        r"\dot\Omega_3,\\ "
+        r"\boxed{(E'-I\Omega_3^2)}K_2&=\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3,\qquad"
+        r" K_3=-\Omega_3+c_3 \end{aligned}",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ it reads $0/0$. That happens at the start of every launch $(0, 0, "
-        r"\omega_3)$, "
-        r"and again whenever $\Omega_3$ comes back: for $I = 3/2$, $\mathbf{B}' = (0, 1, 1)$, $\omega_3 = 1$ at $t = "
-        r"2.347$.",
+        r"\omega_3)$, and again whenever $\Omega_3$ comes back: for $I = 3/2$, $\mathbf{B}' = (0, 1, 1)$, $\omega_3 = "
+        "1$ at $t = 2.347$.",
     ),
     Trial(
         name="(43)",
@@ -280,11 +276,10 @@ TRIALS = (
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
         grade="missing case",
         slip="(42)",
-        corrected_tex=(
-            r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}\dot\Omega_1&=[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_2-I\Omega_3"
-            r"\dot\Omega_3\Omega_1,\\ \boxed{(E'-I\Omega_3^2)}\dot\Omega_2&=-[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_1"
-            r"-I\Omega_3\dot\Omega_3\Omega_2 \end{aligned}"
-        ),
+        corrected_tex=r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}\dot\Omega_1&=[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_2-I"
+        r"\Omega_3"
+        r"\dot\Omega_3\Omega_1,\\ \boxed{(E'-I\Omega_3^2)}\dot\Omega_2&=-[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_1"
+        r"-I\Omega_3\dot\Omega_3\Omega_2 \end{aligned}",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ neither $\phi$ nor $\dot f$ of @(44) has a value.",
     ),
     Trial(
@@ -297,10 +292,8 @@ TRIALS = (
         slip="(42)",
         corrected_defines=(),
         corrected_solves="",
-        corrected_tex=(
-            r"\boxed{(E'-I\Omega_3^2)}\phi=(2-I)c_3E'-(E'+Ic_5)\Omega_3,\qquad\boxed{(E'-I\Omega_3^2)}\dot f=-I\Omega_3"
-            r"\dot\Omega_3"
-        ),
+        corrected_tex=r"\boxed{(E'-I\Omega_3^2)}\phi=(2-I)c_3E'-(E'+Ic_5)\Omega_3,\qquad\boxed{(E'-I\Omega_3^2)}\dot f="
+        r"-I\Omega_3\dot\Omega_3",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ the quotient reads $0/0$ and the logarithm has no value. "
         "$f$ counts up to a constant: the logarithm of a quantity with a dimension.",
     ),
@@ -314,15 +307,11 @@ TRIALS = (
         grade="missing case",
         slip="(42)",
         corrected_model=passing_model,
-        corrected_tex=(
-            r"\Omega_1=f_0\,\boxed{\rho}\sin(\Phi+\phi_0),\qquad\Omega_2=f_0\,\boxed{\rho}\cos(\Phi+\phi_0),\qquad"
-            r"\boxed{\rho^2=E'-I\Omega_3^2}"
-        ),
-        note=r"Where $\Omega_1 = \Omega_2 = 0$ the vector passes through zero, but the root does not change its "
-        r"sign: with it "
-        r"the angle would have to jump by $\pi$. With a $\rho$ of either sign, which passes through zero too, all is "
-        r"smooth. "
-        "General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
+        corrected_tex=r"\Omega_1=f_0\,\boxed{\rho}\sin(\Phi+\phi_0),\qquad\Omega_2=f_0\,\boxed{\rho}\cos(\Phi+\phi_0),"
+        r"\qquad\boxed{\rho^2=E'-I\Omega_3^2}",
+        note=r"Where $\Omega_1 = \Omega_2 = 0$ the vector passes through zero, but the root does not change its sign: "
+        r"with it the angle would have to jump by $\pi$. With a $\rho$ of either sign, which passes through zero too, "
+        "all is smooth. General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
     ),
     Trial(
         name="(46)",

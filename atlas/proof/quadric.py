@@ -213,8 +213,7 @@ TRIALS = (
     Trial(
         name="(51)",
         model=condition_model,
-        follows="@(50), and the other way round: the two differ by the factor $B'_3$ for every "
-        r"$\boldsymbol{\omega}$",
+        follows=r"@(50), and the other way round: the two differ by the factor $B'_3$ for every $\boldsymbol{\omega}$",
         also=(Part(line=f"{sides(_EQUATION_50)[0]} = B3*({sides(_EQUATION_51)[0]} - (1 - I)*B2^2)", model=free_model),),
     ),
     Trial(
@@ -248,12 +247,10 @@ TRIALS = (
             r"\text{or}\quad\omega_2=-B'_2,\quad\omega_1=\pm\sqrt{1-I}\,B'_2,\quad\omega_3\in\mathbb{R}\quad"
             r"\text{if}\quad I\le1": ""
         },
-        corrected_tex=(
-            r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)}"
-            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_1=\pm"
-            r"\sqrt{1-I}\,B'_2,"
-            r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}"
-        ),
+        corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2"
+        r"+B'_2)}\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_1=\pm"
+        r"\sqrt{1-I}\,B'_2,"
+        r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}",
         grade="missing case",
         note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @(50): for $I \le 1$ the "
         r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
@@ -351,10 +348,8 @@ TRIALS = (
         model=leaving_points_model,
         also=(Part(line=_EQUATION_50, model=leaving_points_model),),
         signs={r"\omega_1B'_2\ne0\implies": "", r"\dot\Omega_3(0)": "rate"},
-        follows=(
-            r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
-            "B'_2$, @theorem-points"
-        ),
+        follows=r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
+        "B'_2$, @theorem-points",
         note=r"By the last equation of @(38) at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
         "quadric is its mirror image.",
         false=Falsehood(r"At every point of the quadric $\Omega_3$ starts with the rate zero", "rate != 0", "rate = 0"),
