@@ -1,7 +1,6 @@
 """Section III on trial: the charged ball, (19) to (30)."""
 
 import ast
-from functools import cache
 
 import sympy
 
@@ -28,7 +27,6 @@ UPRIGHT = {"alpha": "positive"}
 AXIS = [(k2, turn(h)[1]), (k3, turn(h)[0])]
 
 
-@cache
 def kinematic_model() -> Model:
     """Three masses on the principal axes of a turning body."""
     masses = sympy.symbols("m1:4", positive=True)
@@ -43,7 +41,6 @@ def kinematic_model() -> Model:
     return Model(letters, ROTATION, dict(zip(R, dR, strict=True)), ranges={"N": (1, 2, 3)})
 
 
-@cache
 def uniform_ball_model() -> Model:
     """Moments of inertia of a uniform ball of radius r, each by its own integral."""
     r, s, u, w, mass = sympy.symbols("r s u w M", positive=True)
@@ -57,7 +54,6 @@ def uniform_ball_model() -> Model:
     return Model({**letters, "I0": sympy.Rational(2, 5) * mass * r**2})
 
 
-@cache
 def ball_model() -> Model:
     """(16) with I = I0 and so g = I0/2; m = I0 R Omega."""
     tensor = I0 * sympy.eye(3)
@@ -68,7 +64,6 @@ def ball_model() -> Model:
     return Model(letters, ROTATION, flow)
 
 
-@cache
 def larmor_model() -> Model:
     """B = (0, 0, b), alpha t as an angle."""
     b = sympy.Symbol("b", positive=True)
@@ -79,7 +74,6 @@ def larmor_model() -> Model:
     return model
 
 
-@cache
 def larmor_frequency_model() -> Model:
     """Rate of the angle of m about B, from (22): (m x dm).B over |m_perp|^2 |B|, turned clockwise."""
     m, b = vector("m"), sympy.Symbol("b", positive=True)
@@ -97,14 +91,12 @@ def _motion(spin: Value, where: list[tuple[Value, Value]]) -> Model:
     return model
 
 
-@cache
 def motion_model() -> Model:
     """Model the angular momentum (26) and the constants (29), solved for m2, m3."""
     spin = sympy.Matrix([m2 * sa, m2 * ca, m3])
     return _motion(spin, [*ANGLES, (m2, -gamma * I0 * k2), (m3, -gamma * I0 * k3 - alpha * I0), *AXIS])
 
 
-@cache
 def start_model() -> Model:
     """Model the momentum that the ansatz (28) has at t = 0: I0 times the axial vector of dR/dt."""
     first = rodrigues(E3, ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
@@ -113,7 +105,6 @@ def start_model() -> Model:
     return _motion(sympy.zeros(3, 1), [(m2, I0 * W[0, 2]), (m3, I0 * W[1, 0]), *AXIS])
 
 
-@cache
 def constants_model() -> tuple[Model, Model]:
     """All initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and the point s = 0."""
     known = {"alpha": alpha, "I0": I0}
@@ -122,7 +113,6 @@ def constants_model() -> tuple[Model, Model]:
     return Model(anywhere, domains=UPRIGHT), Model(rest, domains=UPRIGHT)
 
 
-@cache
 def true_constants_model() -> tuple[Model, Model]:
     """Model the same with k and gamma solved from the motion at t = 0; where gamma = 0, k is any unit vector."""
     anywhere, rest = constants_model()
@@ -133,7 +123,6 @@ def true_constants_model() -> tuple[Model, Model]:
     )
 
 
-@cache
 def parallel_model(sign: int = 1) -> Model:
     """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of (29)."""
     known = {"axis": -sign * E3, "gamma": size / I0, "sign": sympy.Integer(sign)}
@@ -141,7 +130,6 @@ def parallel_model(sign: int = 1) -> Model:
     return Model(letters, domains=UPRIGHT)
 
 
-@cache
 def parallel_motion_model() -> Model:
     """m(0) = (0, 0, m3): the angle is m3 t/I0."""
     angle = m3 * t / I0
@@ -159,7 +147,6 @@ def _turned(line: str) -> str:
 _LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 
-@cache
 def round_model() -> Model:
     """Masses on the principal axes with equal moments; omega = R Omega."""
     whole = kinematic_model()
@@ -169,7 +156,6 @@ def round_model() -> Model:
     return Model({**whole.letters, "I0": 2 * moment}, where)
 
 
-@cache
 def body_flow_model() -> Model:
     """Omega by (21) and K = mu/(2c) R^T B by (35), for any state."""
     K = vector("K")
@@ -178,7 +164,6 @@ def body_flow_model() -> Model:
     return Model(letters, ROTATION, flow)
 
 
-@cache
 def any_momentum_model() -> Model:
     """Any vector m with any rate; Omega = R^T m/I0 with R of (20)."""
     m, rate = vector("m"), vector("w")
@@ -188,7 +173,6 @@ def any_momentum_model() -> Model:
     return Model(letters, ROTATION, flow)
 
 
-@cache
 def along_model() -> Model:
     """Model gamma of text-ball-parallel, solved for m3."""
     letters = {"t": t, "m3": I0 * (gamma - alpha), "I0": I0}
@@ -196,14 +180,12 @@ def along_model() -> Model:
     return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)})
 
 
-@cache
 def frame_model() -> Model:
     """Any other axes of the laboratory, and the tensor J of a body that is symmetric only."""
     I2, I3 = sympy.symbols("I2 I3", positive=True)
     return Model({"R": R, "I0": I0, "J": sympy.diag(I2, I2, I3)}, ROTATION)
 
 
-@cache
 def orthogonal_model(sign: int = 1) -> Model:
     """Model an orthogonal matrix of the determinant `sign`, and any m."""
     letters = {"R": sign * R, "m": vector("m"), "I0": I0, "det": lambda matrix: matrix.det(method="berkowitz")}

@@ -1,7 +1,6 @@
 """The structure behind the motion on trial: Larmor's frame, the bracket of e(3), and the integral of Clebsch."""
 
 from collections.abc import Callable
-from functools import cache
 
 import sympy
 
@@ -34,7 +33,6 @@ def gradient(vectors: Value) -> Callable[[Value], Value]:
     return lambda f: sympy.Matrix([sympy.diff(f, x) for x in vectors])
 
 
-@cache
 def tensor_model() -> Model:
     """Model any state Omega, K of a body of any inertia tensor J, with the rates (16) and (35)."""
     inverse = J.adjugate() / determinant(J)
@@ -45,7 +43,6 @@ def tensor_model() -> Model:
     return Model(letters, flow=dict(zip([*Omega, *K], [*spin, *field], strict=True)))
 
 
-@cache
 def frame_model() -> Model:
     """Model R with any spin, and turns about B' = b (0, sin, cos) of any inclination."""
     R, where = rotation_symbols()
@@ -61,7 +58,6 @@ def frame_model() -> Model:
     return model
 
 
-@cache
 def reversed_model() -> Model:
     """Model the state at -t of a motion by (12), (16) and (35): its rates are minus those of the equations."""
     whole, frame = tensor_model(), frame_model()
@@ -73,7 +69,6 @@ def reversed_model() -> Model:
     return Model(letters, where, flow, frame.start, frame.phases)
 
 
-@cache
 def poisson_model() -> Model:
     """Model any M and K as coordinates of e(3), principal moments, the bracket, and the rates of (16), (35)."""
     gM, gK = gradient(M), gradient(K)
@@ -101,7 +96,6 @@ def _rank(*functions: Value) -> int:
     return int(sympy.Matrix(functions).jacobian([*M, *K]).subs(point).rank())
 
 
-@cache
 def symmetric_model() -> Model:
     """Model the symmetric body, with c3 and c5 as they are at any state."""
     whole = state_model()

@@ -1,7 +1,5 @@
 """Closed motions on trial: the elementary motion with phi/k = r, and the free body beside it."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof.model import Model, Value, turn
@@ -13,7 +11,6 @@ omega2, r, k = sympy.symbols("omega2 r k", real=True)
 h2, h3, p = sympy.symbols("h2 h3 p", real=True)
 
 
-@cache
 def closed_model() -> Model:
     """Model a point of the hyperbola with phi of (72) for any k of (79), and any number r."""
     B2, B3 = b * h2, b * h3

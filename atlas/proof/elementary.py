@@ -1,7 +1,5 @@
 """Section V, second half, on trial: the rotation matrix in elementary functions, (73) to (88)."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof.model import Model, Value, cross, hat, rodrigues, turn, vector
@@ -62,14 +60,12 @@ def _model(
     return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS)
 
 
-@cache
 def velocity_model() -> Model:
     """K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for it."""
     letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
     return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
 
 
-@cache
 def row_model() -> Model:
     """Model A row of any turning matrix: dR/dt = R hat(Omega)."""
     Omega, row = vector("Omega"), vector("gamma")
@@ -77,7 +73,6 @@ def row_model() -> Model:
     return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})
 
 
-@cache
 def integral_model() -> Model:
     """Any row that obeys (75) with Omega of (73); c is what (76) says at that state."""
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
@@ -86,7 +81,6 @@ def integral_model() -> Model:
     return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD], {**FLOW, **rows})
 
 
-@cache
 def ratio_model() -> Model:
     """B = (2c/mu) B', and its unit vector."""
     mu, light = sympy.symbols("mu light", positive=True)
@@ -94,7 +88,6 @@ def ratio_model() -> Model:
     return _model(letters, [*FIELD])
 
 
-@cache
 def rows_model() -> Model:
     """Model the constant c of (76) for the three rows of R(0) = 1."""
     value = SPIN.subs(START)
@@ -116,7 +109,6 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
     )
 
 
-@cache
 def solution_model() -> Model:
     """Model the row of (78) and (80), for any constants."""
     row = _row(c, amplitude, (c0, s0))
@@ -130,7 +122,6 @@ def solution_model() -> Model:
     return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
 
 
-@cache
 def matrix_model() -> Model:
     """Omega of (73), the field B', and the moments of the body."""
     letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
@@ -146,7 +137,6 @@ def matrix_model() -> Model:
     return _model(letters, [*ON_HYPERBOLA, PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
 
 
-@cache
 def steady_momentum_model() -> tuple[Model, Model]:
     """Model the same for a ball, and at rest."""
     whole = matrix_model()
@@ -157,7 +147,6 @@ def steady_momentum_model() -> tuple[Model, Model]:
     return first, second
 
 
-@cache
 def resting_row_model() -> Model:
     """Model A row of the matrix of a body at rest."""
     whole = row_model()
@@ -165,7 +154,6 @@ def resting_row_model() -> Model:
     return Model({f"dgamma{n}": whole.letters[f"dgamma{n}"].xreplace(rest) for n in (1, 2, 3)})
 
 
-@cache
 def frequencies_model() -> Model:
     """Phi of (72) with omega2 = k_B hat B2."""
     kB = sympy.Symbol("kB", real=True)
@@ -174,7 +162,6 @@ def frequencies_model() -> Model:
     return _model(letters, [*ON_HYPERBOLA, (omega2, kB * hB2), (I, I3 / I2), *FIELD])
 
 
-@cache
 def free_model() -> Model:
     """Model the free body launched with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is whatever (87) says."""
     I3 = sympy.Symbol("I3", positive=True)
@@ -186,7 +173,6 @@ def free_model() -> Model:
     return _model(letters, where)
 
 
-@cache
 def free_frequency_model() -> tuple[Model, Model]:
     """Model launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
     speed, hB2 = sympy.symbols("speed hB2", positive=True)
@@ -210,7 +196,6 @@ _EULER = "J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
 _AT_REST = r"At $\omega_2 = 0$ it reads $0/0$: the body is at rest, and @(84) says so."
 
 
-@cache
 def hidden_model() -> Model:
     """Model the field B = (2c/mu) B' for any mu > 0, and its length."""
     mu, light = sympy.symbols("mu light", positive=True)
@@ -218,7 +203,6 @@ def hidden_model() -> Model:
     return _model({"Bl2": scale * hB2, "Bl": scale}, [K_OF_OMEGA2, *FIELD])
 
 
-@cache
 def free_body_model() -> Model:
     """Model any motion of the free symmetrical body: third axis a, angular velocity omega, in the laboratory."""
     a, m = vector("a"), vector("m")
@@ -238,7 +222,6 @@ def rodrigues_axis() -> Value:
     return sympy.Matrix([2 * x, 2 * y, 1 - x**2 - y**2]) / (1 + x**2 + y**2)
 
 
-@cache
 def free_proper_model() -> Model:
     """Model the free body of the affirmation: its rate of proper rotation is Omega3 less the part of m/I2 along e3."""
     model = free_model()

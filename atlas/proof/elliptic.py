@@ -1,7 +1,5 @@
 """The paper's family for a body with any three moments of inertia, on trial."""
 
-from functools import cache
-
 import sympy
 from sympy.polys.matrices import DomainMatrix
 
@@ -41,14 +39,12 @@ def clebsch(momentum: Value) -> Value:
     return dot(momentum, momentum) - D * dot(K, AXES.inv() * K)
 
 
-@cache
 def elliptic_model() -> Model:
     """Model any K of a body with principal moments, any z and v, with K turned as the theorem says."""
     letters = {name: value for name, value in LETTERS.items() if name != "P"}
     return Model(letters, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
 
 
-@cache
 def integrals_model() -> Model:
     """Model any M and K of a body with principal moments, and any z and v."""
     letters = {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
@@ -56,7 +52,6 @@ def integrals_model() -> Model:
     return Model({**LETTERS, **letters, "X": X})
 
 
-@cache
 def root_model(*, elliptic: bool = False) -> Model:
     """Model the same for v^2 = P, with the integrals at M, or at the elliptic motion's own."""
     momentum = LETTERS["elliptic"] if elliptic else M
@@ -64,7 +59,6 @@ def root_model(*, elliptic: bool = False) -> Model:
     return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
 
 
-@cache
 def edge_model() -> tuple[Model, Model]:
     """Model any M and K of a body whose third moment is the largest."""
     first, second = sympy.symbols("first second", nonnegative=True)
@@ -76,7 +70,6 @@ def edge_model() -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-@cache
 def critical_model() -> Model:
     """Model the values of F and 2 D H on the elliptic motions as functions of z, with v' = P'/2v, at any b and c."""
     b, c = sympy.symbols("b c", real=True)
@@ -85,7 +78,6 @@ def critical_model() -> Model:
     return Model(letters, flow={z: sympy.Integer(1), v: LETTERS["P1"] / (2 * v)})
 
 
-@cache
 def linear_model() -> Model:
     """Model the flow of half the sum of squares, linear about x_i M_i = -v K_i.
 

@@ -49,7 +49,6 @@ def multiplier_model() -> Model:
     return Model({**COMMON, **letters, "ddR": R * (hat(Omega) ** 2 + hat(w))}, ROTATION)
 
 
-@cache
 def mirrored_model() -> Model:
     """Model the same for minus a rotation: every orthogonal matrix of the determinant -1."""
     whole = multiplier_model()
@@ -60,7 +59,6 @@ def mirrored_model() -> Model:
     return Model({**whole.letters, **letters}, ROTATION)
 
 
-@cache
 def magnetic_model() -> Model:
     """Model the magnetic force of (7) as the matrix A, and I times the rate of Omega from (11)."""
     letters, dR = multiplier_model().letters, R * hat(Omega)
@@ -73,7 +71,6 @@ def euler(tensor: Value, mass: Value, field: Value) -> Value:
     return cross(tensor * Omega, Omega) - mu / c * cross(mass * field, Omega)
 
 
-@cache
 def momentum_model() -> Model:
     """Angular momentum in both frames, with the rates that (16) and (12) give them.
 
@@ -92,7 +89,6 @@ def momentum_model() -> Model:
     return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION)
 
 
-@cache
 def poisson_model() -> Model:
     """Any moving rotation: R changes with its three parameters; Omega is read off R^T dR/dt."""
     R = rotation()
@@ -104,14 +100,12 @@ def poisson_model() -> Model:
     return Model({"R": R, "Omega": sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])}, flow=flow, start=start)
 
 
-@cache
 def matrix_flow_model() -> Model:
     """Any matrix that obeys (12)."""
     free = matrix("R")
     return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)))
 
 
-@cache
 def diagonal_model() -> Model:
     """Principal axes: I and g are diagonal, made of three masses on the axes."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
@@ -123,7 +117,6 @@ def diagonal_model() -> Model:
     return Model(letters)
 
 
-@cache
 def axes_model() -> Model:
     """Three masses on the principal axes, turned by R: their inertia tensor in the laboratory."""
     masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", positive=True)
@@ -137,7 +130,6 @@ def axes_model() -> Model:
     return Model(letters, ROTATION, start=start, ranges={"i": (1, 2, 3)})
 
 
-@cache
 def inertia_model() -> Model:
     """Model the inertia tensor from the kinetic energy of four particles that turn with Omega."""
     masses = sympy.symbols("m1:5", positive=True)
@@ -147,7 +139,6 @@ def inertia_model() -> Model:
     return Model({"I": sympy.hessian(sympy.expand(energy), list(Omega)), "g": mass})
 
 
-@cache
 def grioli_model() -> Model:
     """B along e3; G3 is the third row of R."""
     b = sympy.Symbol("b", positive=True)
@@ -158,7 +149,6 @@ def grioli_model() -> Model:
     )
 
 
-@cache
 def algebraic_model() -> Model:
     """Principal axes, any matrix A; IdOmega is what (11) makes of the rate of Omega."""
     whole = multiplier_model()
@@ -167,7 +157,6 @@ def algebraic_model() -> Model:
     return Model({**letters, "IdOmega": whole.letters["IdOmega"].xreplace(swap)}, ROTATION)
 
 
-@cache
 def moments_model() -> tuple[Model, Model]:
     """Any body with its three moments of mass, and a plane one."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
@@ -179,7 +168,6 @@ def moments_model() -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-@cache
 def covariance_model(sign: int = 1) -> Model:
     """Model another rotation S of the laboratory, or minus one: what vectors and tensors of Section II are there."""
     symbols, where = rotation_symbols("S")
@@ -187,7 +175,6 @@ def covariance_model(sign: int = 1) -> Model:
     return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, where)
 
 
-@cache
 def flight_model() -> Model:
     """Four particles about their centre of mass; w is the rate of Omega, IdOmega that of (16) times I."""
     masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))

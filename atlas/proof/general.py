@@ -1,7 +1,5 @@
 """The general motion of the symmetric body on trial: the top of Larmor's frame, and its sigma functions."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof.clebsch import symmetric_model
@@ -32,7 +30,6 @@ QUARTIC = (1 - nu**2) * (g - A * nu**2) - (p - M3 * nu) ** 2
 G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
 
 
-@cache
 def top_model() -> Model:
     """Model any state of the symmetric body in units of I2, K = b times a unit vector in stereographic coordinates."""
     whole = symmetric_model()
@@ -48,7 +45,6 @@ def top_model() -> Model:
     return Model(letters, [*where, (nu, K[2] / b)], flow)
 
 
-@cache
 def letters_model() -> Model:
     """Model the constants of the top as free letters, and u, with the quartics of the two theorems."""
     names = ("E", "c5", "Bsquare")
@@ -59,7 +55,6 @@ def letters_model() -> Model:
     return Model(letters, [(letters["Bsquare"], b**2)])
 
 
-@cache
 def weierstrass_model() -> Model:
     """Model any quartic with a root e, and P, P1 for the function of Weierstrass and its rate, P1^2 = 4P^3-g2 P-g3."""
     a = sympy.symbols("a0:4", real=True)
@@ -69,7 +64,6 @@ def weierstrass_model() -> Model:
     return Model({**letters, **functions("Q", whole, u)}, flow={P: P1})
 
 
-@cache
 def curve_model() -> Model:
     """Model nu on its curve, dnu = w, w^2 = q(nu), and the Cayley-Klein parameters up to a steady turn."""
     w, a, eta = sympy.symbols("w a eta", real=True)
@@ -83,7 +77,6 @@ def curve_model() -> Model:
     return Model(letters, where, flow)
 
 
-@cache
 def residue_model() -> tuple[Model, ...]:
     """Model the place nu = -1, with a rate of nu of either sign, and the logarithmic rate of xi there."""
     w, cases = sympy.Symbol("w", real=True), []
@@ -95,7 +88,6 @@ def residue_model() -> tuple[Model, ...]:
     return tuple(cases)
 
 
-@cache
 def sigma_model() -> Model:
     """Model q with a root e, and P, P1 as in `weierstrass_model`; zeta and sigma by their addition theorem and rates.
 

@@ -1,7 +1,5 @@
 """Section V, first half, on trial: motions with a constant Omega3, (58) to (72)."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof.model import Model, Value, certain, cross, turn
@@ -43,7 +41,6 @@ def _rates() -> tuple[Value, Value]:
     return tensor.inv() * (cross(tensor * Omega, Omega) - 2 * cross(mass * K, Omega)), -cross(Omega, K)
 
 
-@cache
 def constant_model() -> Model:
     """Omega3 = omega3, so that K3 = B3 by (40)."""
     dOmega, dK = _rates()
@@ -53,7 +50,6 @@ def constant_model() -> Model:
     return Model({**_STATE, **letters}, flow={omega3: sympy.Integer(0)}, start=start)
 
 
-@cache
 def proportional_model() -> Model:
     """Model both parts across e3 along one line, as the last equation of (59) has it; either may be zero."""
     dOmega, dK = _rates()
@@ -68,7 +64,6 @@ def proportional_model() -> Model:
     return Model(_STATE, where, flow, start)
 
 
-@cache
 def circle_model() -> Model:
     """Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in (61)."""
     cosine, sine = turn(p)
@@ -77,7 +72,6 @@ def circle_model() -> Model:
     return Model(_STATE, where)
 
 
-@cache
 def precession_model() -> Model:
     """Rates with K of (62): from the Euler equations, and from the rates of K."""
     factor = omega2 * B2 / (omega1**2 + omega2**2)
@@ -94,7 +88,6 @@ def _frequencies() -> tuple[Value, Value]:
     return letters["phip"], letters["phi"]
 
 
-@cache
 def agreement_model() -> Model:
     """Model the omega3 for which both frequencies agree: the condition is linear in it."""
     euler, field = _frequencies()
@@ -103,7 +96,6 @@ def agreement_model() -> Model:
     return Model(LETTERS, [(omega3, sympy.cancel(-rest / slope))])
 
 
-@cache
 def motion_model() -> tuple[Model, Model]:
     """Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then (66), resolved or, for I = 1, at omega2 = -B2."""
     zero = (omega1, sympy.Integer(0))
@@ -111,7 +103,6 @@ def motion_model() -> tuple[Model, Model]:
     return Model(LETTERS, [(omega3, constant_omega3()), zero]), Model(LETTERS, ball)
 
 
-@cache
 def both_conditions_model() -> tuple[Model, Model]:
     """All solutions of (65) and (66): their difference is a multiple of omega1^2 omega3."""
     square = omega1**2 + omega2**2
@@ -121,7 +112,6 @@ def both_conditions_model() -> tuple[Model, Model]:
     return Model(LETTERS, [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]), Model(LETTERS, circle)
 
 
-@cache
 def degenerate_model() -> tuple[Model, Model]:
     """Model the two lines of the hyperbola for I = 1; sign tells them apart."""
     whole = canonical_model("one", plane=True)
@@ -145,7 +135,6 @@ def degenerate_model() -> tuple[Model, Model]:
     return lines[0], lines[1]
 
 
-@cache
 def frequency_model() -> Model:
     """Phi' of (63) at omega1 = 0, on the hyperbola."""
     phi = _frequencies()[0].subs(I3, I * I2)

@@ -87,13 +87,11 @@ def forces(*, equal: bool = True) -> dict[int, Value]:
     return sums
 
 
-@cache
 def action_model() -> Model:
     """Letters of the action."""
     return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES)
 
 
-@cache
 def potential_model() -> Model:
     """Letters of the potential energy."""
     A0 = {N: dot(y[N], E) for N in ALL}
@@ -102,7 +100,6 @@ def potential_model() -> Model:
     return Model({**COMMON, "y": y, "dy": dy, "U": -potential_energy(), "A0": A0, "A": A, "e": e}, ranges=RANGES)
 
 
-@cache
 def particles_model() -> Model:
     """Model the particles with accelerations from the action."""
     forces_on_particles = forces()
@@ -141,7 +138,6 @@ def _about(places: dict[int, Value]) -> dict[int, Value]:
     return {**places, ALL[-1]: rest}
 
 
-@cache
 def free_model(*, equal: bool = True) -> Model:
     """Model the same with N for the particles whose places and velocities are letters."""
     whole = relative_model(equal=equal)
@@ -159,7 +155,6 @@ def _components(x: dict[int, Value]) -> dict[Any, Value]:
     return {**dict[Any, Value](x), **{(N, i): x[N][i - 1] for N in ALL for i in (1, 2, 3)}}
 
 
-@cache
 def rotation_model() -> Model:
     """Model the particles at x_N(t) = R x_N(0); R and its rate are any matrices, as linear algebra needs no more."""
     x = y
@@ -180,7 +175,6 @@ def rotation_model() -> Model:
     return Model({**COMMON, **letters}, start=dict(zip(R, sympy.eye(3), strict=True)), ranges=RANGES)
 
 
-@cache
 def rigid_model() -> Model:
     """Model the frame of particles 2, 3, 4 seen from particle 1, as columns of X at t and X0 at 0; R X0 = X."""
     X, X0 = matrix("X"), matrix("Y")
@@ -189,7 +183,6 @@ def rigid_model() -> Model:
     return Model(letters, start=dict(zip(X, X0, strict=True)), ranges={"N": FRAME})
 
 
-@cache
 def plane_model() -> Model:
     """Model a frame whose vectors X lie in one plane, a particle x0 in it, and x, lifted out of it by a height."""
     X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
@@ -197,7 +190,6 @@ def plane_model() -> Model:
     return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height]), "height": height})
 
 
-@cache
 def spatial_model() -> Model:
     """Model a frame of three independent vectors, a particle x0, and x, solved from the products that are kept."""
     X, x0 = matrix("X"), vector("p")

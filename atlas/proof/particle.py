@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
 
 import sympy
 
@@ -46,7 +45,6 @@ def euler(lagrangian: Value) -> Value:
     return (momentum.jacobian(v).inv() * force).applyfunc(sympy.cancel)
 
 
-@cache
 def lagrangian_model() -> Model:
     """Model the Lagrangian of (104) with the potentials of (102), mu = e/m; its acceleration by variation."""
     A0, A = dot(y, E), cross(B, y) / 2
@@ -66,7 +64,6 @@ def lagrangian_model() -> Model:
     return Model(letters)
 
 
-@cache
 def potentials_model() -> Model:
     """Model the potentials (102), or any part of E taken from A0 to A, which then changes in time."""
     base, share = lagrangian_model().letters, sympy.Symbol("share", real=True)
@@ -78,7 +75,6 @@ def _gradient(scalar: Value, place: Value) -> Value:
     return sympy.Matrix([scalar.diff(s) for s in place])
 
 
-@cache
 def velocity_model() -> Model:
     """Model A particle whose velocity is what the line says."""
     C = vector("C")
@@ -87,7 +83,6 @@ def velocity_model() -> Model:
     return Model(letters, flow=flow, start={t: sympy.Integer(0)})
 
 
-@cache
 def fall_model() -> Model:
     """B = 0."""
     C, y0 = vector("C"), vector("yo")
@@ -105,7 +100,6 @@ def _split() -> dict[str, Value]:
     return {**parts, "mu": mu, "c": c, "t": t, "b": b, "E2": E2}
 
 
-@cache
 def split_model() -> Model:
     """(90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
     parts = _split()
@@ -115,7 +109,6 @@ def split_model() -> Model:
     return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
 
 
-@cache
 def parallel_model() -> Model:
     """Constants of the motion along B."""
     parts = _split()
@@ -124,7 +117,6 @@ def parallel_model() -> Model:
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
-@cache
 def fall_along_model() -> Model:
     """(93)."""
     parts = _split()
@@ -132,7 +124,6 @@ def fall_along_model() -> Model:
     return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
-@cache
 def helix_model() -> Model:
     """E = 0: the part across B, from its centre, and the part along B."""
     place, rise = vector("y"), sympy.Symbol("C3", real=True)
@@ -141,7 +132,6 @@ def helix_model() -> Model:
     return Model({"y2": across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
 
 
-@cache
 def along_field_model() -> tuple[Model, Model]:
     """B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
     C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
@@ -155,7 +145,6 @@ def along_field_model() -> tuple[Model, Model]:
     return first, second
 
 
-@cache
 def shifted_model() -> Model:
     """Model the shifted variables y1 and y2 of the part across B, with the rates that (92) gives them."""
     parts = _split()
@@ -170,7 +159,6 @@ def shifted_model() -> Model:
     return Model({**letters, "y1": y1, "y2": y2}, flow=flow)
 
 
-@cache
 def charges_model(choice: str = "any") -> tuple[Model, Model]:
     """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
 
@@ -193,7 +181,6 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-@cache
 def drift_model() -> tuple[Model, Model]:
     """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
     cases = []
@@ -207,7 +194,6 @@ def drift_model() -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-@cache
 def signed_model(choice: str = "any") -> tuple[Model, Model]:
     """Model the same with a frequency that has the sign of the charge."""
     first, second = charges_model(choice)
@@ -220,7 +206,6 @@ def _general(model: Model, **letters: Value) -> Value:
     return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 
-@cache
 def start_model() -> tuple[Model, Model]:
     """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
     first, second = (
@@ -239,7 +224,6 @@ _SENSE = (
 )
 
 
-@cache
 def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
     """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
@@ -251,7 +235,6 @@ def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-@cache
 def later_model() -> tuple[Model, Model]:
     """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
 
@@ -262,7 +245,6 @@ def later_model() -> tuple[Model, Model]:
     return first, second
 
 
-@cache
 def rolling_model() -> tuple[Model, Model]:
     """Model (100) as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
     cases = []

@@ -66,7 +66,6 @@ def state_model() -> Model:
     return Model(letters, flow=FLOW, start=START)
 
 
-@cache
 def bare_model() -> Model:
     """Model the same without the coefficients of the cubic."""
     whole = state_model()
@@ -74,7 +73,6 @@ def bare_model() -> Model:
     return Model(letters, flow=FLOW, start=START)
 
 
-@cache
 def launch_model() -> Model:
     """Model the same at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
     whole = bare_model()
@@ -82,7 +80,6 @@ def launch_model() -> Model:
     return Model(whole.letters, start, flow=FLOW, start=START)
 
 
-@cache
 def field_model() -> Model:
     """(16) and (12) with K = mu/(2c) R^T B and a symmetric body."""
     (R, where), B = rotation_symbols(), vector("B")
@@ -96,7 +93,6 @@ def field_model() -> Model:
     return Model(letters, where)
 
 
-@cache
 def frame_model() -> Model:
     """B' = (0, B'2, B'3), K = R^T B' with B = 2c/mu B', and R = 1 at t = 0."""
     mu, c = general.mu, general.c
@@ -109,14 +105,12 @@ def frame_model() -> Model:
     return Model({**letters, "omega": w, "Omega": R.T * w}, where, start=dict(zip(R, sympy.eye(3), strict=True)))
 
 
-@cache
 def symmetric_body_model() -> Model:
     """I1 = I2 and I = tr(g) - g."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"g": sympy.diag(g1, g1, g3), "I2": g1 + g3, "I3": 2 * g1})
 
 
-@cache
 def passing_model() -> Model:
     """Model the same with a root rho of either sign, whose rate is -I u w/rho; f is its logarithm."""
     whole = quadrature_model()
@@ -126,7 +120,6 @@ def passing_model() -> Model:
     return Model({**whole.letters, "rho": rho, "f": sympy.log(rho)}, where, flow, phases=whole.phases)
 
 
-@cache
 def quadrature_model() -> Model:
     """Omega3 = u is any function of time with u' = w; N = n^2 stands for E' - I u^2; Phi' = phi."""
     u, w, E, phi, Phi, phi0, f0 = sympy.symbols("u w E phi Phi phi0 f0", real=True)
@@ -140,7 +133,6 @@ def quadrature_model() -> Model:
     return Model(letters, where, flow, phases={Phi: (c1, s1), phi0: (c2, s2)})
 
 
-@cache
 def initial_model() -> Model:
     """Model the cubic (47), (48) as proved, with its integrals at t = 0: Omega = omega, K = B'."""
     u, field = sympy.Symbol("Omega3", real=True), sympy.Matrix([0, B2, B3])
@@ -150,7 +142,6 @@ def initial_model() -> Model:
     return Model(letters)
 
 
-@cache
 def laboratory_model(across: Value = B2, along: Value = B3) -> Model:
     """Model a field, its part across e3 of that length at an angle to e2; S turns about e3 by that angle."""
     cosine, sine = turn(sympy.Symbol("p", real=True))
@@ -159,7 +150,6 @@ def laboratory_model(across: Value = B2, along: Value = B3) -> Model:
     return Model({"S": S, "B": field, "I": tensor, "B2": across, "B3": along})
 
 
-@cache
 def degree_model() -> tuple[Model, Model, Model]:
     """I below and above 1, and I = 1."""
     more, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)

@@ -40,13 +40,11 @@ def constant_omega3() -> Value:
     return sympy.factor(-rest / slope)
 
 
-@cache
 def lines_case() -> list[tuple[Value, Value]]:
     """Return the points omega2 = -B2, where omega3 has the coefficient 0: omega1 = s B2, I = 1 - s^2, omega3 free."""
     return [(omega2, -B2), (omega1, s * B2), (I, 1 - s**2)]
 
 
-@cache
 def condition_model() -> tuple[Model, Model]:
     """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
     certain(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
@@ -54,13 +52,11 @@ def condition_model() -> tuple[Model, Model]:
     return Model(letters, [(omega3, constant_omega3())]), Model(LETTERS, lines_case(), domains={"s": "unit"})
 
 
-@cache
 def free_model() -> Model:
     """Any initial angular velocity, on the surface or not."""
     return Model(LETTERS)
 
 
-@cache
 def lost_lines_model() -> tuple[Model, Model]:
     """Both lines omega2 = -B2 for I <= 1: omega1 = sign sqrt(1 - I) B2 with I = 1 - s^2, any omega3."""
     root = sympy.Symbol("s", positive=True)
@@ -86,7 +82,6 @@ BETA = {"beta": 2 * delta - sympy.pi / 2}
 PHASES = {delta: (cd, sd)}
 
 
-@cache
 def coordinates_model() -> Model:
     """Model the quadratic form of (51), and what its canonical form must be."""
     form = omega1**2 + (omega2 + B2) ** 2 - I * B2 / B3 * (omega2 + B2) * (omega3 + B3)
@@ -113,7 +108,6 @@ def _axes() -> tuple[Value, Value]:
     return first, second
 
 
-@cache
 def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
     """Points of the quadric in the coordinates along its own eigenvectors, centre -B'."""
     first, second = _axes()
@@ -128,7 +122,6 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
     return Model(letters, where, phases=PHASES, domains={"p": "oblique"})
 
 
-@cache
 def axes_model(above: bool, sheets: int) -> Model:
     """Sin(beta) anywhere between 0 and 1, and the squared semi-axes of (55) for two sheets, of (57) for one."""
     sine = 1 / (1 + sympy.Symbol("r", positive=True))
@@ -137,7 +130,6 @@ def axes_model(above: bool, sheets: int) -> Model:
     return Model({"I": I, "B2": B2, "a2": a2, "a3": a3, "C1s": first, "C2s": first * a2, "C3s": first * a3})
 
 
-@cache
 def angle_model() -> Model:
     """I^-1 B' = r (0, cos beta, sin beta)."""
     I2, I3, r = sympy.symbols("I2 I3 r", positive=True)
@@ -145,7 +137,6 @@ def angle_model() -> Model:
     return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1]), (delta, 2 * sympy.atan(p))], phases=PHASES)
 
 
-@cache
 def range_model() -> Model:
     """Beta, which runs over the open interval from 0 to pi/2 as B3/(I B2) runs over the positive numbers."""
     beta, s = sympy.Symbol("beta", positive=True), sympy.Symbol("s", positive=True)
@@ -159,7 +150,6 @@ def _sharp(line: str) -> str:
     return f"{line}; {first} = at0({middle}); {last} = at_end({middle})"
 
 
-@cache
 def shell_model() -> Model:
     """Moments of a cylindrical surface of mass M, by integration over the surface."""
     r, h, z, w, M = sympy.symbols("r h z w M", positive=True)
@@ -170,14 +160,12 @@ def shell_model() -> Model:
     return Model({"I": sympy.cancel(I3 / I2), "r": r, "h": h})
 
 
-@cache
 def plane_body_model() -> Model:
     """I1 = I2."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"I": 2 * g1 / (g1 + g3), "g3": g3, "I2": g1 + g3})
 
 
-@cache
 def leaving_points_model() -> Model:
     """Points of the quadric with omega1 > 0; the rate of Omega3 there is that of (38) at t = 0."""
     away = sympy.Symbol("omega1", positive=True)
@@ -192,7 +180,6 @@ _EQUATION_50, _EQUATION_51, _EQUATION_52 = (read(name, SIGNS) for name in ("(50)
 AXES = ("C1s", "C2s", "C3s")
 
 
-@cache
 def turned_model() -> Model:
     """Model axes turned counter-clockwise in the plane (e2, e3), and the components of omega + B' along them."""
     rolled = sympy.Matrix([[1, 0, 0], [0, cd, -sd], [0, sd, cd]])

@@ -1,7 +1,5 @@
 """Steady precessions, their stability and the second elementary family on trial: a quartic with a double root."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof import general
@@ -34,7 +32,6 @@ def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]
     return {"M3": momentum, "p": along, "G": rest, **functions("q", whole, nu)}
 
 
-@cache
 def any_model() -> Model:
     """Model any constants of the quartic q with the root nu0; g is 2H - M3^2/I - b^2."""
     rest = A * nu0**2 + (p - M3 * nu0) ** 2 / (1 - nu0**2)
@@ -42,7 +39,6 @@ def any_model() -> Model:
     return Model({**letters, **functions("q", QUARTIC.xreplace({general.g: rest, general.A: A}), nu)})
 
 
-@cache
 def precession_model() -> Model:
     """Model an elementary motion: (71), its rate k of precession, and the constants of its top."""
     I, B2, B3, omega2, q1 = sympy.symbols("I B2 B3 omega2 q1", real=True)
@@ -58,7 +54,6 @@ def precession_model() -> Model:
     return Model({**letters, **functions("q", QUARTIC.xreplace(state), nu)}, [(B2, b * h2), (B3, b * h3)])
 
 
-@cache
 def nutation_model() -> tuple[Model, ...]:
     """Model a steady precession with the rate w at nu0, and either sign."""
     letters = {"nu0": nu0, "A": A, "w": w, **steady(w, A)}
@@ -66,7 +61,6 @@ def nutation_model() -> tuple[Model, ...]:
     return tuple(Model({**letters, "sign": sympy.Integer(sign)}) for sign in (1, -1))
 
 
-@cache
 def range_model() -> Model:
     """Model a steady precession with A = -w^2/z, z between nu0^2 and 1."""
     z = sympy.Symbol("z", positive=True)
@@ -94,7 +88,6 @@ def _spinors(model: Model) -> Model:
     return model
 
 
-@cache
 def family_model() -> Model:
     """Model the family by the tangents of half the angles kappa and delta, w and b; all its constants are rational.
 
@@ -133,7 +126,6 @@ def family_model() -> Model:
     return _spinors(Model(letters, where, flow, phases={kappa: (ck, sk), delta: (cd, sd)}))
 
 
-@cache
 def double_model() -> Model:
     """Model any quartic with a double root at nu0 and a root at e = nu0 + y; S and C with dS = C/2, dC = c S/2."""
     y, S = sympy.symbols("y S", real=True)
@@ -143,7 +135,6 @@ def double_model() -> Model:
     return Model(letters, [(c, (C**2 - 1) / S**2)], flow={S: C / 2, C: c * S / 2})
 
 
-@cache
 def triple_model() -> Model:
     """Model a double root at an end of the band, where the others of theorem-companion-range are -nu0 +- 2 nu0."""
     I = sympy.Symbol("I", positive=True)
@@ -152,7 +143,6 @@ def triple_model() -> Model:
     return Model(letters, flow={t: sympy.Integer(1)})
 
 
-@cache
 def axis_model() -> Model:
     """Model any state near the spin along the field, in the letters of the top; n = K/b."""
     whole = top_model()
@@ -163,7 +153,6 @@ def axis_model() -> Model:
     return Model(letters, whole.where, whole.flow)
 
 
-@cache
 def escape_model() -> tuple[Model, ...]:
     """Model the motion that leaves the axis: A = a^2, M3 of either sign, e = cos(2 delta); T = S/C, as above."""
     a, delta = sympy.Symbol("a", positive=True), sympy.Symbol("delta", real=True)
@@ -182,7 +171,6 @@ def escape_model() -> tuple[Model, ...]:
     return tuple(cases)
 
 
-@cache
 def pushed_model() -> Model:
     """Model x = tan(theta/2)^2 for the state Omega = (s1, 0, omega3), K = (0, 0, b), its rate by theorem-top."""
     x, s1 = sympy.symbols("x s1", real=True)
@@ -192,7 +180,6 @@ def pushed_model() -> Model:
     return Model({"x": x, "s1": s1, "A": A, "M3": M3, "nu": place}, flow={x: rate})
 
 
-@cache
 def pendulum_model() -> Model:
     """Model nu as a function of T = tanh(a t), a^2 = A; the disk has M3 = p = 0 and 2H - b^2 = A."""
     a = sympy.Symbol("a", positive=True)

@@ -30,7 +30,6 @@ r, z, excess, T2 = sympy.symbols("r z e T2", positive=True)
 ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, and 0
 
 
-@cache
 def quartic_model() -> Model:
     """Any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
     whole = state_model().letters
@@ -53,7 +52,6 @@ def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
     return {**Q, "nun2": sympy.factor(-Q["ddQ"](spin[2]) / 2)}
 
 
-@cache
 def stability_model() -> Model:
     """Model Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
     b, hB3 = elementary.b, elementary.hB3
@@ -62,7 +60,6 @@ def stability_model() -> Model:
     return Model({**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), **letters}, where)
 
 
-@cache
 def short_model() -> Model:
     """Model the same for 1 <= I <= 2 and any real X but 0."""
     X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
@@ -80,7 +77,6 @@ def _slope_in_squares() -> Value:
     return sympy.cancel(sympy.cancel(value).subs({x: sympy.sqrt(z), tau: sympy.sqrt(T2)}))
 
 
-@cache
 def places_model(*, within: bool) -> tuple[Model, ...]:
     """Model x^2 = z within the band, its ends among them, or outside, below and above it; 8 tau^2 = 1 - root^2."""
     share, more = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
@@ -95,7 +91,6 @@ def places_model(*, within: bool) -> tuple[Model, ...]:
     return tuple(cases)
 
 
-@cache
 def above_model() -> Model:
     """8 tau^2 = 1 + gain and I < 1; z = x^2 is any positive number."""
     t2, scale = (1 + r) / 8, 1 / (1 + excess)
@@ -103,7 +98,6 @@ def above_model() -> Model:
     return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
 
 
-@cache
 def root_model() -> tuple[Model, Model, Model]:
     """Q at omega3 + v, and p'(omega3), for every elementary motion: of the hyperbola, and of the lines omega2 = -B2.
 
@@ -120,7 +114,6 @@ def root_model() -> tuple[Model, Model, Model]:
     return first, second, third
 
 
-@cache
 def leaving_model() -> Model:
     """Model I < 1, time, and Q by theorem-root with the frequency 0."""
     t, v = sympy.symbols("t v", real=True)
@@ -130,7 +123,6 @@ def leaving_model() -> Model:
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
 
-@cache
 def equatorial_model() -> Model:
     """B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
     lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
@@ -138,7 +130,6 @@ def equatorial_model() -> Model:
     return Model({**LETTERS, **rates}, [(B3, sympy.Integer(0))])
 
 
-@cache
 def ball_nutation_model() -> Model:
     """I = 1 and any initial angular velocity."""
     spin = sympy.Matrix([omega1, omega2, omega3])
@@ -146,7 +137,6 @@ def ball_nutation_model() -> Model:
     return Model({"nun2": Q["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
 
 
-@cache
 def torque_model() -> Model:
     """(17) for any symmetric mass matrix and any Omega."""
     whole = euler_poisson.magnetic_model()
@@ -157,7 +147,6 @@ def torque_model() -> Model:
     return Model(letters, whole.where, dict(zip(R, R * hat(spin), strict=True)))
 
 
-@cache
 def lines_model() -> tuple[Model, Model]:
     """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2, with omega1 of either sign."""
     size = sympy.Symbol("size", positive=True)
@@ -168,7 +157,6 @@ def lines_model() -> tuple[Model, Model]:
     return first, second
 
 
-@cache
 def turning_model(case: str) -> Model:
     """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
     e = elementary
@@ -187,7 +175,6 @@ def turning_model(case: str) -> Model:
     return model
 
 
-@cache
 def rest_model() -> Model:
     """Model A ball with m = (0, 0, -alpha I0)."""
     b = ball
@@ -197,7 +184,6 @@ def rest_model() -> Model:
     return model
 
 
-@cache
 def angles_model() -> Model:
     """Model R = R_z(psi) R_x(theta) R_z(chi) with any rates of the angles; B = b e3, Omega from R^T dR/dt."""
     b = sympy.Symbol("b", positive=True)

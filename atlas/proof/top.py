@@ -1,7 +1,5 @@
 """Every symmetric top in a uniform field on trial: its quartic, its steady precessions and the paper's quadric."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof.model import Model, Value, cross, dot, functions, turn, vector
@@ -36,7 +34,6 @@ def _force(b: Value) -> Value:
     return a0 + A0 * b[2]
 
 
-@cache
 def state_model() -> Model:
     """Model any state M, b of the top, b a unit vector, with the rates of the equations; and the state at t = 0."""
     M, b = vector("M"), vector("b")
@@ -54,7 +51,6 @@ def state_model() -> Model:
     return Model(letters, [*where, (nu, b[2])], flow)
 
 
-@cache
 def start_model() -> Model:
     """Model the start with b = (0, n2, n3), and what the rates of nu are there."""
     whole, (n2, n3) = state_model(), turn(x)[::-1]
@@ -67,7 +63,6 @@ def start_model() -> Model:
     return Model(letters, [(direction[1], n2), (direction[2], n3)], whole.flow, values)
 
 
-@cache
 def paper_model() -> Model:
     """Model the paper's body with B' = b n: k2 = b, k3 = I b, no potential."""
     b = sympy.Symbol("b", positive=True)
@@ -76,7 +71,6 @@ def paper_model() -> Model:
     return Model(letters, [*where, *start_model().where])
 
 
-@cache
 def turns_model() -> Model:
     """Model b turned about the axis by an angle with cosine and sine, and Omega = psi b + chi e3 on the hyperbola."""
     base = start_model().letters
@@ -89,7 +83,6 @@ def turns_model() -> Model:
     return Model(letters, where, flow={s: chi * c, c: -chi * s})
 
 
-@cache
 def quartic_model() -> Model:
     """Model any constants of the quartic with a root at nu = r."""
     w = (p - M3 * r) / (1 - r**2)
@@ -98,7 +91,6 @@ def quartic_model() -> Model:
     return Model({**letters, "g": rest})
 
 
-@cache
 def precession_model() -> Model:
     """Model a steady precession with the rate w at nu = r."""
     w = sympy.Symbol("w", real=True)
@@ -108,7 +100,6 @@ def precession_model() -> Model:
     return Model({**letters, **functions("q", QUARTIC.xreplace({M3: momentum, p: along, g: rest}), nu)})
 
 
-@cache
 def marginal_model() -> Model:
     """Model a steady precession whose nutation has no frequency, c = (a + A r)/w."""
     base = dict(precession_model().letters)
@@ -119,7 +110,6 @@ def marginal_model() -> Model:
     return Model({**base, "c": c}, [(A, leading), (a, force)])
 
 
-@cache
 def sleeping_model() -> tuple[Model, ...]:
     """Model the state at rest at nu = sigma, and the border of its stability, M3 = 2 m, A = m^2 - sigma a."""
     models = []
@@ -129,7 +119,6 @@ def sleeping_model() -> tuple[Model, ...]:
     return tuple(models)
 
 
-@cache
 def border_model() -> tuple[Model, ...]:
     """Model the border of stability, A = M3^2/4 - sigma a."""
     return tuple(Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model())

@@ -1,7 +1,5 @@
 """The energy-momentum map of a symmetric top on trial: cusps, focus-focus values, and the residues of its angles."""
 
-from functools import cache
-
 import sympy
 
 from atlas.proof.model import Model, Value, dot, functions, vector
@@ -22,14 +20,12 @@ SIGNS = {
 r, k2, kappa, spin = sympy.symbols("nuc k2 kappa spin", real=True)
 
 
-@cache
 def cusp_model() -> Model:
     """Model any constants of the quartic q, with p such that the axis would not precess at nu = r."""
     letters = {"nu": nu, "nuc": r, "a": a, "A": A, "M3": M3, "g": g, "k2": k2, "p": p}
     return Model({**letters, "psi1": (p - M3 * nu) / (1 - nu**2) - k2, **functions("q", QUARTIC, nu)})
 
 
-@cache
 def spin_model() -> tuple[Model, ...]:
     """Model any state M, b, |b| = 1, near a spin about n in either sense s."""
     models = []
@@ -46,7 +42,6 @@ def spin_model() -> tuple[Model, ...]:
     return tuple(models)
 
 
-@cache
 def residue_model() -> tuple[Model, ...]:
     """Model any constants of the quartic q at either end s of its range, and the rates P of psi and C of chi."""
     turn, cases = (p - M3 * nu) / (1 - nu**2), []

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 from atlas.paper import EQUATIONS
 from atlas.proof import tex
@@ -11,6 +12,13 @@ from atlas.proof.notation import NoMeaningError, Reader, parse, sides
 from atlas.proof.verdict import Grade
 
 Cases = Model | Sequence[Model]
+
+
+@cache
+def _made(model: Callable[[], Cases]) -> Sequence[Model]:
+    """Return the models of a line, made once for all that is tried in them."""
+    models = model()
+    return [models] if isinstance(models, Model) else models
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,8 +33,7 @@ class Part:
     @property
     def cases(self) -> Sequence[Model]:
         """The models in which the line is tried."""
-        models = self.model()
-        return [models] if isinstance(models, Model) else models
+        return _made(self.model)
 
     def outcome(self, line: str = "", *, sample_only: bool = False, shrink: bool = False) -> Outcome:
         """Try the line, or another one in its place."""
