@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, symmetric, turn, vector
 from atlas.proof.pseudo_oscillator import state_model
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.trial import Falsehood, Trial
 
 SIGNS = {
     r"R_{\hat{\mathbf{B}}}": "about_B()",
@@ -127,7 +127,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-momentum-canonical",
-        also=(Part(line="d(M) = cross(M,Omega) + cross(J*Omega,K)", model=tensor_model),),
+        also=("d(M) = cross(M,Omega) + cross(J*Omega,K)",),
         model=tensor_model,
         follows="@(16), with the Lagrangian @(104) summed over the body",
         defines=("L",),
@@ -141,17 +141,16 @@ TRIALS = (
         model=poisson_model,
         follows=r"@(16) and @(35) with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
         defines=("H",),
-        also=(Part(line="d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0", model=poisson_model),),
+        also=("d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0",),
         false=Falsehood(r"$\mathbf{M}^2$ is conserved", "d(dot(M,K)) = 0", "d(dot(M,M)) = 0"),
     ),
     Trial(
         name="theorem-bracket",
         also=(
-            Part(
-                line="eps[i,j,k]*br(br(M[i],M[j]),M[k]) = 0;"
+            (
+                "eps[i,j,k]*br(br(M[i],M[j]),M[k]) = 0;"
                 " eps[l,i,j]*br(br(M[i],M[j]),K[k]) + 2*eps[l,i,j]*br(br(M[j],K[k]),M[i]) = 0;"
-                " br(M[i],dot(K,K)) = 0; br(M[i],dot(M,K)) = 0; br(K[i],dot(M,K)) = 0",
-                model=poisson_model,
+                " br(M[i],dot(K,K)) = 0; br(M[i],dot(M,K)) = 0; br(K[i],dot(M,K)) = 0"
             ),
         ),
         model=poisson_model,
@@ -162,7 +161,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-kinetic-energy",
-        also=(Part(line="d(1/2*dot(Omega,J*Omega)) = 0", model=tensor_model),),
+        also=("d(1/2*dot(Omega,J*Omega)) = 0",),
         model=tensor_model,
         follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @(16) and @(35)",
         note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
@@ -170,7 +169,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-clebsch",
-        also=(Part(line="cross(J*Omega,J*K) = det(J)*inv(J)*cross(Omega,K)", model=tensor_model),),
+        also=("cross(J*Omega,J*K) = det(J)*inv(J)*cross(Omega,K)",),
         model=tensor_model,
         follows=r"@(16) and @(35); $\det J J^{-1}$ is the matrix of cofactors",
         defines=("F",),
@@ -187,7 +186,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-clebsch-symmetric",
-        also=(Part(line="M3 = I3*c3; E = 2/I2*(H - dot(M,K))", model=symmetric_model),),
+        also=("M3 = I3*c3; E = 2/I2*(H - dot(M,K))",),
         signs={"M_3": "M3"},
         model=symmetric_model,
         follows="@(36), @(40) and @(41) at any state",

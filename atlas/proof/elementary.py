@@ -371,7 +371,7 @@ TRIALS = (
     Trial(
         name="text-precession",
         model=matrix_model,
-        also=(Part(line="Q = rod(e3,cos(phi*t),sin(phi*t))", model=matrix_model),),
+        also=("Q = rod(e3,cos(phi*t),sin(phi*t))",),
         signs={r"[\hat{\mathbf{B}},\cdot\,]": "hat(hat_B)"},
         follows="Rodrigues' formula",
         false=Falsehood(

@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof.model import Model, Value, cross, dot, hat, matrix, rotation, rotation_symbols, symmetric, vector
 from atlas.proof.notation import sides
-from atlas.proof.trial import Falsehood, Part, Trial, mended, read
+from atlas.proof.trial import Falsehood, Trial, mended, read
 
 SIGNS = {
     "c": "light",
@@ -277,7 +277,7 @@ TRIALS = (
     Trial(
         name="text-inertia-axes",
         signs={r"\mathbf{R}": "column[]", r"\mathbf{e}": "e[]", "I_i": "moment[i]"},
-        also=(Part(line="turned = R*I*T(R)", model=axes_model),),
+        also=("turned = R*I*T(R)",),
         model=axes_model,
         follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
         false=Falsehood("The rows of $R$ are the axes of inertia", "turned = R*I*T(R)", "turned = T(R)*I*R"),
@@ -291,7 +291,7 @@ TRIALS = (
     Trial(
         name="text-covariance",
         defines=("Ip", "gp", "Omegap", "Kp"),
-        also=(Part(line="hat(S*Omega) = S*hat(Omega)*T(S)", model=covariance_model),),
+        also=("hat(S*Omega) = S*hat(Omega)*T(S)",),
         model=covariance_model,
         follows="the right side of @(16) and that of @(12), for any rotation $S$",
         note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
@@ -354,11 +354,8 @@ TRIALS = (
         follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "
         "force and the torque that are not those of the constraints",
         also=(
-            Part(
-                line="R*(I*w - IdOmega) = m[N]*cross(R*x[N], d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))",
-                model=flight_model,
-            ),
-            Part(line="0 = m[N]*(d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))", model=flight_model),
+            "R*(I*w - IdOmega) = m[N]*cross(R*x[N], d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))",
+            "0 = m[N]*(d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))",
         ),
         note=r"Both vanish if @(4) holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @(16), and only then. "
         "A force that is for all particles in proportion to their masses has no torque about the centre of "

@@ -4,7 +4,7 @@ import sympy
 
 from atlas.proof.clebsch import symmetric_model
 from atlas.proof.model import Model, Value, dot, functions
-from atlas.proof.trial import Falsehood, Part, Trial, evaluated
+from atlas.proof.trial import Falsehood, Trial, evaluated
 
 SIGNS = {
     "E'": "E",
@@ -139,7 +139,7 @@ TRIALS = (
         model=top_model,
         follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
         defines=("q",),
-        also=(Part(line="d(M3) = 0; d(p) = 0; d(H) = 0; M3 = I*c3", model=top_model),),
+        also=("d(M3) = 0; d(p) = 0; d(H) = 0; M3 = I*c3",),
         false=Falsehood("The potential is linear, as that of the heavy top", "(I - 1)*b^2*nu^2", "(I - 1)*b^2*nu"),
     ),
     Trial(
@@ -181,7 +181,7 @@ TRIALS = (
         follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
         defines=("xi",),
         solves="d(xi)/xi = 1/2*d(x)/(1 + x) + i/2*((p - M3*x)/(1 + x) + c3 - b)",
-        also=(Part(line="-Y^2 = 4*Z^3 - g2*Z - g3", model=sigma_model),),
+        also=("-Y^2 = 4*Z^3 - g2*Z - g3",),
         note="The addition theorem is taken from the textbooks. Tried for "
         r"$\xi$; $\eta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
         false=Falsehood("The zero lies on the opposite half period", "sigma(t - z_minus)", "sigma(t + z0)"),

@@ -150,7 +150,7 @@ TRIALS = (
     Trial(
         name="(58)",
         model=constant_model,
-        also=(Part(line="d(omega3) = 0", model=constant_model),),
+        also=("d(omega3) = 0",),
         signs={r"\omega_3=\text{const}": "omega3", r"\Omega_3": "Omega3"},
         follows=r"the ansatz: $\Omega_3$ is the constant $\omega_3$",
         definition=True,

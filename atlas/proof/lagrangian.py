@@ -214,9 +214,7 @@ TRIALS = (
     ),
     Trial(
         name="text-constraints",
-        also=(
-            Part(line="2*partial(L,lam[A,beta]) = dot(y[A] - y[1], y[beta] - y[1]) - a[A,beta]", model=action_model),
-        ),
+        also=("2*partial(L,lam[A,beta]) = dot(y[A] - y[1], y[beta] - y[1]) - a[A,beta]",),
         model=action_model,
         form=_equivalent,
         follows="the action @(1) for six particles, differentiated",

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import sympy
 
-from atlas.proof.model import Model, Value, cross, dot, turn, vector
-from atlas.proof.trial import Falsehood, Part, Trial, evaluated, mended
+from atlas.proof.model import Model, Value, cross, dot, partial, turn, vector
+from atlas.proof.trial import Falsehood, Trial, evaluated, mended
 
 SIGNS = {
     r"\mathbf{B}": "Bf",
@@ -40,8 +40,8 @@ e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
 
 def euler(lagrangian: Value) -> Value:
     """Acceleration that a Lagrangian gives: d/dt dL/dv = dL/dy, solved."""
-    momentum = sympy.Matrix([lagrangian.diff(s) for s in v])
-    force = sympy.Matrix([lagrangian.diff(s) for s in y]) - momentum.jacobian(y) * v
+    momentum = partial(lagrangian, v)
+    force = partial(lagrangian, y) - momentum.jacobian(y) * v
     return (momentum.jacobian(v).inv() * force).applyfunc(sympy.cancel)
 
 
@@ -52,8 +52,8 @@ def lagrangian_model() -> Model:
     letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
     letters |= {f"B{n + 1}": B[n] for n in range(3)}
     letters |= {"K": m * dot(v, v) / 2, "U": -(e * A0 + e / c * dot(A, v)), "acceleration": euler}
-    letters["force"] = lambda U: -_gradient(U, y) + _gradient(U, v).jacobian(y) * v
-    letters["grad"] = lambda scalar: _gradient(scalar, y)
+    letters["force"] = lambda U: -partial(U, y) + partial(U, v).jacobian(y) * v
+    letters["grad"] = lambda scalar: partial(scalar, y)
     letters["curl"] = lambda field: sympy.Matrix(
         [
             field[2].diff(y[1]) - field[1].diff(y[2]),
@@ -69,10 +69,6 @@ def potentials_model() -> Model:
     base, share = lagrangian_model().letters, sympy.Symbol("share", real=True)
     letters = {**base, "A0": (1 - share) * base["A0"], "A": base["A"] - share * c * t * E}
     return Model({**letters, "partial_t": lambda field: field.diff(t)})
-
-
-def _gradient(scalar: Value, place: Value) -> Value:
-    return sympy.Matrix([scalar.diff(s) for s in place])
 
 
 def velocity_model() -> Model:
@@ -132,17 +128,16 @@ def helix_model() -> Model:
     return Model({"y2": across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
 
 
-def along_field_model() -> tuple[Model, Model]:
+def along_field_model() -> tuple[Model, ...]:
     """B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
     C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
-    first, second = (
+    return tuple(
         Model(
             {"mu": sign * strength, "E": field, "y": y0 + C * t + sign * strength * field * t**2 / 2},
             flow={t: sympy.Integer(1)},
         )
         for sign in (1, -1)
     )
-    return first, second
 
 
 def shifted_model() -> Model:
@@ -159,7 +154,7 @@ def shifted_model() -> Model:
     return Model({**letters, "y1": y1, "y2": y2}, flow=flow)
 
 
-def charges_model(choice: str = "any") -> tuple[Model, Model]:
+def charges_model(choice: str = "any") -> tuple[Model, ...]:
     """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
 
     choice: what C_perp is: any vector across B, or what the text chooses for (99) or for (100).
@@ -178,10 +173,10 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
         cases.append(Model(letters, where, flow, start, phases))
-    return cases[0], cases[1]
+    return tuple(cases)
 
 
-def drift_model() -> tuple[Model, Model]:
+def drift_model() -> tuple[Model, ...]:
     """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
     cases = []
     for case in charges_model():
@@ -191,14 +186,13 @@ def drift_model() -> tuple[Model, Model]:
         solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
         letters = {**case.letters, "drift": velocity.subs(solved), "E": ACROSS + PARALLEL}
         cases.append(Model(letters, case.where))
-    return cases[0], cases[1]
+    return tuple(cases)
 
 
-def signed_model(choice: str = "any") -> tuple[Model, Model]:
+def signed_model(choice: str = "any") -> tuple[Model, ...]:
     """Model the same with a frequency that has the sign of the charge."""
     first, second = charges_model(choice)
-    where = [(omega, -strength * b / c), *second.where[1:]]
-    return first, Model(second.letters, where, second.flow, second.start, second.phases)
+    return first, replace(second, where=[(omega, -strength * b / c), *second.where[1:]])
 
 
 def _general(model: Model, **letters: Value) -> Value:
@@ -206,13 +200,12 @@ def _general(model: Model, **letters: Value) -> Value:
     return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 
-def start_model() -> tuple[Model, Model]:
+def start_model() -> tuple[Model, ...]:
     """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
-    first, second = (
+    return tuple(
         replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
         for model in signed_model("origin")
     )
-    return first, second
 
 
 _TURNING = "at0(d({})[2]) = -omega*a*sin(omega0)"
@@ -224,28 +217,27 @@ _SENSE = (
 )
 
 
-def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
+def trajectory_model(*, signed: bool = True) -> tuple[Model, ...]:
     """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
         letters = {**model.letters, "ypar0": sympy.Symbol("z0", real=True) * ALONG_Z / b, "E": PARALLEL + ACROSS}
         letters |= {"ypar": evaluated("(93)", SIGNS, letters), "yperp": evaluated("(99)", SIGNS, letters)}
         where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
-        cases.append(Model(letters, where, model.flow, model.start, model.phases))
-    return cases[0], cases[1]
+        cases.append(replace(model, letters=letters, where=where))
+    return tuple(cases)
 
 
-def later_model() -> tuple[Model, Model]:
+def later_model() -> tuple[Model, ...]:
     """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
 
     def place(model: Model) -> Callable[..., Value]:
         return lambda at, constant, angle: _general(model, t=at, Cperp=constant, omega0=angle)
 
-    first, second = (replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model())
-    return first, second
+    return tuple(replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model())
 
 
-def rolling_model() -> tuple[Model, Model]:
+def rolling_model() -> tuple[Model, ...]:
     """Model (100) as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
     cases = []
     for model in signed_model("trochoid"):
@@ -253,7 +245,7 @@ def rolling_model() -> tuple[Model, Model]:
         place = {"x": mu_ * E2 / omega * t + a * sw, "y": mu_ * E2 / omega**2 + a * cw}
         letters = {**model.letters, **place, "r": mu_ * E2 / omega**2}
         cases.append(Model(letters, model.where, phases=model.phases))
-    return cases[0], cases[1]
+    return tuple(cases)
 
 
 TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
@@ -290,7 +282,7 @@ TRIALS = (
     ),
     Trial(
         name="text-helix",
-        also=(Part(line="d2(y2) = -(mu*b/c)^2*y2", model=helix_model),),
+        also=("d2(y2) = -(mu*b/c)^2*y2",),
         model=helix_model,
         follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
         false=Falsehood("It turns with Larmor's frequency", "-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2"),

@@ -235,7 +235,7 @@ TRIALS = (
     Trial(
         name="text-four-integrals",
         model=state_model,
-        also=(Part(line="d([E, dot(K, K), c3, c5]) = 0", model=state_model),),
+        also=("d([E, dot(K, K), c3, c5]) = 0",),
         signs={
             r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},"
             r"\mathbf{K})}": "rank([E, dot(K, K), c3, c5])"

@@ -253,7 +253,7 @@ TRIALS = (
     Trial(
         name="text-turned",
         model=turned_model,
-        also=(Part(line=read("(53)", SIGNS), model=turned_model),),
+        also=(read("(53)", SIGNS),),
         signs={r"\omega'_i": "w[i]", r"\mathbf{e}'_i": "axis[i]", r"\mathbf{e}'_2": "axis[2]"},
         follows="components along the turned axes, against @(53)",
         false=Falsehood("The axes are turned clockwise", "*e2 + sin", "*e2 - sin"),
@@ -333,7 +333,7 @@ TRIALS = (
     Trial(
         name="text-not-all",
         model=leaving_points_model,
-        also=(Part(line=_EQUATION_50, model=leaving_points_model),),
+        also=(_EQUATION_50,),
         signs={r"\omega_1B'_2\ne0\implies": "", r"\dot\Omega_3(0)": "rate"},
         follows=r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
         "B'_2$, @theorem-points",

@@ -233,7 +233,7 @@ TRIALS = (
     Trial(
         name="theorem-companion-roots",
         model=family_model,
-        also=(Part(line="q(nu) = A*(nu - nu0)^2*(nu - e)*(nu + 2*nu0 + e)", model=family_model),),
+        also=("q(nu) = A*(nu - nu0)^2*(nu - e)*(nu + 2*nu0 + e)",),
         follows=r"@theorem-companion-range with $z = \cos^2\kappa$ and $e=\cos2\delta$",
         note=r"In @theorem-companion-range $(e + \nu_0)^2 = (1-z)(z-\nu_0^2)/z$ is $(e + \nu_0/z)^2 z = (1-z)(1-e^2)$, "
         "met by any two angles.",
@@ -274,7 +274,7 @@ TRIALS = (
         model=axis_model,
         follows=r"@theorem-top; $p - M_3 = M_1 n_1 + M_2 n_2 - M_3 (1 - \nu)$",
         defines=("D",),
-        also=(Part(line="d(M1^2 + M2^2 - A*(1 - nu^2)) = 0; d(p) = 0", model=axis_model),),
+        also=("d(M1^2 + M2^2 - A*(1 - nu^2)) = 0; d(p) = 0",),
         note=r"Every term is positive away from $\nu = 1$, $M_1 = M_2 = 0$, so a small push stays small for all times.",
         false=Falsehood(
             "The spin is stable whatever the sign of $D$: its coefficient is $M_3^2$",

@@ -356,7 +356,7 @@ TRIALS = (
     Trial(
         name="theorem-quadric-lines",
         model=lines_model,
-        also=(Part(line=read("(50)", SIGNS), model=lines_model),),
+        also=(read("(50)", SIGNS),),
         follows=r"@(50) by substitution, any $\omega_3$",
         false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),
     ),

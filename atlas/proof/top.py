@@ -129,7 +129,7 @@ TRIALS = (
         name="theorem-every-top",
         model=state_model,
         defines=("q",),
-        also=(Part(line="d(M3) = 0; d(p) = 0; d(h) = 0", model=state_model),),
+        also=("d(M3) = 0; d(p) = 0; d(h) = 0",),
         follows=r"the equations at any state, $g = 2h - M_3^2/I + 2 k_2 p - k_2^2$ with the kinetic energy and $U$ in "
         "$h$, and the rates of @theorem-angles",
         false=Falsehood("The coupling adds nothing to the linear term: $a = a_0$", "2*a*nu", "2*a0*nu"),
@@ -147,7 +147,7 @@ TRIALS = (
         model=precession_model,
         follows=r"@theorem-top-precession: $M_3 w = \nu_0 w^2 + a + A \nu_0$",
         elsewhere={1: marginal_model, 2: marginal_model},
-        also=(Part(line="q(nu0) = 0; dq(nu0) = 0", model=precession_model),),
+        also=("q(nu0) = 0; dq(nu0) = 0",),
         note=r"Where $a = -2 A \nu_0$ too the root is fourfold, $q = A (\nu - \nu_0)^4$, and the sign of $A$ decides.",
         false=Falsehood("The linear term makes no nutation faster or slower", "- 2*a*nu0", "- 0*a*nu0"),
     ),

@@ -4,7 +4,7 @@ import sympy
 
 from atlas.proof.model import Model, Value, dot, functions, vector
 from atlas.proof.top import M3, QUARTIC, A, a, g, nu, p
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.trial import Falsehood, Trial
 
 SIGNS = {
     "q": "q()",
@@ -80,7 +80,7 @@ TRIALS = (
     Trial(
         name="theorem-residue",
         model=residue_model,
-        also=(Part(line="root^2 = q(sigma)", model=residue_model),),
+        also=("root^2 = q(sigma)",),
         follows=r"@theorem-every-top, $q(\sigma) = -(p - \sigma M_3)^2$",
         note=r"So a path of $\nu$ that is drawn across $\sigma$ changes an angle by $2\pi i r = \pm\pi$, and a period, "
         "which goes to and fro, by a full turn.",

@@ -69,7 +69,7 @@ class Trial:
     defines    letters that the printed form defines
     solves     what must hold with these
     elsewhere  models of statements that are not of what `model` is about, by their place in the line
-    also       further lines that the claim needs
+    also       further lines that the claim needs: parts, or the lines alone where they are of the same model
     definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
     grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
     slip       the entry under which the slip is counted, if it is the same one
@@ -89,7 +89,7 @@ class Trial:
     defines: tuple[str, ...] = ()
     solves: str = ""
     elsewhere: Mapping[int, Callable[[], Cases]] = field(default_factory=dict)
-    also: tuple[Part, ...] = ()
+    also: tuple[Part | str, ...] = ()
     definition: bool = False
     grade: Grade = ""
     slip: str = ""
@@ -130,7 +130,8 @@ class Trial:
             Part(line="; ".join(lines), model=model, defines=self.defines, solves=self.solves)
             for model, lines in statements.items()
         ]
-        return (*first, *self.also)
+        further = [Part(line=line, model=self.model) if isinstance(line, str) else line for line in self.also]
+        return (*first, *further)
 
     @property
     def corrected_parts(self) -> tuple[Part, ...]:
