@@ -214,7 +214,6 @@ TRIALS = (
         solves=TRAJECTORY,
         corrected_model=trajectory_model,
         corrected_tex=mended("text-ball-centre", {}, SIGNED),
-        grade="sign of the charge",
         slip="(97)",
         note="The centre of any body with one charge-to-mass ratio does, not only that of a ball; for a negative "
         "charge it takes the sign that @(99) takes.",
@@ -267,7 +266,6 @@ TRIALS = (
         name="text-linear-poisson",
         model=orthogonal_model,
         follows=r"$\det R = 1$",
-        grade="missing case",
         slip="text-affirmation",
         corrected_model=lambda: (orthogonal_model(), orthogonal_model(-1)),
         corrected_tex=mended("text-linear-poisson", {r"-\frac{1}": r"-\frac{\boxed{\det R}}"}),
@@ -307,7 +305,6 @@ TRIALS = (
         name="text-ball-ansatz",
         model=start_model,
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
-        grade="missing case",
         slip="(29)",
         corrected_tex=r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\qquad\gamma\hat{k}_3=-\frac{\alpha I_0+m_3}{I_0}},"
         r"\qquad I_0^2\gamma^2=m_2^2+(\alpha I_0+m_3)^2",

@@ -299,7 +299,6 @@ TRIALS = (
         signs={"b": "amp"},
         follows="@(79) by substitution, with two constants",
         solves=read("(79)", SIGNS),
-        grade="missing case",
         slip="(78)",
         corrected_defines=(),
         corrected_solves="",
@@ -313,7 +312,6 @@ TRIALS = (
         follows=r"@(75) by substitution, with $\gamma_3$ of @(80)",
         defines=("gamma1", "gamma2"),
         solves=read("(75)", SIGNS),
-        grade="missing case",
         slip="(78)",
         corrected_defines=(),
         corrected_solves="",
@@ -330,7 +328,6 @@ TRIALS = (
         model=solution_model,
         signs={"b": "amp"},
         follows="@(80) and @(81) at $t = 0$",
-        grade="missing case",
         slip="(78)",
         corrected_tex=r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3"
         r"\omega_2}{\hat{B}_2}"
@@ -343,7 +340,6 @@ TRIALS = (
         signs={"b": "amp"},
         follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
         "with these constants",
-        grade="missing case",
         slip="(78)",
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
         corrected_signs={r"\text{if}\quad\omega_2\ne0": ""},

@@ -247,7 +247,6 @@ TRIALS = (
         follows="the moments of mass of a body that is not plane",
         corrected_model=moments_model,
         corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
-        grade="missing case",
         slip="text-rigid",
         false=Falsehood(
             "The mass matrix of a plane body is not degenerate", "det(I) = I1*I2*I3 != 0", "det(g) = g1*g2*g3 != 0"

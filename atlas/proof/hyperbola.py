@@ -167,7 +167,6 @@ TRIALS = (
         name="(62)",
         model=circle_model,
         follows="@(61) and the last equation of @(59)",
-        grade="missing case",
         slip="(78)",
         corrected_tex=r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+"
         r"\omega_2^2)}K_2=\omega_2B'_2"
@@ -179,7 +178,6 @@ TRIALS = (
         model=precession_model,
         follows="@(59) and @(62)",
         defines=("phip",),
-        grade="missing case",
         slip="(78)",
         corrected_defines=(),
         corrected_tex=r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\boxed{(\omega_1^2+"
@@ -193,7 +191,6 @@ TRIALS = (
         signs={r"\dot\Omega_1": "nu1", r"\dot\Omega_2": "nu2"},
         follows=r"@(60) and @(62); $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
         defines=("phi",),
-        grade="missing case",
         slip="(78)",
         corrected_defines=(),
         corrected_tex=r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\boxed{B'_2\omega_2}\phi=B'_2"
@@ -204,7 +201,6 @@ TRIALS = (
         name="(65)",
         model=agreement_model,
         follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
-        grade="missing case",
         slip="(78)",
         corrected_tex=r"[B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2]\boxed{(\omega_1^2+"
         r"\omega_2^2)}-I{B'_2}^2\omega_2^2\omega_3=0",
@@ -276,7 +272,6 @@ TRIALS = (
         r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in"
         r"\mathbb{R}"
         r"\quad\text{if}\quad I=1} \end{aligned}",
-        grade="missing case",
         slip="(52)",
         note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "
         "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "

@@ -264,7 +264,6 @@ TRIALS = (
         name="(43)",
         model=state_model,
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
-        grade="missing case",
         slip="(42)",
         corrected_tex=r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}\dot\Omega_1&=[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_2-I"
         r"\Omega_3"
@@ -278,7 +277,6 @@ TRIALS = (
         follows="@(43) by substitution",
         defines=("phi", "f"),
         solves=read("(43)", SIGNS),
-        grade="missing case",
         slip="(42)",
         corrected_defines=(),
         corrected_solves="",
@@ -294,7 +292,6 @@ TRIALS = (
         follows="@(43) by substitution, with two constants",
         defines=("Omega1", "Omega2"),
         solves=read("(43)", SIGNS),
-        grade="missing case",
         slip="(42)",
         corrected_model=passing_model,
         corrected_tex=r"\Omega_1=f_0\,\boxed{\rho}\sin(\Phi+\phi_0),\qquad\Omega_2=f_0\,\boxed{\rho}\cos(\Phi+\phi_0),"

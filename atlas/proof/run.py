@@ -67,7 +67,7 @@ def trial(name: str) -> Trial:
     named = trials(topic(name)).get(name)
     if named is None:
         raise AtlasError(f"nothing has been tried about {name!r}: add a trial to atlas/proof/{topic(name)}.py")
-    return named
+    return replace(named, grade=trial(named.slip).grade) if named.slip else named
 
 
 def try_one(name: str) -> Verdict:

@@ -72,7 +72,7 @@ class Trial:
     also       further lines that the claim needs: parts, or the lines alone where they are of the same model
     definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
     grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
-    slip       the entry under which the slip is counted, if it is the same one
+    slip       the entry under which the slip is counted, if it is the same one; its grade then is this one's, too
     corrected_tex  the true form where there is a slip, in which `\boxed` marks what has changed; `corrected_signs`,
                `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
                those of the printed form, and `corrected_also`

@@ -65,11 +65,9 @@ def test_the_recorded_verdicts_are_those_of_the_present_proofs() -> None:
 @pytest.mark.parametrize("stem", sorted({topic(name) for name in EQUATIONS}))
 def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
     """What of a record needs no proof stands in the trial or in the ledger, word for word."""
-    for name, case in trials(stem).items():
-        entry, lines = (
-            EQUATIONS[name],
-            ["; ".join(part.line for part in parts) for parts in (case.parts, case.corrected_parts)],
-        )
+    for name in trials(stem):
+        entry, case = EQUATIONS[name], trial(name)
+        lines = ["; ".join(part.line for part in parts) for parts in (case.parts, case.corrected_parts)]
         assert RECORDED[name] == replace(
             RECORDED[name],
             name=name,
