@@ -215,7 +215,8 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
     if not relations:
         return "nothing in it is checked"
     named = {name for relation in relations for name in relation.letters}
-    all_reached = reached([side for relation in relations for side in (*relation.left, *relation.right)], model)
+    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    all_reached = reached(values, [*model.where, *model.flow.items()])
     named |= {str(symbol) for symbol, _ in model.where if symbol in all_reached}
     for tree in reversed(parse(line)):  # a letter may be used in the definition of another one
         name = getattr(tree.left, "id", None)
@@ -226,10 +227,9 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
     return ""
 
 
-def reached(values: Iterable[Value], model: Model) -> set[Value]:
-    """Return the symbols on which values depend, also through `where` and through the rates of what moves."""
+def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> set[Value]:
+    """Return the symbols on which values depend, also through rules that say what a symbol is, or its rate."""
     symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
-    rules = [*model.where, *model.flow.items()]
     while True:
         more = symbols | {s for symbol, value in rules if symbol in symbols for s in sympy.sympify(value).free_symbols}
         if more == symbols:
@@ -243,15 +243,7 @@ def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) 
     values += [
         model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
     ]
-    symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
-    while True:
-        more = symbols | {
-            s for symbol, value in model.where if symbol in symbols for s in sympy.sympify(value).free_symbols
-        }
-        if more == symbols:
-            break
-        symbols = more
-    return sorted(symbols - {symbol for symbol, _ in model.where}, key=str)
+    return sorted(reached(values, model.where) - {symbol for symbol, _ in model.where}, key=str)
 
 
 def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:

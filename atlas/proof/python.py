@@ -107,7 +107,8 @@ class Line:
 
     def needed(self) -> set[Value]:
         """Return the symbols on which what was written depends, also through `where` and the rates."""
-        return reached([*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))], self.model)
+        values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
+        return reached(values, [*self.model.where, *self.model.flow.items()])
 
     def assumptions(self) -> dict[str, str]:
         """Return the identifiers of the symbols, each with what is assumed of it as arguments of `symbols`."""

@@ -35,10 +35,9 @@ class Part:
         """The models in which the line is tried."""
         return _made(self.model)
 
-    def outcome(self, line: str = "", *, sample_only: bool = False, shrink: bool = False) -> Outcome:
-        """Try the line, or another one in its place."""
-        wanted = {"sample_only": sample_only, "shrink": shrink}
-        return decide(line or self.line, self.cases, defines=self.defines, solves=self.solves, **wanted)
+    def outcome(self, **wanted: bool) -> Outcome:
+        """Try the line; `wanted` as `decide` takes it."""
+        return decide(self.line, self.cases, defines=self.defines, solves=self.solves, **wanted)
 
 
 @dataclass(frozen=True)
@@ -105,20 +104,39 @@ class Trial:
     @property
     def printed(self) -> str:
         """The printed form in plain letters. Raises UnreadableError if its TeX can't be read."""
-        return self.form(tex.line(self.tex or EQUATIONS[self.name].tex, self.signs))
+        return self.form(tex.line(self.formula, self.signs))
+
+    @property
+    def formula(self) -> str:
+        """The TeX that is tried."""
+        return self.tex or EQUATIONS[self.name].tex
+
+    @property
+    def true_form(self) -> "Trial | None":
+        """The trial of the true form, as of what is printed; None if there is no slip."""
+        if not self.corrected_tex:
+            return None
+        return Trial(
+            name=self.name,
+            model=self.corrected_model or self.model,
+            follows=self.follows,
+            signs={**self.signs, **self.corrected_signs},
+            form=self.form,
+            tex=self.corrected_tex,
+            defines=self.defines if self.corrected_defines is None else self.corrected_defines,
+            solves=self.solves if self.corrected_solves is None else self.corrected_solves,
+            also=self.corrected_also,
+        )
 
     @property
     def corrected(self) -> str:
         """The true form in plain letters, empty if there is no slip. Raises UnreadableError if it can't be read."""
-        if not self.corrected_tex:
-            return ""
-        return self.form(tex.line(self.corrected_tex, {**self.signs, **self.corrected_signs}))
+        return self.true_form.printed if self.true_form else ""
 
     @property
     def said(self) -> dict[str, str]:
         """What of the printed and of the corrected form is not read, with the lines that are tried in its place."""
-        printed = tex.said(EQUATIONS[self.name].tex, self.signs)
-        return printed | tex.said(self.corrected_tex, {**self.signs, **self.corrected_signs})
+        return tex.said(self.formula, self.signs) | (self.true_form.said if self.true_form else {})
 
     @property
     def parts(self) -> tuple[Part, ...]:
@@ -136,20 +154,12 @@ class Trial:
     @property
     def corrected_parts(self) -> tuple[Part, ...]:
         """The lines of the corrected form; none if there is no such form."""
-        if not self.corrected:
-            return ()
-        first = Part(
-            line=self.corrected,
-            model=self.corrected_model or self.model,
-            defines=self.defines if self.corrected_defines is None else self.corrected_defines,
-            solves=self.solves if self.corrected_solves is None else self.corrected_solves,
-        )
-        return (first, *self.corrected_also)
+        return self.true_form.parts if self.true_form else ()
 
     @property
     def true_parts(self) -> tuple[Part, ...]:
         """The lines of the form that is proved: the corrected one where there is one."""
-        return self.corrected_parts or self.parts
+        return (self.true_form or self).parts
 
     @property
     def false_part(self) -> Part:
@@ -158,42 +168,29 @@ class Trial:
             raise ValueError(f"{self.name} has no false sentence beside it")
         for true_part in self.true_parts:
             if self.false.right in true_part.line:
-                line = (
-                    true_part.line.replace(self.false.right, self.false.wrong, 1)
-                    if self.false.right
-                    else true_part.line
-                )
+                line = true_part.line.replace(self.false.right, self.false.wrong, 1)
                 return replace(true_part, line=line, model=self.false.model or true_part.model)
         raise ValueError(f"{self.name}: the false sentence changes {self.false.right!r}, which is not there")
 
     def of_printed(self, *, shrink: bool = False) -> Outcome:
         """Try the printed form; a definition that holds is called one."""
-        outcome = self._of("parts", shrink=shrink)
+        try:
+            parts, thin = self.parts, tex.thin(self.formula, self.signs)
+        except (tex.UnreadableError, NoMeaningError) as reason:
+            return Outcome("undecided", f"unreadable: {reason}")
+        for name in thin:
+            if any(getattr(model.letters.get(name), "shape", ()) == (3, 1) for model in parts[0].cases):
+                return Outcome("undecided", f"unreadable: {name} is a vector, and is not bold")
+        outcome = _joined([piece.outcome(shrink=shrink) for piece in parts])
         if self.definition and outcome.decision == "proved":
             return Outcome("definition", "it says what its letters mean")
         return outcome
 
     def of_corrected(self) -> Outcome:
-        """Try the corrected form."""
-        return self._of("corrected_parts")
-
-    def _of(self, form: str, *, shrink: bool = False) -> Outcome:
-        try:
-            parts: tuple[Part, ...] = getattr(self, form)
-            self._bold(form, parts)
-        except (tex.UnreadableError, NoMeaningError) as reason:
-            return Outcome("undecided", f"unreadable: {reason}")
-        return _joined([piece.outcome(shrink=shrink) for piece in parts])
-
-    def _bold(self, form: str, parts: tuple[Part, ...]) -> None:
-        """Raise UnreadableError if a letter is a vector in a model and is not bold in the formula."""
-        formula, signs = self.tex or EQUATIONS[self.name].tex, {**self.signs}
-        if form == "corrected_parts":
-            formula, signs = self.corrected_tex, {**self.signs, **self.corrected_signs}
-        for name in tex.thin(formula, signs) if formula else ():
-            for model in parts[0].cases:
-                if getattr(model.letters.get(name), "shape", (1, 1)) == (3, 1):
-                    raise tex.UnreadableError(f"{name} is a vector, and is not bold")
+        """Try the corrected form, which must be there."""
+        if self.true_form is None:
+            raise ValueError(f"{self.name} has no corrected form")
+        return self.true_form.of_printed()
 
 
 def read(name: str, signs: Mapping[str, str]) -> str:
