@@ -1,8 +1,10 @@
 """Section V, second half, on trial: the rotation matrix in elementary functions, (73) to (88)."""
 
+from dataclasses import replace
+
 import sympy
 
-from atlas.proof.model import Model, Value, cross, hat, rodrigues, turn, vector
+from atlas.proof.model import Model, Value, cross, direction, hat, rodrigues, turn, vector
 from atlas.proof.notation import sides
 from atlas.proof.quadric import SIGNS as QUADRIC_SIGNS
 from atlas.proof.quadric import I, constant_omega3, omega1, omega2, omega3
@@ -137,14 +139,11 @@ def matrix_model() -> Model:
     return _model(letters, [*ON_HYPERBOLA, PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
 
 
-def steady_momentum_model() -> tuple[Model, Model]:
+def steady_momentum_model() -> list[Model]:
     """Model the same for a ball, and at rest."""
     whole = matrix_model()
-    first, second = (
-        Model(whole.letters, [*whole.where, known], whole.flow, whole.start, whole.phases, whole.domains)
-        for known in ((I, sympy.Integer(1)), (omega2, sympy.Integer(0)))
-    )
-    return first, second
+    known = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
+    return [replace(whole, where=[*whole.where, pair]) for pair in known]
 
 
 def resting_row_model() -> Model:
@@ -173,22 +172,15 @@ def free_model() -> Model:
     return _model(letters, where)
 
 
-def free_frequency_model() -> tuple[Model, Model]:
+def free_frequency_model() -> list[Model]:
     """Model launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
     speed, hB2 = sympy.symbols("speed hB2", positive=True)
     cases = []
     for sign in (1, -1):
-        length = I2 * speed / B2 * b
-        letters = {
-            "size": length.subs(B2, b * hB2),
-            "omega2": sign * speed,
-            "k": sign * speed / hB2,
-            "kB": sign * speed / hB2,
-            "hB2": hB2,
-            "I2": I2,
-        }
+        k = sign * speed / hB2
+        letters = {"size": I2 * speed / hB2, "omega2": sign * speed, "k": k, "kB": k, "hB2": hB2, "I2": I2}
         cases.append(Model(letters, [(hB2, turn(u)[1])], domains=DOMAINS))
-    return cases[0], cases[1]
+    return cases
 
 
 _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
@@ -208,18 +200,12 @@ def free_body_model() -> Model:
     a, m = vector("a"), vector("m")
     I3 = sympy.Symbol("I3", positive=True)
     omega = m / I2 + (1 / I3 - 1 / I2) * a.dot(m) * a
-    where = list(zip(a, rodrigues_axis(), strict=True))
+    where = list(zip(a, direction(), strict=True))
     return Model(
         {"a": a, "m": m, "omega": omega, "I2": I2, "I3": I3, "B": hat},
         where,
         dict(zip(a, cross(omega, a), strict=True)),
     )
-
-
-def rodrigues_axis() -> Value:
-    """Return every unit vector but one."""
-    x, y = sympy.symbols("x y", real=True)
-    return sympy.Matrix([2 * x, 2 * y, 1 - x**2 - y**2]) / (1 + x**2 + y**2)
 
 
 def free_proper_model() -> Model:

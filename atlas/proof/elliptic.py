@@ -59,7 +59,7 @@ def root_model(*, elliptic: bool = False) -> Model:
     return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
 
 
-def edge_model() -> tuple[Model, Model]:
+def edge_model() -> list[Model]:
     """Model any M and K of a body whose third moment is the largest."""
     first, second = sympy.symbols("first second", nonnegative=True)
     (I1, I2, I3), cases = MOMENTS, []
@@ -67,7 +67,7 @@ def edge_model() -> tuple[Model, Model]:
         letters = {**LETTERS, "H": energy(M), "F": clebsch(M)}
         swapped = {name: value.xreplace(order) for name, value in letters.items() if isinstance(value, sympy.Basic)}
         cases.append(Model({**letters, **swapped}, domains={"first": "positive", "second": "positive"}))
-    return cases[0], cases[1]
+    return cases
 
 
 def critical_model() -> Model:

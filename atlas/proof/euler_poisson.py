@@ -157,7 +157,7 @@ def algebraic_model() -> Model:
     return Model({**letters, "IdOmega": whole.letters["IdOmega"].xreplace(swap)}, ROTATION)
 
 
-def moments_model() -> tuple[Model, Model]:
+def moments_model() -> list[Model]:
     """Any body with its three moments of mass, and a plane one."""
     g1, g2, g3 = sympy.symbols("g1:4", positive=True)
     cases = []
@@ -165,7 +165,7 @@ def moments_model() -> tuple[Model, Model]:
         letters = {"g1": g1, "g2": g2, "g3": third, "I1": g2 + third, "I2": g1 + third, "I3": g1 + g2}
         letters |= {"g": sympy.diag(g1, g2, third), "I": sympy.diag(g2 + third, g1 + third, g1 + g2)}
         cases.append(Model(letters))
-    return cases[0], cases[1]
+    return cases
 
 
 def covariance_model(sign: int = 1) -> Model:

@@ -3,7 +3,7 @@
 import sympy
 
 from atlas.proof.clebsch import symmetric_model
-from atlas.proof.model import Model, Value, dot, functions
+from atlas.proof.model import Model, Value, direction, dot, functions
 from atlas.proof.trial import Falsehood, Trial, evaluated
 
 SIGNS = {
@@ -33,10 +33,8 @@ G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
 def top_model() -> Model:
     """Model any state of the symmetric body in units of I2, K = b times a unit vector in stereographic coordinates."""
     whole = symmetric_model()
-    x, y = sympy.symbols("x y", real=True)
     K = sympy.Matrix([whole.letters[f"K{n}"] for n in (1, 2, 3)])
-    size = 1 + x**2 + y**2
-    where = list(zip(K, (2 * b * x / size, 2 * b * y / size, b * (1 - x**2 - y**2) / size), strict=True))
+    where = list(zip(K, b * direction(), strict=True))
     I2, M, energy = (whole.letters[name] for name in ("I2", "M", "H"))
     turn = (whole.letters["Omega1"] * K[0] + whole.letters["Omega2"] * K[1]) / b / (1 - nu**2)
     letters = {**whole.letters, "b": b, "nu": nu, "M3": M[2] / I2, "p": dot(M, K) / (I2 * b), "H": energy / I2}
@@ -77,7 +75,7 @@ def curve_model() -> Model:
     return Model(letters, where, flow)
 
 
-def residue_model() -> tuple[Model, ...]:
+def residue_model() -> list[Model]:
     """Model the place nu = -1, with a rate of nu of either sign, and the logarithmic rate of xi there."""
     w, cases = sympy.Symbol("w", real=True), []
     rate = (w + sympy.I * (p - M3 * nu)) / 2  # times 1/(1 + nu): what is not finite there, by theorem-cayley-klein
@@ -85,7 +83,7 @@ def residue_model() -> tuple[Model, ...]:
         letters = {"nu": sympy.Integer(-1), "w": w, "p": p, "M3": M3, "sign": sympy.Integer(sign)}
         letters |= {"residue": (rate / w).subs(nu, -1), **functions("q", QUARTIC, nu)}
         cases.append(Model(letters, G_AND_A))
-    return tuple(cases)
+    return cases
 
 
 def sigma_model() -> Model:

@@ -112,7 +112,7 @@ def both_conditions_model() -> tuple[Model, Model]:
     return Model(LETTERS, [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]), Model(LETTERS, circle)
 
 
-def degenerate_model() -> tuple[Model, Model]:
+def degenerate_model() -> list[Model]:
     """Model the two lines of the hyperbola for I = 1; sign tells them apart."""
     whole = canonical_model("one", plane=True)
     root = sympy.Symbol("root", positive=True)
@@ -132,7 +132,7 @@ def degenerate_model() -> tuple[Model, Model]:
         where.append((root, sympy.sqrt(whole.letters["a3"])))
         letters = {**whole.letters, "sign": sympy.Integer(sign), "sqrt": square_root}
         lines.append(Model(letters, where, phases=whole.phases, domains=whole.domains))
-    return lines[0], lines[1]
+    return lines
 
 
 def frequency_model() -> Model:

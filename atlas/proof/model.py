@@ -9,14 +9,14 @@ import sympy
 Value = Any
 
 
-class _LeviCivita:
-    def __getitem__(self, indices: tuple[int, int, int]) -> Value:
-        return sympy.LeviCivita(*indices)
+class _Indexed:
+    """A function of indices, written with brackets."""
 
+    def __init__(self, function: Callable[..., Value]) -> None:
+        self.function = function
 
-class _Kronecker:
-    def __getitem__(self, indices: tuple[int, int]) -> Value:
-        return sympy.Integer(indices[0] == indices[1])
+    def __getitem__(self, indices: tuple[int, ...]) -> Value:
+        return self.function(*indices)
 
 
 def certain(fact: Any) -> None:
@@ -48,8 +48,8 @@ def entrywise(act: Callable[[Value], Value]) -> Callable[[Value], Value]:
 
 
 COMMON: dict[str, Value] = {
-    "eps": _LeviCivita(),
-    "delta": _Kronecker(),
+    "eps": _Indexed(sympy.LeviCivita),
+    "delta": _Indexed(sympy.KroneckerDelta),
     "cross": cross,
     "dot": dot,
     "partial": partial,
@@ -92,6 +92,12 @@ def symmetric(name: str) -> Value:
 def hat(v: Value) -> Value:
     """Return the matrix whose product with x is the vector product [v, x]."""
     return sympy.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def direction() -> Value:
+    """Return every unit vector but one, in two free parameters."""
+    x, y = sympy.symbols("x y", real=True)
+    return sympy.Matrix([2 * x, 2 * y, 1 - x**2 - y**2]) / (1 + x**2 + y**2)
 
 
 def rotation(name: str = "q") -> Value:

@@ -128,16 +128,14 @@ def helix_model() -> Model:
     return Model({"y2": across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
 
 
-def along_field_model() -> tuple[Model, ...]:
+def along_field_model() -> list[Model]:
     """B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
     C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
-    return tuple(
-        Model(
-            {"mu": sign * strength, "E": field, "y": y0 + C * t + sign * strength * field * t**2 / 2},
-            flow={t: sympy.Integer(1)},
-        )
-        for sign in (1, -1)
-    )
+    cases = []
+    for mu in (strength, -strength):
+        letters = {"mu": mu, "E": field, "y": y0 + C * t + mu * field * t**2 / 2}
+        cases.append(Model(letters, flow={t: sympy.Integer(1)}))
+    return cases
 
 
 def shifted_model() -> Model:
@@ -154,7 +152,7 @@ def shifted_model() -> Model:
     return Model({**letters, "y1": y1, "y2": y2}, flow=flow)
 
 
-def charges_model(choice: str = "any") -> tuple[Model, ...]:
+def charges_model(choice: str = "any") -> list[Model]:
     """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
 
     choice: what C_perp is: any vector across B, or what the text chooses for (99) or for (100).
@@ -173,10 +171,10 @@ def charges_model(choice: str = "any") -> tuple[Model, ...]:
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
         cases.append(Model(letters, where, flow, start, phases))
-    return tuple(cases)
+    return cases
 
 
-def drift_model() -> tuple[Model, ...]:
+def drift_model() -> list[Model]:
     """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
     cases = []
     for case in charges_model():
@@ -186,13 +184,13 @@ def drift_model() -> tuple[Model, ...]:
         solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
         letters = {**case.letters, "drift": velocity.subs(solved), "E": ACROSS + PARALLEL}
         cases.append(Model(letters, case.where))
-    return tuple(cases)
+    return cases
 
 
-def signed_model(choice: str = "any") -> tuple[Model, ...]:
+def signed_model(choice: str = "any") -> list[Model]:
     """Model the same with a frequency that has the sign of the charge."""
     first, second = charges_model(choice)
-    return first, replace(second, where=[(omega, -strength * b / c), *second.where[1:]])
+    return [first, replace(second, where=[(omega, -strength * b / c), *second.where[1:]])]
 
 
 def _general(model: Model, **letters: Value) -> Value:
@@ -200,12 +198,12 @@ def _general(model: Model, **letters: Value) -> Value:
     return evaluated("(98)", SIGNS, {**model.letters, **letters})
 
 
-def start_model() -> tuple[Model, ...]:
+def start_model() -> list[Model]:
     """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
-    return tuple(
+    return [
         replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
         for model in signed_model("origin")
-    )
+    ]
 
 
 _TURNING = "at0(d({})[2]) = -omega*a*sin(omega0)"
@@ -217,7 +215,7 @@ _SENSE = (
 )
 
 
-def trajectory_model(*, signed: bool = True) -> tuple[Model, ...]:
+def trajectory_model(*, signed: bool = True) -> list[Model]:
     """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
@@ -225,19 +223,19 @@ def trajectory_model(*, signed: bool = True) -> tuple[Model, ...]:
         letters |= {"ypar": evaluated("(93)", SIGNS, letters), "yperp": evaluated("(99)", SIGNS, letters)}
         where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
         cases.append(replace(model, letters=letters, where=where))
-    return tuple(cases)
+    return cases
 
 
-def later_model() -> tuple[Model, ...]:
+def later_model() -> list[Model]:
     """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
 
     def place(model: Model) -> Callable[..., Value]:
         return lambda at, constant, angle: _general(model, t=at, Cperp=constant, omega0=angle)
 
-    return tuple(replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model())
+    return [replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model()]
 
 
-def rolling_model() -> tuple[Model, ...]:
+def rolling_model() -> list[Model]:
     """Model (100) as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
     cases = []
     for model in signed_model("trochoid"):
@@ -245,7 +243,7 @@ def rolling_model() -> tuple[Model, ...]:
         place = {"x": mu_ * E2 / omega * t + a * sw, "y": mu_ * E2 / omega**2 + a * cw}
         letters = {**model.letters, **place, "r": mu_ * E2 / omega**2}
         cases.append(Model(letters, model.where, phases=model.phases))
-    return tuple(cases)
+    return cases
 
 
 TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"

@@ -150,7 +150,7 @@ def laboratory_model(across: Value = B2, along: Value = B3) -> Model:
     return Model({"S": S, "B": field, "I": tensor, "B2": across, "B3": along})
 
 
-def degree_model() -> tuple[Model, Model, Model]:
+def degree_model() -> list[Model]:
     """I below and above 1, and I = 1."""
     more, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
     cases = []
@@ -160,7 +160,7 @@ def degree_model() -> tuple[Model, Model, Model]:
         whole = sympy.Poly(a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3, u)
         degrees = {"leading": whole.coeff_monomial(u**3), "square": whole.coeff_monomial(u**2)}
         cases.append(Model({**degrees, "slope": whole.coeff_monomial(u), "I": scale}))
-    return cases[0], cases[1], cases[2]
+    return cases
 
 
 TRIALS = (

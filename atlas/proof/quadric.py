@@ -40,16 +40,12 @@ def constant_omega3() -> Value:
     return sympy.factor(-rest / slope)
 
 
-def lines_case() -> list[tuple[Value, Value]]:
-    """Return the points omega2 = -B2, where omega3 has the coefficient 0: omega1 = s B2, I = 1 - s^2, omega3 free."""
-    return [(omega2, -B2), (omega1, s * B2), (I, 1 - s**2)]
-
-
 def condition_model() -> tuple[Model, Model]:
     """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
     certain(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
-    letters = {**LETTERS, "Omega3": omega3}
-    return Model(letters, [(omega3, constant_omega3())]), Model(LETTERS, lines_case(), domains={"s": "unit"})
+    resolved = Model({**LETTERS, "Omega3": omega3}, [(omega3, constant_omega3())])
+    lines = [(omega2, -B2), (omega1, s * B2), (I, 1 - s**2)]  # where omega3 has the coefficient 0
+    return resolved, Model(LETTERS, lines, domains={"s": "unit"})
 
 
 def free_model() -> Model:
@@ -57,7 +53,7 @@ def free_model() -> Model:
     return Model(LETTERS)
 
 
-def lost_lines_model() -> tuple[Model, Model]:
+def lost_lines_model() -> list[Model]:
     """Both lines omega2 = -B2 for I <= 1: omega1 = sign sqrt(1 - I) B2 with I = 1 - s^2, any omega3."""
     root = sympy.Symbol("s", positive=True)
     cases = []
@@ -65,7 +61,7 @@ def lost_lines_model() -> tuple[Model, Model]:
         where = [(omega2, -B2), (omega1, sign * root * B2)]
         letters = {**LETTERS, "sign": sympy.Integer(sign), "I": 1 - root**2}
         cases.append(Model(letters, where, domains={"s": "unit"}))
-    return cases[0], cases[1]
+    return cases
 
 
 def _angles() -> list[tuple[Value, Value]]:

@@ -54,11 +54,11 @@ def precession_model() -> Model:
     return Model({**letters, **functions("q", QUARTIC.xreplace(state), nu)}, [(B2, b * h2), (B3, b * h3)])
 
 
-def nutation_model() -> tuple[Model, ...]:
+def nutation_model() -> list[Model]:
     """Model a steady precession with the rate w at nu0, and either sign."""
     letters = {"nu0": nu0, "A": A, "w": w, **steady(w, A)}
     letters["nun2"] = -letters["ddq"](nu0) / 2
-    return tuple(Model({**letters, "sign": sympy.Integer(sign)}) for sign in (1, -1))
+    return [Model({**letters, "sign": sympy.Integer(sign)}) for sign in (1, -1)]
 
 
 def range_model() -> Model:
@@ -153,7 +153,7 @@ def axis_model() -> Model:
     return Model(letters, whole.where, whole.flow)
 
 
-def escape_model() -> tuple[Model, ...]:
+def escape_model() -> list[Model]:
     """Model the motion that leaves the axis: A = a^2, M3 of either sign, e = cos(2 delta); T = S/C, as above."""
     a, delta = sympy.Symbol("a", positive=True), sympy.Symbol("delta", real=True)
     cosine = 1 / sympy.sqrt(1 - c * T**2)  # C, for C^2 = 1 + c S^2
@@ -168,7 +168,7 @@ def escape_model() -> tuple[Model, ...]:
         where = [(M3, sign * a * (1 + e)), (c, 4 * a**2 - (a * (1 + e)) ** 2)]
         model = Model({**letters, "size": sign * M3}, where, flow, phases=phases, domains={"e": "unit"})
         cases.append(_spinors(model))
-    return tuple(cases)
+    return cases
 
 
 def pushed_model() -> Model:

@@ -10,7 +10,18 @@ from atlas.proof.notation import sides
 from atlas.proof.particle import SIGNS as PARTICLE_SIGNS
 from atlas.proof.particle import drift_model
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, omega1, omega2, omega3
+from atlas.proof.quadric import (
+    B2,
+    B3,
+    LETTERS,
+    I,
+    at_start,
+    constant_omega3,
+    lost_lines_model,
+    omega1,
+    omega2,
+    omega3,
+)
 from atlas.proof.trial import Falsehood, Part, Trial, evaluated, read
 
 SIGNS = pseudo_oscillator.SIGNS | {
@@ -77,7 +88,7 @@ def _slope_in_squares() -> Value:
     return sympy.cancel(sympy.cancel(value).subs({x: sympy.sqrt(z), tau: sympy.sqrt(T2)}))
 
 
-def places_model(*, within: bool) -> tuple[Model, ...]:
+def places_model(*, within: bool) -> list[Model]:
     """Model x^2 = z within the band, its ends among them, or outside, below and above it; 8 tau^2 = 1 - root^2."""
     share, more = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
     long, cases = 1 - 1 / (1 + excess), []
@@ -88,7 +99,7 @@ def places_model(*, within: bool) -> tuple[Model, ...]:
         for place in inside if within else [low / (1 + more), high + more]:
             letters = {"nun2": _slope_in_squares().subs({T2: t2, I: 1 - long, z: place}), "t2": t2, "I": 1 - long}
             cases.append(Model({**letters, "z": place}, domains={"share": "positive"}))
-    return tuple(cases)
+    return cases
 
 
 def above_model() -> Model:
@@ -98,7 +109,7 @@ def above_model() -> Model:
     return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
 
 
-def root_model() -> tuple[Model, Model, Model]:
+def root_model() -> list[Model]:
     """Q at omega3 + v, and p'(omega3), for every elementary motion: of the hyperbola, and of the lines omega2 = -B2.
 
     These are I = 1 with any omega3, and B3 = 0 with any I and omega3.
@@ -110,8 +121,7 @@ def root_model() -> tuple[Model, Model, Model]:
         [(omega2, -B2), (I, sympy.Integer(1))],
         [(omega2, -B2), (B3, zero)],
     ]
-    first, second, third = (Model(letters, where) for where in lines)
-    return first, second, third
+    return [Model(letters, where) for where in lines]
 
 
 def leaving_model() -> Model:
@@ -145,16 +155,6 @@ def torque_model() -> Model:
     torque = -euler_poisson.mu / euler_poisson.c * cross(R * mass * R.T * field, R * spin)
     letters = {**whole.letters, "m": R * tensor * spin, "dm": torque, "c": euler_poisson.c}
     return Model(letters, whole.where, dict(zip(R, R * hat(spin), strict=True)))
-
-
-def lines_model() -> tuple[Model, Model]:
-    """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2, with omega1 of either sign."""
-    size = sympy.Symbol("size", positive=True)
-    first, second = (
-        Model({**LETTERS, "sign": sympy.Integer(sign), "I": 1 - size**2, "omega1": sign * size * B2, "omega2": -B2})
-        for sign in (1, -1)
-    )
-    return first, second
 
 
 def turning_model(case: str) -> Model:
@@ -355,7 +355,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-quadric-lines",
-        model=lines_model,
+        model=lost_lines_model,
         also=(read("(50)", SIGNS),),
         follows=r"@(50) by substitution, any $\omega_3$",
         false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),

@@ -2,7 +2,7 @@
 
 import sympy
 
-from atlas.proof.model import Model, Value, cross, dot, functions, turn, vector
+from atlas.proof.model import Model, Value, cross, direction, dot, functions, turn, vector
 from atlas.proof.trial import Falsehood, Part, Trial
 
 SIGNS = {"q": "q()", "q'": "dq()", "q''": "ddq()", "q'''": "dddq()", r"\dot\psi": "psi1", r"\dot\chi": "chi1"}
@@ -39,8 +39,7 @@ def state_model() -> Model:
     M, b = vector("M"), vector("b")
     Omega = J.inv() * (M - COUPLING * b)
     rates = cross(M, Omega) + cross(COUPLING * Omega - _force(b) * E3, b), cross(b, Omega)
-    size = 1 + x**2 + y**2
-    where = list(zip(b, (2 * x / size, 2 * y / size, (1 - x**2 - y**2) / size), strict=True))
+    where = list(zip(b, direction(), strict=True))
     energy = dot(Omega, J * Omega) + 2 * a0 * b[2] + A0 * b[2] ** 2
     momentum, along = M[2], dot(M, b)
     turn = (Omega[0] * b[0] + Omega[1] * b[1]) / (1 - nu**2)
@@ -110,18 +109,18 @@ def marginal_model() -> Model:
     return Model({**base, "c": c}, [(A, leading), (a, force)])
 
 
-def sleeping_model() -> tuple[Model, ...]:
-    """Model the state at rest at nu = sigma, and the border of its stability, M3 = 2 m, A = m^2 - sigma a."""
+def sleeping_model() -> list[Model]:
+    """Model the state at rest at nu = sigma."""
     models = []
     for sigma in (1, -1):
         letters = {"nu": nu, "a": a, "A": A, "M3": M3, "sigma": sympy.Integer(sigma)}
         models.append(Model({**letters, "q": QUARTIC.xreplace({p: sigma * M3, g: 2 * sigma * a + A})}))
-    return tuple(models)
+    return models
 
 
-def border_model() -> tuple[Model, ...]:
+def border_model() -> list[Model]:
     """Model the border of stability, A = M3^2/4 - sigma a."""
-    return tuple(Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model())
+    return [Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model()]
 
 
 TRIALS = (

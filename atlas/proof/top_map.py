@@ -2,7 +2,7 @@
 
 import sympy
 
-from atlas.proof.model import Model, Value, dot, functions, vector
+from atlas.proof.model import Model, Value, direction, dot, functions, vector
 from atlas.proof.top import M3, QUARTIC, A, a, g, nu, p
 from atlas.proof.trial import Falsehood, Trial
 
@@ -26,23 +26,20 @@ def cusp_model() -> Model:
     return Model({**letters, "psi1": (p - M3 * nu) / (1 - nu**2) - k2, **functions("q", QUARTIC, nu)})
 
 
-def spin_model() -> tuple[Model, ...]:
+def spin_model() -> list[Model]:
     """Model any state M, b, |b| = 1, near a spin about n in either sense s."""
     models = []
     for sense in (1, -1):
         M, b = vector("M"), vector("b")
-        x, y = sympy.symbols("x y", real=True)
-        size = 1 + x**2 + y**2
-        unit = (2 * x / size, 2 * y / size, (1 - x**2 - y**2) / size)
         letters: dict[str, Value] = {"sigma": sympy.Integer(sense), "a": a, "A": A, "nu": b[2], "M3": M[2]}
         across = sympy.Matrix(b[:2])
         letters |= {"z": across, "momentum": sympy.Matrix(M[:2]) - sense * M[2] * across / 2}
         letters |= {"p": dot(M, b), "g": M[0] ** 2 + M[1] ** 2 + 2 * a * b[2] + A * b[2] ** 2}
-        models.append(Model(letters, list(zip(b, unit, strict=True))))
-    return tuple(models)
+        models.append(Model(letters, list(zip(b, direction(), strict=True))))
+    return models
 
 
-def residue_model() -> tuple[Model, ...]:
+def residue_model() -> list[Model]:
     """Model any constants of the quartic q at either end s of its range, and the rates P of psi and C of chi."""
     turn, cases = (p - M3 * nu) / (1 - nu**2), []
     for sense in (1, -1):
@@ -51,7 +48,7 @@ def residue_model() -> tuple[Model, ...]:
         root = sympy.I * (p - sense * M3)  # of q at nu = sigma
         letters |= {f"res_{name}": sympy.cancel((nu - sense) * f).subs(nu, sense) / root for name, f in rates.items()}
         cases.append(Model({**letters, "dpsi": rates["dpsi"], "root": root}))
-    return tuple(cases)
+    return cases
 
 
 TRIALS = (
