@@ -144,7 +144,7 @@ def _turned(line: str) -> str:
     return f"{line}; {ast.unparse(product.left) if isinstance(product, ast.BinOp) else product} = about_B(-alpha*t)"
 
 
-_LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
+LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 
 def round_model() -> Model:
@@ -319,7 +319,7 @@ TRIALS = (
         model=motion_model,
         follows=r"@(24) by substitution, with $\mathbf{m}$ of @(26) and $\hat{\mathbf{k}}$, $\gamma$ of @(29)",
         defines=("R",),
-        solves=_LINEAR,
+        solves=LINEAR,
     ),
     Trial(
         name="(29)",
@@ -340,7 +340,7 @@ TRIALS = (
         name="text-ball-two-rotations",
         signs={r"R_{\hat{\mathbf{B}}}": "about_B()", r"R_{\hat{\mathbf{k}}}": "about_k()"},
         defines=("R",),
-        solves=_LINEAR,
+        solves=LINEAR,
         model=motion_model,
         follows="Rodrigues' formula for a rotation about a unit vector",
         false=Falsehood(
@@ -369,7 +369,7 @@ TRIALS = (
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
         "constants of @text-ball-parallel",
         defines=("R",),
-        solves=_LINEAR,
+        solves=LINEAR,
         also=(Part(line=read("(30)", SIGNS), model=along_model),),
     ),
 )

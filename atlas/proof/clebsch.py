@@ -1,10 +1,8 @@
 """The structure behind the motion on trial: Larmor's frame, the bracket of e(3), and the integral of Clebsch."""
 
-from collections.abc import Callable
-
 import sympy
 
-from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, symmetric, turn, vector
+from atlas.proof.model import Model, Value, cross, dot, hat, partial, rotation_symbols, symmetric, turn, vector
 from atlas.proof.pseudo_oscillator import state_model
 from atlas.proof.trial import Falsehood, Trial
 
@@ -26,11 +24,6 @@ AXES = sympy.diag(*MOMENTS)
 def determinant(tensor: Value) -> Value:
     """Return the determinant of a tensor without a division."""
     return tensor.det(method="berkowitz")
-
-
-def gradient(vectors: Value) -> Callable[[Value], Value]:
-    """Return the gradient of a function with respect to a vector of symbols."""
-    return lambda f: sympy.Matrix([sympy.diff(f, x) for x in vectors])
 
 
 def tensor_model() -> Model:
@@ -71,7 +64,6 @@ def reversed_model() -> Model:
 
 def poisson_model() -> Model:
     """Model any M and K as coordinates of e(3), principal moments, the bracket, and the rates of (16), (35)."""
-    gM, gK = gradient(M), gradient(K)
     H = dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
     spin = AXES.inv() * M - K
     mass = AXES.trace() / 2 * sympy.eye(3) - AXES
@@ -79,8 +71,8 @@ def poisson_model() -> Model:
 
     def bracket(f: Value, g: Value) -> Value:
         """Return {f, g} = -(M, [f_M, g_M]) - (K, [f_M, g_K] + [f_K, g_M])."""
-        mixed = cross(gM(f), gK(g)) + cross(gK(f), gM(g))
-        return -dot(M, cross(gM(f), gM(g))) - dot(K, mixed)
+        (fM, fK), (gM, gK) = ((partial(each, M), partial(each, K)) for each in (f, g))
+        return -dot(M, cross(fM, gM)) - dot(K, cross(fM, gK) + cross(fK, gM))
 
     letters = {"M": M, "K": K, "J": AXES, "H": H, "br": bracket}
     letters["F"] = dot(M, M) - determinant(AXES) * dot(K, AXES.inv() * K)

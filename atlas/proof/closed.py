@@ -2,7 +2,7 @@
 
 import sympy
 
-from atlas.proof.model import Model, Value, turn
+from atlas.proof.model import Model, turn
 from atlas.proof.trial import Falsehood, Trial
 
 SIGNS = {r"\hat B_3": "hB3", r"\varrho": "r"}
@@ -15,14 +15,7 @@ def closed_model() -> Model:
     """Model a point of the hyperbola with phi of (72) for any k of (79), and any number r."""
     B2, B3 = b * h2, b * h3
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
-    letters: dict[str, Value] = {
-        "I": I,
-        "b": b,
-        "hB3": h3,
-        "r": r,
-        "k": k,
-        "phi": sympy.cancel(phi.subs(omega2, k * h2)),
-    }
+    letters = {"I": I, "b": b, "hB3": h3, "r": r, "k": k, "phi": sympy.cancel(phi.subs(omega2, k * h2))}
     return Model({**letters, "free": (1 - I) / I * h3 * k}, [(h2, turn(p)[1]), (h3, turn(p)[0])])
 
 

@@ -96,14 +96,9 @@ def rows_model() -> Model:
     return _model({"c": sympy.Matrix([value[0], value[1], hB3 * omega2 / hB2])}, [*FIELD])
 
 
-def _third(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
-    """gamma_3 of (80)."""
-    return size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
-
-
 def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
     """Return A row by (78) and (80)."""
-    third = _third(constant, size, phase)
+    third = size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
     rate = -k * size * (sk * phase[0] + ck * phase[1])
     rest = constant - hB3 * omega2 / hB2 * third
     return (
@@ -117,8 +112,7 @@ def solution_model() -> Model:
     letters = {"gamma": row, "Omega1": SPIN[0], "Omega2": SPIN[1]}
 
     def begin(constant: Value, size: Value, angle: Value) -> Value:
-        phase = sympy.cos(angle), sympy.sin(angle)
-        return _row(constant, size, phase).subs(START)
+        return _row(constant, size, (sympy.cos(angle), sympy.sin(angle))).subs(START)
 
     letters["row"] = begin
     return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
@@ -183,8 +177,8 @@ def free_frequency_model() -> list[Model]:
     return cases
 
 
-_POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
-_EULER = "J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
+POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
+MOTION = f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
 _AT_REST = r"At $\omega_2 = 0$ it reads $0/0$: the body is at rest, and @(84) says so."
 
 
@@ -340,7 +334,7 @@ TRIALS = (
         signs={"": "R"},
         follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
         defines=("R",),
-        solves=f"{_POISSON}; {_EULER}",
+        solves=MOTION,
     ),
     Trial(
         name="text-hidden",
@@ -349,7 +343,7 @@ TRIALS = (
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
         false=Falsehood(r"$k$ is $\omega_2$ times $\hat{B}_2$", "omega2*Bl/Bl2", "omega2*Bl2/Bl"),
     ),
-    Trial(name="(85)", model=matrix_model, follows="@(84)", defines=("R",), solves=_POISSON),
+    Trial(name="(85)", model=matrix_model, follows="@(84)", defines=("R",), solves=POISSON),
     Trial(
         name="text-precession",
         model=matrix_model,
@@ -388,7 +382,7 @@ TRIALS = (
         model=free_model,
         follows="the free Euler and Poisson equations by substitution",
         defines=("phi",),
-        solves=f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
+        solves=f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
     ),
     Trial(
         name="text-affirmation-free",

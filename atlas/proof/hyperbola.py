@@ -82,16 +82,10 @@ def precession_model() -> Model:
     return Model({**_STATE, **letters})
 
 
-def _frequencies() -> tuple[Value, Value]:
-    """Phi' and phi, read off the rates of precession_model."""
-    letters = precession_model().letters
-    return letters["phip"], letters["phi"]
-
-
 def agreement_model() -> Model:
     """Model the omega3 for which both frequencies agree: the condition is linear in it."""
-    euler, field = _frequencies()
-    condition = sympy.Poly(sympy.numer(sympy.together((euler - field).subs(I3, I * I2))), omega3)
+    letters = precession_model().letters
+    condition = sympy.Poly(sympy.numer(sympy.together((letters["phip"] - letters["phi"]).subs(I3, I * I2))), omega3)
     slope, rest = condition.all_coeffs()
     return Model(LETTERS, [(omega3, sympy.cancel(-rest / slope))])
 
@@ -137,7 +131,7 @@ def degenerate_model() -> list[Model]:
 
 def frequency_model() -> Model:
     """Phi' of (63) at omega1 = 0, on the hyperbola."""
-    phi = _frequencies()[0].subs(I3, I * I2)
+    phi = precession_model().letters["phip"].subs(I3, I * I2)
     where = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
     return Model({**LETTERS, "phi": phi}, where)
 

@@ -12,7 +12,7 @@ from typing import Any
 import sympy
 
 from atlas.paper import EQUATIONS
-from atlas.proof.model import Model, Value, cross, dot, matrix, vector
+from atlas.proof.model import Model, Value, cross, dot, matrix, partial, vector
 from atlas.proof.notation import equations
 from atlas.proof.trial import Falsehood, Part, Trial, mended
 
@@ -57,14 +57,12 @@ mu, c = sympy.symbols("mu c", positive=True)
 COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
 
 
-def ratios(*, equal: bool = True) -> dict[int, Value]:
-    """Return the charge-to-mass ratio of each particle: the same for all, as the paper supposes, or one for each."""
-    return {N: mu if equal else sympy.Symbol(f"mu{N}", real=True) for N in ALL}
-
-
 def potential_energy(*, equal: bool = True) -> Value:
-    """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m."""
-    charges = {N: ratio * m[N] for N, ratio in ratios(equal=equal).items()}
+    """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m.
+
+    The charge-to-mass ratio is the same for all, as the paper supposes, or another for each.
+    """
+    charges = {N: (mu if equal else sympy.Symbol(f"mu{N}", real=True)) * m[N] for N in ALL}
     return sum(charges[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
 
 
@@ -81,9 +79,9 @@ def forces(*, equal: bool = True) -> dict[int, Value]:
     L = sympy.expand(free_action() + potential_energy(equal=equal))
     sums = {}
     for N in ALL:
-        momentum = sympy.Matrix([L.diff(v) for v in dy[N]])
+        momentum = partial(L, dy[N])
         drift = sum((momentum.jacobian(y[M]) * dy[M] for M in ALL), sympy.zeros(3, 1))
-        sums[N] = (sympy.Matrix([L.diff(x) for x in y[N]]) - drift).applyfunc(sympy.expand)
+        sums[N] = (partial(L, y[N]) - drift).applyfunc(sympy.expand)
     return sums
 
 

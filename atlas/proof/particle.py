@@ -93,6 +93,7 @@ def _split() -> dict[str, Value]:
     rate = mu * (ACROSS + PARALLEL) * t + mu / c * cross(place, ALONG_Z) + C
     parts = {"Cpar": up * C, "Cperp": flat * C, "ypar": up * place, "yperp": flat * place, "y": place}
     parts |= {"dypar": up * rate, "dyperp": flat * rate, "Epar": PARALLEL, "Eperp": ACROSS, "Bf": ALONG_Z}
+    parts["ypar0"] = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])
     return {**parts, "mu": mu, "c": c, "t": t, "b": b, "E2": E2}
 
 
@@ -100,15 +101,13 @@ def split_model() -> Model:
     """(90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
     parts = _split()
     flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
-    letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
-    start = {t: sympy.Integer(0), parts["y"][2]: letters["ypar0"][2]}
-    return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
+    start = {t: sympy.Integer(0), parts["y"][2]: parts["ypar0"][2]}
+    return Model(parts, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
 
 
 def parallel_model() -> Model:
     """Constants of the motion along B."""
-    parts = _split()
-    letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
+    letters = _split()
     del letters["ypar"]
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
 
@@ -116,7 +115,7 @@ def parallel_model() -> Model:
 def fall_along_model() -> Model:
     """(93)."""
     parts = _split()
-    ypar = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
+    ypar = parts["ypar0"] + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
     return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)})
 
 
@@ -219,7 +218,7 @@ def trajectory_model(*, signed: bool = True) -> list[Model]:
     """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
-        letters = {**model.letters, "ypar0": sympy.Symbol("z0", real=True) * ALONG_Z / b, "E": PARALLEL + ACROSS}
+        letters = {**model.letters, "E": PARALLEL + ACROSS}
         letters |= {"ypar": evaluated("(93)", SIGNS, letters), "yperp": evaluated("(99)", SIGNS, letters)}
         where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
         cases.append(replace(model, letters=letters, where=where))

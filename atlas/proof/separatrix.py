@@ -98,18 +98,8 @@ def family_model() -> Model:
     turning, sine = cd**2 - sd**2, 2 * cd * sd
     double, leading = -ck * (turning * ck + sine * sk), -(w**2) / ck**2
     I = 1 + leading / b**2
-    letters: dict[str, Value] = {
-        "kappa": kappa,
-        "delta": delta,
-        "w": w,
-        "b": b,
-        "t": t,
-        "nu0": nu0,
-        "e": e,
-        "A": A,
-        "nu": nu,
-    }
-    letters |= {"M3": M3, "p": p, "c3": c3, "c": c, "C": C, "S": T * C, "lam_minus": (c3 - M3 - b) / 2}
+    letters: dict[str, Value] = {"kappa": kappa, "delta": delta, "w": w, "b": b, "t": t, "nu0": nu0, "e": e, "A": A}
+    letters |= {"nu": nu, "M3": M3, "p": p, "c3": c3, "c": c, "C": C, "S": T * C, "lam_minus": (c3 - M3 - b) / 2}
     letters["lam_minus"] += (p + M3) / (1 + nu0) / 2
     letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - nu0)) / 2
     rest = A * nu0**2 + w**2 * (1 - nu0**2)
@@ -186,10 +176,8 @@ def pendulum_model() -> Model:
     zero = sympy.Integer(0)
     state = {general.p: zero, general.M3: zero, general.A: a**2, general.g: a**2}
     letters = {"A": a**2, "M3": zero, "p": zero, "t": t, "b": b, "H": (a**2 + b**2) / 2}
-    letters |= {
-        "tanh": lambda argument: T if argument == a * t else sympy.tanh(argument),
-        **functions("q", QUARTIC.xreplace(state), nu),
-    }
+    letters["tanh"] = lambda argument: T if argument == a * t else sympy.tanh(argument)
+    letters |= functions("q", QUARTIC.xreplace(state), nu)
     return Model(letters, flow={T: a * (1 - T**2)}, start={T: zero})
 
 

@@ -221,8 +221,6 @@ def _and_only_there(line: str) -> str:
 
 
 _CONDITION = sides(read("theorem-points", SIGNS).split("; ")[-1])[1]
-_POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
-_MOTION = f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
 
 TRIALS = (
     Trial(
@@ -342,7 +340,7 @@ TRIALS = (
         model=lambda: turning_model("ball"),
         follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
-        solves=_MOTION,
+        solves=elementary.MOTION,
         false=Falsehood(r"The proper rotation is the spin $\omega_3$", "(omega3 + B3)", "omega3"),
     ),
     Trial(
@@ -350,7 +348,7 @@ TRIALS = (
         model=lambda: turning_model("equator"),
         follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
-        solves=_MOTION,
+        solves=elementary.MOTION,
         false=Falsehood("The proper rotation is counted from Larmor's frame", "omega3*t", "(omega3 + B2)*t"),
     ),
     Trial(
@@ -387,7 +385,7 @@ TRIALS = (
         model=rest_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
-        solves="d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one",
+        solves=ball.LINEAR,
         false=Falsehood(r"The ball turns by $+\alpha t$", "-alpha*t", "alpha*t"),
     ),
     Trial(

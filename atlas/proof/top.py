@@ -12,18 +12,8 @@ omega1, omega2, omega3 = vector("omega")
 nu, r, a, A, M3, p, x, y = sympy.symbols("nu nu0 a A M3 p x y", real=True)
 J, COUPLING, E3 = sympy.diag(1, 1, I), sympy.diag(k2, k2, k3), sympy.Matrix([0, 0, 1])
 KAPPA, LEADING = k2 - k3 / I, A0 + k3**2 / I - k2**2
-LETTERS = {
-    "I": I,
-    "k2": k2,
-    "k3": k3,
-    "a0": a0,
-    "A0": A0,
-    "kappa": KAPPA,
-    "A": LEADING,
-    "J": J,
-    "k": COUPLING,
-    "e3": E3,
-}
+LETTERS = {"I": I, "k2": k2, "k3": k3, "a0": a0, "A0": A0, "kappa": KAPPA, "A": LEADING}
+LETTERS |= {"J": J, "k": COUPLING, "e3": E3}
 g = sympy.Symbol("g", real=True)
 QUARTIC = (1 - nu**2) * (g - 2 * a * nu - A * nu**2) - (p - M3 * nu) ** 2
 """The quartic of every top, by theorem-every-top."""
