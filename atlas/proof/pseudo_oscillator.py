@@ -1,5 +1,6 @@
 """Section IV, first half, on trial: the symmetric body and the cubic pseudo-oscillator, (31) to (49)."""
 
+from dataclasses import replace
 from functools import cache
 
 import sympy
@@ -66,18 +67,9 @@ def state_model() -> Model:
     return Model(letters, flow=FLOW, start=START)
 
 
-def bare_model() -> Model:
-    """Model the same without the coefficients of the cubic."""
-    whole = state_model()
-    letters = {name: value for name, value in whole.letters.items() if name not in {"a0", "a1", "a2", "a3"}}
-    return Model(letters, flow=FLOW, start=START)
-
-
 def launch_model() -> Model:
     """Model the same at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
-    whole = bare_model()
-    start = [(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)]
-    return Model(whole.letters, start, flow=FLOW, start=START)
+    return replace(state_model(), where=[(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)])
 
 
 def field_model() -> Model:
@@ -117,7 +109,7 @@ def passing_model() -> Model:
     rho, u, I, E = sympy.Symbol("rho", real=True), *(whole.letters[name] for name in ("u", "I", "E"))
     where = [(E, rho**2 + I * u**2), *whole.where[1:]]
     flow = {**whole.flow, rho: -I * u * whole.flow[u] / rho}
-    return Model({**whole.letters, "rho": rho, "f": sympy.log(rho)}, where, flow, phases=whole.phases)
+    return replace(whole, letters={**whole.letters, "rho": rho, "f": sympy.log(rho)}, where=where, flow=flow)
 
 
 def quadrature_model() -> Model:
@@ -314,7 +306,7 @@ TRIALS = (
         model=launch_model,
         signs={rf"a_{n}(\boldsymbol{{\omega}}, \mathbf{{B}}')": f"a{n}" for n in (0, 1, 2)},
         follows="@(46) and the four integrals",
-        corrected_model=bare_model,
+        corrected_model=state_model,
         defines=("a0", "a1", "a2", "a3"),
         solves=read("(47)", SIGNS),
         corrected_tex=mended("(48)", {"(2-1)": r"(2-\boxed{I})"}),
