@@ -41,8 +41,7 @@ def clebsch(momentum: Value) -> Value:
 
 def elliptic_model() -> Model:
     """Model any K of a body with principal moments, any z and v, with K turned as the theorem says."""
-    letters = {name: value for name, value in LETTERS.items() if name != "P"}
-    return Model(letters, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
+    return Model(LETTERS, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
 
 
 def integrals_model() -> Model:

@@ -1,5 +1,7 @@
 """Steady precessions, their stability and the second elementary family on trial: a quartic with a double root."""
 
+from dataclasses import replace
+
 import sympy
 
 from atlas.proof import general
@@ -136,11 +138,10 @@ def triple_model() -> Model:
 def axis_model() -> Model:
     """Model any state near the spin along the field, in the letters of the top; n = K/b."""
     whole = top_model()
-    letters = {name: value for name, value in whole.letters.items() if name not in {"K", "M", "nu"}}
-    M, K = whole.letters["M"] / whole.letters["I2"], whole.letters["K"]
+    M, K, letters = whole.letters["M"] / whole.letters["I2"], whole.letters["K"], dict(whole.letters)
     letters |= {"M1": M[0], "M2": M[1], "n1": K[0] / b, "n2": K[1] / b, "nu": K[2] / b}
     letters |= {"A": (letters["I"] - 1) * b**2, "B3": b, "omega3": M[2] / letters["I"] - b}
-    return Model(letters, whole.where, whole.flow)
+    return replace(whole, letters=letters)
 
 
 def escape_model() -> list[Model]:
