@@ -6,10 +6,8 @@ EQUATIONS = (
     Equation(
         name="theorem-closed",
         says=r"One elementary motion, and no other, has $\phi/k = \varrho$, for every $\varrho$ but two",
-        tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat B_3-I\varrho},"
-        r"\qquad\varrho\ne\frac{(1-I)\hat "
-        r"B_3}{I},\ "
-        r"\frac{2(1-I)\hat B_3}{I}",
+        tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat B_3-I\varrho},\qquad\varrho\ne"
+        r"\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}",
         assumptions=(FIELD, OFF_LINES, "$I$ differs from 1", "$k$ differs from 0, the motion at rest"),
     ),
     Equation(

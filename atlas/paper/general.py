@@ -23,9 +23,8 @@ EQUATIONS = (
     Equation(
         name="theorem-weierstrass",
         says="From a root $e$ of any quartic $Q$ the solution of $du^2 = Q(u)$ in the function of Weierstrass",
-        tex=r"\begin{aligned} u&=e+\frac{Q'(e)/4}{\wp(t)-Q''(e)/24},\\ g_2&=a_0a_4-4a_1a_3+3a_2^2,\qquad "
-        r"g_3=a_0a_2a_4+2a_1"
-        r"a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
+        tex=r"\begin{aligned} u&=e+\frac{Q'(e)/4}{\wp(t)-Q''(e)/24},\\ g_2&=a_0a_4-4a_1a_3+3a_2^2,\qquad g_3=a_0a_2a_4"
+        r"+2a_1a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
         assumptions=(
             "$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$",
             "$Q(e) = 0$, $Q'(e)$ differs from 0, $u = e$ at $t = 0$",
@@ -42,18 +41,16 @@ EQUATIONS = (
         name="theorem-residues",
         says=r"Where $\nu = -1$ or 1 the rate $d\nu/dt$ is imaginary, and of its two signs one alone leaves a residue, "
         "which is 1",
-        tex=r"q(\mp1)=-(p\pm M_3)^2,\qquad\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}=\frac{\dot\nu+i(p-M_3"
-        r"\nu)}{2"
+        tex=r"q(\mp1)=-(p\pm M_3)^2,\qquad\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}=\frac{\dot\nu+i(p-M_3\nu)}{2"
         r"\dot\nu}=\frac{1\pm1}{2}\quad\text{where}\quad\dot\nu=\pm i(p+M_3)",
         assumptions=(SYMMETRIC, _LETTERS, _CURVE, r"$p$ differs from $M_3$ and from $-M_3$"),
     ),
     Equation(
         name="theorem-sigma",
         says="The Cayley–Klein parameters in sigma functions, their exponents in closed form",
-        tex=r"\begin{aligned} \frac{\dot\xi}{\xi}&=i\lambda_-+\zeta(z_-)+\zeta(t-z_-)-\tfrac12\zeta(t-z_0)-"
-        r"\tfrac12"
-        r"\zeta(t+z_0),\qquad\xi=\xi_0\exp[(i\lambda_-+\zeta(z_-))t]\frac{\sigma(t-z_-)}{\sqrt{\sigma(t-z_0)\sigma("
-        r"t+z_0)}},\\ 2\lambda_-&=c_3-M_3-b+\frac{p+M_3}{1+e},\qquad2\lambda_+=M_3-c_3-b+\frac{p-M_3}{1-e} "
+        tex=r"\begin{aligned} \frac{\dot\xi}{\xi}&=i\lambda_-+\zeta(z_-)+\zeta(t-z_-)-\tfrac12\zeta(t-z_0)-\tfrac12"
+        r"\zeta(t+z_0),\qquad\xi=\xi_0\exp[(i\lambda_-+\zeta(z_-))t]\frac{\sigma(t-z_-)}{\sqrt{\sigma(t-z_0)\sigma(t"
+        r"+z_0)}},\\ 2\lambda_-&=c_3-M_3-b+\frac{p+M_3}{1+e},\qquad2\lambda_+=M_3-c_3-b+\frac{p-M_3}{1-e} "
         r"\end{aligned}",
         assumptions=(
             SYMMETRIC,

@@ -18,10 +18,8 @@ EQUATIONS = (
         name="theorem-steady",
         says=r"The double roots $\nu_0$ of $q$ with $|\nu_0| < 1$: steady precessions with the rate $w$ in Larmor's "
         "frame",
-        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad 2H-\frac{M_3^2}{I}-b^2-A\nu_0^2"
-        r"=w^2(1-\nu_0^2),\\ w&="
-        r"\frac{p-"
-        r"M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 \end{aligned}",
+        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad 2H-\frac{M_3^2}{I}-b^2-A\nu_0^2=w^2(1-"
+        r"\nu_0^2),\\ w&=\frac{p-M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 \end{aligned}",
         assumptions=(
             SYMMETRIC,
             _LETTERS,
@@ -48,20 +46,17 @@ EQUATIONS = (
         says=r"All these motions by two angles: $e = \cos (2 \delta)$ where the axis turns back, and $z = \cos "
         r"(\kappa)^2$",
         tex=r"\nu_0=-\cos\kappa\cos(2\delta-\kappa),\qquad M_3=w\sin\kappa\tan\kappa\cos(2\delta-\kappa),\qquad A=-"
-        r"\frac{w^2}{"
-        r"\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
+        r"\frac{w^2}{\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
         assumptions=_FAMILY,
     ),
     Equation(
         name="theorem-companion",
         says="The second elementary family: the Cayley–Klein parameters are turned vectors, linear in $C$ and $S$",
-        tex=r"\begin{aligned} \begin{pmatrix}\xi\\\eta\end{pmatrix}&\propto\begin{pmatrix}\exp(i\lambda_-t)\left["
-        r"\cos\delta"
-        r"\,C-i\Lambda\cos(\delta-\kappa)\,S\right]\\ \exp(i\lambda_+t)\left[\sin\delta\,C+i\Lambda\sin(\delta-"
-        r"\kappa)\,S\right]"
-        r"\end{pmatrix},\qquad\Lambda=\frac{w(e-\nu_0)}{\cos\kappa},\\ C&=\cosh\frac{\sqrt ct}{2},\qquad S=\frac{1}{"
-        r"\sqrt c}"
-        r"\sinh\frac{\sqrt ct}{2},\\ 2\lambda_\mp&=\pm(c_3-M_3)-b+\frac{p\pm M_3}{1\pm \nu_0} \end{aligned}",
+        tex=r"\begin{aligned} \begin{pmatrix}\xi\\\eta\end{pmatrix}&\propto\begin{pmatrix}\exp(i\lambda_-t)\left[\cos"
+        r"\delta\,C-i\Lambda\cos(\delta-\kappa)\,S\right]\\ \exp(i\lambda_+t)\left[\sin\delta\,C+i\Lambda\sin(\delta-"
+        r"\kappa)\,S\right]\end{pmatrix},\qquad\Lambda=\frac{w(e-\nu_0)}{\cos\kappa},\\ C&=\cosh\frac{\sqrt ct}{2},"
+        r"\qquad S=\frac{1}{\sqrt c}\sinh\frac{\sqrt ct}{2},\\ 2\lambda_\mp&=\pm(c_3-M_3)-b+\frac{p\pm M_3}{1\pm "
+        r"\nu_0} \end{aligned}",
         assumptions=(*_FAMILY, "cosine and sine stand for cosh and sinh if $c < 0$, and $C = 1$, $S = t/2$ if $c = 0$"),
     ),
     Equation(
@@ -89,9 +84,8 @@ EQUATIONS = (
         name="theorem-axis-stable",
         says=r"A spin along the field is stable for $D \ge 0$, $M_3$ not 0, for all times: a conserved sum of squares",
         tex=r"\begin{aligned} M_1^2+M_2^2-A(1-\nu^2)-M_3(p-M_3)&=\left(M_1-\tfrac12M_3n_1\right)^2+\left(M_2-"
-        r"\tfrac12M_3n_2"
-        r"\right)^2+\tfrac14D(1-\nu^2)+\tfrac12M_3^2(1-\nu)^2,\\ D&=M_3^2-4A=I^2(\omega_3+B'_3)^2+4(1-I){B'_3}^2 "
-        r"\end{aligned}",
+        r"\tfrac12M_3n_2\right)^2+\tfrac14D(1-\nu^2)+\tfrac12M_3^2(1-\nu)^2,\\ D&=M_3^2-4A=I^2(\omega_3+B'_3)^2+4(1"
+        r"-I){B'_3}^2 \end{aligned}",
         assumptions=(
             SYMMETRIC,
             _LETTERS,
@@ -104,9 +98,7 @@ EQUATIONS = (
         "comes back to it",
         tex=r"e=\frac{\lvert M_3\rvert}{b\sqrt{I-1}}-1,\qquad\begin{pmatrix}\xi\\\eta\end{pmatrix}\propto"
         r"\begin{pmatrix}\exp(i\lambda_-t)\left[C\cos\delta-iM_3\frac{e-1}{1+e}\cos\delta\,S\right]\\ "
-        r"\exp(i\lambda_+t)\sin\delta"
-        r"\end{pmatrix},\qquad"
-        r" c=-D",
+        r"\exp(i\lambda_+t)\sin\delta\end{pmatrix},\qquad c=-D",
         assumptions=(
             SYMMETRIC,
             _LETTERS,

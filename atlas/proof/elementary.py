@@ -265,11 +265,9 @@ TRIALS = (
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
         corrected_signs={r"\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0": ""},
         corrected_tex=r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
-        r"\gamma_3)+\Omega_2"
-        r"\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)-"
-        r"\Omega_1"
-        r"\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0} "
-        r"\end{aligned}",
+        r"\gamma_3)+\Omega_2\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
+        r"\gamma_3)-\Omega_1\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad"
+        r"\omega_2=0} \end{aligned}",
         note=_AT_REST,
     ),
     Trial(name="(79)", model=integral_model, follows="@(75), @(76) and @(78)"),
@@ -295,12 +293,10 @@ TRIALS = (
         slip="(78)",
         corrected_defines=(),
         corrected_solves="",
-        corrected_tex=r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c"
-        r"\hat{B}_3^2]"
-        r"\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}\gamma_2&=[c-b"
-        r"\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi "
-        r"t+\boxed{\omega_2}\frac{b}{\hat{B}_2}"
-        r"\sin(kt+k_0)\sin\phi t \end{aligned}",
+        corrected_tex=r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt"
+        r"+k_0)-c\hat{B}_3^2]\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}"
+        r"\gamma_2&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi t+\boxed{\omega_2}"
+        r"\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t \end{aligned}",
         note=_AT_REST,
     ),
     Trial(

@@ -163,8 +163,7 @@ TRIALS = (
         follows="@(61) and the last equation of @(59)",
         slip="(78)",
         corrected_tex=r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+"
-        r"\omega_2^2)}K_2=\omega_2B'_2"
-        r"\Omega_2",
+        r"\omega_2^2)}K_2=\omega_2B'_2\Omega_2",
         note=_REST,
     ),
     Trial(
@@ -262,9 +261,8 @@ TRIALS = (
             ),
         ),
         corrected_signs={r"\text{or}\quad\omega_2=-B'_2,\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I=1": ""},
-        corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}"
-        r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in"
-        r"\mathbb{R}"
+        corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}\quad"
+        r"\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in\mathbb{R}"
         r"\quad\text{if}\quad I=1} \end{aligned}",
         slip="(52)",
         note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "

@@ -244,10 +244,9 @@ TRIALS = (
         model=state_model,
         follows="@(38), @(40) and @(41)",
         grade="missing case",
-        corrected_tex=r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}K_1&=\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2"
-        r"\dot\Omega_3,\\ "
-        r"\boxed{(E'-I\Omega_3^2)}K_2&=\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3,\qquad"
-        r" K_3=-\Omega_3+c_3 \end{aligned}",
+        corrected_tex=r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}K_1&=\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-"
+        r"\Omega_2\dot\Omega_3,\\ \boxed{(E'-I\Omega_3^2)}K_2&=\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot"
+        r"\Omega_3,\qquad K_3=-\Omega_3+c_3 \end{aligned}",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ it reads $0/0$. That happens at the start of every launch $(0, 0, "
         r"\omega_3)$, and again whenever $\Omega_3$ comes back: for $I = 3/2$, $\mathbf{B}' = (0, 1, 1)$, $\omega_3 = "
         "1$ at $t = 2.347$.",
@@ -258,9 +257,8 @@ TRIALS = (
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
         slip="(42)",
         corrected_tex=r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}\dot\Omega_1&=[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_2-I"
-        r"\Omega_3"
-        r"\dot\Omega_3\Omega_1,\\ \boxed{(E'-I\Omega_3^2)}\dot\Omega_2&=-[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_1"
-        r"-I\Omega_3\dot\Omega_3\Omega_2 \end{aligned}",
+        r"\Omega_3\dot\Omega_3\Omega_1,\\ \boxed{(E'-I\Omega_3^2)}\dot\Omega_2&=-[(2-I)c_3E'-(E'+Ic_5)\Omega_3]"
+        r"\Omega_1-I\Omega_3\dot\Omega_3\Omega_2 \end{aligned}",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ neither $\phi$ nor $\dot f$ of @(44) has a value.",
     ),
     Trial(

@@ -232,8 +232,7 @@ TRIALS = (
         },
         corrected_tex=r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2"
         r"+B'_2)}\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_1=\pm"
-        r"\sqrt{1-I}\,B'_2,"
-        r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}",
+        r"\sqrt{1-I}\,B'_2,\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}",
         grade="missing case",
         note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @(50): for $I \le 1$ the "
         r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
