@@ -278,7 +278,6 @@ TRIALS = (
         follows="@(79) by substitution, with two constants",
         solves=read("(79)", SIGNS),
         slip="(78)",
-        corrected_defines=(),
         corrected_solves="",
         corrected_tex=r"\boxed{k^2}\gamma_3(t)=bk^2\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
         note=_AT_REST,

@@ -279,7 +279,7 @@ class _Formula:
             sign = str(self.take()) if self.peek() in {"+", "-", r"\pm", r"\mp"} else "+"
             term = self.product()
             if sign in {r"\pm", r"\mp"}:
-                term = _product(ast.Name(self.table.letters.get(_Letter((), r"\pm", 0, ()), "sign")), term)
+                term = _product(ast.Name("sign"), term)
             minus = sign in {"-", r"\mp"}
             if result is None:
                 result = _minus(term) if minus else term
