@@ -26,14 +26,16 @@ _SECTIONS: Mapping[Section, tuple[str, ...]] = {
     "VII": ("particle",),
     "Atlas": ("theorems", "clebsch", "elliptic", "general", "separatrix", "closed", "top", "top_map"),
 }
+_KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
 
 
 def _entries() -> Iterator[tuple[str, Equation]]:
-    """Yield the entries in the paper's order, each with its topic and put into its section."""
+    """Yield the entries in the paper's order, each with its topic, and its section and kind filled in."""
     for section, topics in _SECTIONS.items():
         for stem in topics:
             for entry in import_module(f"atlas.paper.{stem}").EQUATIONS:
-                yield stem, replace(entry, section=section, kind="theorem" if section == "Atlas" else entry.kind)
+                kind = entry.kind or _KINDS.get(entry.name.partition("-")[0], "derivation step")
+                yield stem, replace(entry, section=section, kind=kind)
 
 
 _PLACED = tuple(_entries())

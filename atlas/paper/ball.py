@@ -36,7 +36,6 @@ EQUATIONS = (
     Equation(
         name="(20)",
         alias="mf30",
-        kind="derivation step",
         says="Poisson equations of the ball",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
         assumptions=("$R(t)$ is a rotation",),
@@ -44,7 +43,6 @@ EQUATIONS = (
     Equation(
         name="(21)",
         alias="mf31",
-        kind="derivation step",
         says="Euler equations of the ball",
         tex=r"\dot{\boldsymbol{\Omega}}=-\frac{\mu}{2c}[R^T\mathbf{B}, \boldsymbol{\Omega}]",
         assumptions=("$I_1 = I_2 = I_3$",),
@@ -52,7 +50,6 @@ EQUATIONS = (
     Equation(
         name="(22)",
         alias="mf32",
-        kind="derivation step",
         says=r"The angular momentum of the ball precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
         assumptions=("$I_1 = I_2 = I_3$",),
@@ -60,7 +57,6 @@ EQUATIONS = (
     Equation(
         name="(23)",
         alias="mf33",
-        kind="derivation step",
         says=r"Length of the angular momentum and its projection on $\mathbf{B}$ are conserved",
         tex=r"\mathbf{m}^2=\text{const}, \qquad (\mathbf{m}, \mathbf{B})=\text{const}",
         assumptions=("$I_1 = I_2 = I_3$",),
@@ -95,7 +91,6 @@ EQUATIONS = (
     Equation(
         name="(24)",
         alias="mf34",
-        kind="derivation step",
         says="Poisson equations of the ball, linear in $R$",
         tex=r"\dot R_{ij}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj},\qquad\text{or, equivalently}\quad\dot{\mathbf{R}"
         r"}_j=\frac{1}{I_0}[\mathbf{m},\mathbf{R}_j]",
@@ -104,7 +99,6 @@ EQUATIONS = (
     Equation(
         name="(25)",
         alias="mf35",
-        kind="derivation step",
         says="Rate of the angular momentum of the ball",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
         assumptions=("$I_1 = I_2 = I_3$",),
@@ -120,6 +114,7 @@ EQUATIONS = (
     Equation(
         name="(26)",
         alias="mf36",
+        kind="claim",
         says="Angular momentum of the ball at any time",
         tex=r"\mathbf{m}(t)=\begin{pmatrix} \cos\alpha t & \sin\alpha t & 0 \\ -\sin\alpha t & \cos\alpha t & 0 "
         r"\\ 0 & 0 & 1 \end{pmatrix}\begin{pmatrix} 0 \\ m_2 \\ m_3 \end{pmatrix}=\begin{pmatrix} m_2\sin"
@@ -146,6 +141,7 @@ EQUATIONS = (
     Equation(
         name="(28)",
         alias="mf38",
+        kind="claim",
         says="Rotation matrix of the ball: two rotations",
         tex=r"\begin{aligned} "
         r"&\begin{pmatrix}\cos\gamma t\cos\alpha t-\hat{k}_3\sin\gamma t\sin\alpha t&\hat{k}_3\sin\gamma t"
@@ -168,6 +164,7 @@ EQUATIONS = (
     Equation(
         name="(29)",
         alias="mf39",
+        kind="claim",
         says="Axis and frequency of the second rotation of the ball",
         tex=r"\hat{k}_2=-\frac{m_2}{\sqrt{m_2^2+(\alpha I_0+m_3)^2}},\quad\hat{k}_3=-\frac{m_3+\alpha I_0}{\sqrt"
         r"{m_2^2+(\alpha I_0+m_3)^2}},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}",
@@ -195,6 +192,7 @@ EQUATIONS = (
     Equation(
         name="(30)",
         alias="mf40",
+        kind="claim",
         says=r"A ball launched along $\mathbf{B}$ turns about $\mathbf{B}$ steadily",
         tex=r"R=\begin{pmatrix} \cos(m_3t/I_0) & -\sin(m_3t/I_0) & 0 \\ \sin(m_3t/I_0) "
         r"& \cos(m_3t/I_0) & 0 \\ 0 & 0 & 1 \end{pmatrix}",

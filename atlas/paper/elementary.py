@@ -6,6 +6,7 @@ EQUATIONS = (
     Equation(
         name="(73)",
         alias="mf78",
+        kind="claim",
         says="Angular velocity of the elementary motion",
         tex=r"\boldsymbol{\Omega}(t)=\begin{pmatrix} \omega_2\sin\phi t \\ \omega_2\cos\phi t \\ \omega_3(\omega"
         r"_2) \end{pmatrix}, \qquad \text{then} \quad \boldsymbol{\Omega}(0)=\begin{pmatrix} 0 \\ \omega_2 "
@@ -23,14 +24,12 @@ EQUATIONS = (
     Equation(
         name="(74)",
         alias="mf79",
-        kind="derivation step",
         says="Poisson equations for a row of $R$",
         tex=r"\dot{\boldsymbol{\gamma}}=[\boldsymbol{\gamma}, \boldsymbol{\Omega}(t)]",
     ),
     Equation(
         name="(75)",
         alias="mf80",
-        kind="derivation step",
         says="Poisson equations for a row of $R$ in components",
         tex=r"\begin{aligned} "
         r"\dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
@@ -41,7 +40,6 @@ EQUATIONS = (
     Equation(
         name="(76)",
         alias="mf81",
-        kind="derivation step",
         says="An integral of the rows",
         tex=r"\Omega_1\gamma_1+\Omega_2\gamma_2+\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3=c",
         assumptions=(FIELD, OFF_LINES),
@@ -49,7 +47,6 @@ EQUATIONS = (
     Equation(
         name="(77)",
         alias="mf82",
-        kind="derivation step",
         says="One ratio of the components of the field",
         tex=r"\frac{B'_3}{B'_2}=\frac{B_3}{B_2}=\frac{\hat{B}_3}{\hat{B}_2}",
         assumptions=(FIELD,),
@@ -63,7 +60,6 @@ EQUATIONS = (
     Equation(
         name="(78)",
         alias="mf83",
-        kind="derivation step",
         says="First two entries of a row through the third",
         tex=r"\gamma_1=\frac{1}{\omega_2^2}\Bigl[\Omega_1\Bigl(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3"
         r"\Bigr)+\Omega_2\dot\gamma_3\Bigr],\qquad\gamma_2=\frac{1}{\omega_2^2}\Bigl[\Omega_2\Bigl(c-\frac{"
@@ -73,7 +69,6 @@ EQUATIONS = (
     Equation(
         name="(79)",
         alias="mf84",
-        kind="derivation step",
         says="The third entry of a row is a harmonic oscillator with frequency $k$",
         tex=r"\ddot\gamma_3+k^2\gamma_3=c\frac{\hat{B}_3\omega_2}{\hat{B}_2}, \qquad \text{where} \quad k=\frac{"
         r"\omega_2}{\hat{B}_2}",
@@ -82,7 +77,6 @@ EQUATIONS = (
     Equation(
         name="(80)",
         alias="mf85",
-        kind="derivation step",
         says="General solution for the third entry of a row",
         tex=r"\gamma_3(t)=b\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2 k^2}",
         assumptions=(FIELD, r"$\omega_2$ differs from 0"),
@@ -90,7 +84,6 @@ EQUATIONS = (
     Equation(
         name="(81)",
         alias="mf86",
-        kind="derivation step",
         says="First two entries of a row at any time",
         tex=r"\begin{aligned} "
         r"\gamma_1(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
@@ -103,7 +96,6 @@ EQUATIONS = (
     Equation(
         name="(82)",
         alias="mf87",
-        kind="derivation step",
         says="A row at $t = 0$",
         tex=r"\begin{aligned} "
         r"\gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
@@ -115,7 +107,6 @@ EQUATIONS = (
     Equation(
         name="(83)",
         alias="mf88",
-        kind="derivation step",
         says="The constants of the three rows",
         tex=r"\begin{aligned} "
         r"c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
@@ -127,6 +118,7 @@ EQUATIONS = (
     Equation(
         name="(84)",
         alias="mf89",
+        kind="claim",
         says="Rotation matrix of the elementary motion",
         tex=r"\begin{pmatrix} \cos kt\cos\phi t-\hat{B}_3\sin kt\sin\phi t & -\cos kt\sin\phi t-\hat{B}_3\sin kt"
         r"\cos\phi t & \hat{B}_2\sin kt \\ \hat{B}_3 \sin kt\cos\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\sin"
@@ -147,6 +139,7 @@ EQUATIONS = (
     Equation(
         name="(85)",
         alias="mf90",
+        kind="claim",
         says=r"The rotation matrix is a proper rotation followed by a precession about $\mathbf{B}$",
         tex=r"R(t)=R_{\hat{\mathbf{B}}}(t,k)\times R_{OZ}(t,\phi)=\begin{pmatrix}\cos kt&-\hat{B}_3\sin kt&"
         r"\hat{B}_2\sin kt\\\hat{B}_3\sin kt&\hat{B}_2^2+\hat{B}_3^2\cos kt&\hat{B}_2\hat{B}_3(1-\cos kt)\\-"
@@ -181,6 +174,7 @@ EQUATIONS = (
     Equation(
         name="(86)",
         alias="mf91",
+        kind="claim",
         says="Relation between the two frequencies",
         tex=r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+"
         "k_B)}k_B",
@@ -197,6 +191,7 @@ EQUATIONS = (
     Equation(
         name="(87)",
         alias="mf92",
+        kind="claim",
         says="Proper rotation of the free body beside it",
         tex=r"\phi=\frac{I_2-I_3}{I_3}\hat{B}_3k_B",
         assumptions=(FIELD, "no magnetic field"),
@@ -238,6 +233,7 @@ EQUATIONS = (
     Equation(
         name="(88)",
         alias="mf93",
+        kind="claim",
         says=r"The projection of the angular momentum on $\mathbf{B}$ is conserved in the elementary motion",
         tex=r"(\mathbf{m}(t), \mathbf{B})=\text{const}",
         assumptions=(FIELD, OFF_LINES),

@@ -28,9 +28,11 @@ class Equation:
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
     assumptions  what must hold for it, each in a few words
     quote        the words of the paper that make the claim, where it has no formula for it
-    kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours)
-    section      II to V, VII (the appendix, numbered as a section), or Atlas for what the paper doesn't have; its file
-                 stands in one section, and all of Atlas are theorems: `atlas.paper` says so of each entry
+    kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours);
+                 where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
+                 claim
+    section      II to V, VII (the appendix, numbered as a section), or Atlas for what the paper doesn't have: that of
+                 its file, as `atlas.paper` has it
     """
 
     name: str
@@ -39,7 +41,7 @@ class Equation:
     alias: str = ""
     assumptions: tuple[str, ...] = ()
     quote: str = ""
-    kind: Kind = "claim"
+    kind: Kind | Literal[""] = ""
     section: Section = "Atlas"
 
     @property

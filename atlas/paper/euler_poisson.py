@@ -35,7 +35,6 @@ EQUATIONS = (
     Equation(
         name="(11)",
         alias="mf22",
-        kind="derivation step",
         says="Euler equations for a given matrix $A$",
         tex=r"I_{ka}\dot\Omega_a=[I\boldsymbol{\Omega},\boldsymbol{\Omega}]_k+\frac12 \epsilon_{kij}\left"
         r"[(AI)_{ai}R_{aj}+(RI)_{ai}A_{aj}\right]-\frac12 I_{ka}\epsilon_{aij}A_{bi}R_{bj}",
@@ -44,7 +43,6 @@ EQUATIONS = (
     Equation(
         name="(12)",
         alias="mf21",
-        kind="derivation step",
         says="Poisson equations: the components of angular velocity in the body-fixed frame drive $R$",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
         assumptions=("$R(t)$ is a rotation",),
@@ -100,7 +98,6 @@ EQUATIONS = (
     Equation(
         name="(13)",
         alias="mf24",
-        kind="derivation step",
         says=r"The matrix $A$ of the magnetic force through $R$ and $\boldsymbol{\Omega}$",
         tex=r"\begin{aligned} "
         r"A_{ia}&=-\frac{\mu}{c}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_b R_{kc}=\frac{\mu}{c}\left[(R"
@@ -111,7 +108,6 @@ EQUATIONS = (
     Equation(
         name="(14)",
         alias="mf25",
-        kind="derivation step",
         says="Euler equations with the magnetic torque, through the inertia tensor",
         tex=r"\begin{aligned} "
         r"I\dot{\boldsymbol{\Omega}}&=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{2c}\left\{I[R^T"
@@ -123,7 +119,6 @@ EQUATIONS = (
     Equation(
         name="(15)",
         alias="mf26",
-        kind="derivation step",
         says="First component of the magnetic torque, through the mass matrix",
         tex=r"\begin{aligned} "
         r"&(I[R^T\mathbf{B},\boldsymbol{\Omega}])_1-[IR^T\mathbf{B},\boldsymbol{\Omega}]_1+[R^T\mathbf{B},I"
@@ -144,7 +139,6 @@ EQUATIONS = (
     Equation(
         name="(16)",
         alias="mf27",
-        kind="derivation step",
         says="Euler equations of the charged body in the magnetic field",
         tex=r"I\dot{\boldsymbol{\Omega}}=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{c}[gR^T"
         r"\mathbf{B}, \boldsymbol{\Omega}]",
@@ -153,7 +147,6 @@ EQUATIONS = (
     Equation(
         name="(17)",
         alias="mf28",
-        kind="derivation step",
         says="Rate of the angular momentum in the laboratory frame",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{c}[RgR^T\mathbf{B}, RI^{-1}R^T\mathbf{m}]",
         assumptions=("$R(t)$ is a rotation",),
@@ -161,7 +154,6 @@ EQUATIONS = (
     Equation(
         name="(18)",
         alias="mf29",
-        kind="derivation step",
         says="Rate of the angular momentum in the body-fixed frame",
         tex=r"\dot{\mathbf{M}}=[\mathbf{M}, I^{-1}\mathbf{M}]-\frac{\mu}{c}[gR^T\mathbf{B}, I^{-1}\mathbf{M}]",
         assumptions=("$R(t)$ is a rotation",),

@@ -14,7 +14,6 @@ EQUATIONS = (
     Equation(
         name="(59)",
         alias="mf65",
-        kind="derivation step",
         says=r"Euler equations for a constant $\Omega_3$",
         tex=r"\begin{aligned} "
         r"\dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
@@ -26,7 +25,6 @@ EQUATIONS = (
     Equation(
         name="(60)",
         alias="mf66",
-        kind="derivation step",
         says=r"Rate of the field seen from the body for a constant $\Omega_3$",
         tex=r"\dot K_1=\omega_3K_2-B'_3\Omega_2, \qquad \dot K_2=-\omega_3K_1+B'_3\Omega_1, \qquad K_3=B'_3",
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$",),
@@ -34,7 +32,6 @@ EQUATIONS = (
     Equation(
         name="(61)",
         alias="mf67",
-        kind="derivation step",
         says=r"Three integrals for a constant $\Omega_3$",
         tex=r"\Omega_1^2(t)+\Omega_2^2(t)=\omega_1^2+\omega_2^2, \qquad K_1^2(t)+K_2^2(t)={B'_2}^2, \qquad "
         r"\Omega_1(t)K_1(t)+\Omega_2(t)K_2(t)=\omega_2B'_2",
@@ -43,7 +40,6 @@ EQUATIONS = (
     Equation(
         name="(62)",
         alias="mf68",
-        kind="derivation step",
         says=r"$K_1$, $K_2$ are proportional to $\Omega_1$, $\Omega_2$",
         tex=r"K_1=\frac{\omega_2B'_2}{\omega_1^2+\omega_2^2}\Omega_1, \qquad K_2=\frac{\omega_2B'_2}{\omega_1^2+"
         r"\omega_2^2}\Omega_2",
@@ -52,7 +48,6 @@ EQUATIONS = (
     Equation(
         name="(63)",
         alias="mf69",
-        kind="derivation step",
         says=r"Precession of $\boldsymbol{\Omega}$ by the Euler equations",
         tex=r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\text{where}\quad\phi'\equiv(1-I)"
         r"\omega_3+(2-I)B'_3-\frac{IB'_2\omega_2\omega_3}{\omega_1^2+\omega_2^2}",
@@ -61,7 +56,6 @@ EQUATIONS = (
     Equation(
         name="(64)",
         alias="mf70",
-        kind="derivation step",
         says=r"Precession of $\boldsymbol{\Omega}$ by the equations for $\mathbf{K}$",
         tex=r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\text{where}\quad\phi\equiv\omega_3"
         r"-\frac{B'_3(\omega_1^2+\omega_2^2)}{B'_2\omega_2}",
@@ -70,7 +64,6 @@ EQUATIONS = (
     Equation(
         name="(65)",
         alias="mf71",
-        kind="derivation step",
         says="Both precessions agree",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-\frac{I{B'_2}^2\omega_2^2"
         r"\omega_3}{\omega_1^2+\omega_2^2}=0",
@@ -79,7 +72,6 @@ EQUATIONS = (
     Equation(
         name="(66)",
         alias="mf71.1",
-        kind="derivation step",
         says="The necessary condition @(50) again",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
         assumptions=(FIELD,),
@@ -87,7 +79,6 @@ EQUATIONS = (
     Equation(
         name="(67)",
         alias="mf72",
-        kind="derivation step",
         says=r"The initial data of the motions: a hyperbola in the plane $\omega_1 = 0$",
         tex=r"B'_3\omega_2^2-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
         assumptions=(FIELD, r"$\Omega_3 = \omega_3 = \text{const}$"),
@@ -103,6 +94,7 @@ EQUATIONS = (
     Equation(
         name="(68)",
         alias="mf73",
+        kind="claim",
         says="The hyperbola of the circular loop and the short solenoid",
         tex=r"\begin{aligned} "
         r"\frac{{\omega'_2}^2}{C_2^2}-\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
@@ -114,6 +106,7 @@ EQUATIONS = (
     Equation(
         name="(69)",
         alias="mf74",
+        kind="claim",
         says="The hyperbola of the long solenoid",
         tex=r"\begin{aligned} "
         r"-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
@@ -125,6 +118,7 @@ EQUATIONS = (
     Equation(
         name="(70)",
         alias="mf75",
+        kind="claim",
         says="The ball: the hyperbola degenerates into two lines",
         tex=r"\begin{aligned} "
         r"\frac{\omega'_2}{a_2}&=\pm\frac{\omega'_3}{a_3},\\ "
@@ -136,7 +130,6 @@ EQUATIONS = (
     Equation(
         name="(71)",
         alias="mf76",
-        kind="derivation step",
         says=r"The hyperbola resolved for $\omega_3$",
         tex=r"\omega_3(\omega_2)=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}, \qquad \omega_2"
         r"\in\mathbb{R}\setminus\{-B'_2\}",
@@ -145,7 +138,6 @@ EQUATIONS = (
     Equation(
         name="(72)",
         alias="mf77",
-        kind="derivation step",
         says="Frequency of proper rotation",
         tex=r"\phi=\omega_3(\omega_2)-\frac{B'_3}{B'_2}\omega_2=\frac{B'_3\omega_2(1-I)(\omega_2+2B'_2)}{IB'_2("
         r"\omega_2+B'_2)}",

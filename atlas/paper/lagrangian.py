@@ -33,7 +33,6 @@ EQUATIONS = (
     Equation(
         name="(3)",
         alias="mf16",
-        kind="derivation step",
         says="Equations of motion of the constrained particles, varied from the action",
         tex=r"\begin{aligned} "
         r"m_1\ddot{\mathbf{y}}_1&=-\sum_{AB}\lambda_{AB}[\mathbf{y}_B-\mathbf{y}_1]-\frac12\sum_{A\alpha}"
@@ -50,7 +49,6 @@ EQUATIONS = (
     Equation(
         name="(4)",
         alias="mf17",
-        kind="derivation step",
         says="The centre of mass moves as one charged point particle",
         tex=r"\ddot{\mathbf{y}}_0=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}_0, \mathbf{B}]",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
@@ -74,7 +72,6 @@ EQUATIONS = (
     Equation(
         name="(5)",
         alias="mf18",
-        kind="derivation step",
         says="Equations of motion of the particles about the centre of mass",
         tex=r"\begin{aligned} "
         r"m_1\ddot x_1^i&=-\sum_{A,B=2}^4\lambda_{AB}[x_B^i-x_1^i]-\frac12\sum_{A\alpha}\lambda_{A\alpha"
@@ -90,7 +87,6 @@ EQUATIONS = (
     Equation(
         name="(6)",
         alias="mf19",
-        kind="derivation step",
         says="Second-order equations for the rotation matrix",
         tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i(\sum m_N\mathbf{x}_N)-A_{ia}g_{aj}, \qquad R^TR="
         r"\mathbf{1}, \qquad R(0)=\mathbf{1}",
@@ -113,7 +109,6 @@ EQUATIONS = (
     Equation(
         name="(9)",
         alias="1.38",
-        kind="derivation step",
         says="The symmetric matrix of the constraint forces",
         tex=r"\begin{aligned} "
         r"\lambda_{jk}=&-\sum_{AB}\lambda_{AB}\left[x_1^jx_1^k+x_A^jx_B^k-x_B^{(j}x_1^{k)}\right]\\ "

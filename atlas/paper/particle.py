@@ -8,7 +8,6 @@ EQUATIONS = (
     Equation(
         name="(89)",
         alias="mf1",
-        kind="derivation step",
         says="Lorentz force: the equation of motion of a charged particle",
         tex=r"\begin{aligned} "
         r"m\ddot{\mathbf{y}}&=e\mathbf{E}+\frac{e}{c}[\dot{\mathbf{y}}, \mathbf{B}],\\ "
@@ -18,7 +17,6 @@ EQUATIONS = (
     Equation(
         name="(90)",
         alias="mf2",
-        kind="derivation step",
         says="The equation of motion integrated once",
         tex=r"\dot{\mathbf{y}}=\mu\mathbf{E}t+\frac{\mu}{c}[\mathbf{y}, \mathbf{B}]+\mathbf{C}",
     ),
@@ -45,7 +43,6 @@ EQUATIONS = (
     Equation(
         name="(91)",
         alias="mf3",
-        kind="derivation step",
         says=r"Motion along $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\Vert}=\mathbf{C}_{\Vert}+\mu\mathbf{E}_{\Vert}t",
         assumptions=(_FIELDS,),
@@ -53,7 +50,6 @@ EQUATIONS = (
     Equation(
         name="(92)",
         alias="mf4",
-        kind="derivation step",
         says=r"Motion across $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\bot}=\frac{\mu}{c}[\mathbf{y}_{\bot}, \mathbf{B}]+\mathbf{C}_{\bot}+\mu"
         r"\mathbf{E}_{\bot}t",
@@ -62,7 +58,6 @@ EQUATIONS = (
     Equation(
         name="(93)",
         alias="mf5",
-        kind="derivation step",
         says=r"Motion along $\mathbf{B}$",
         tex=r"\mathbf{y}_{\Vert}(t)=\mathbf{y}_{\Vert 0}+\mathbf{C}_{\Vert}t+\frac12 \mu\mathbf{E}_{\Vert}t^2",
         assumptions=(_FIELDS,),
@@ -83,7 +78,6 @@ EQUATIONS = (
     Equation(
         name="(94)",
         alias="mf6",
-        kind="derivation step",
         says=r"The electric field across $\mathbf{B}$ absorbed by a uniform motion",
         tex=r"\begin{aligned} "
         r"\dot{\mathbf{y}}_{\bot}&=\frac{\mu}{c}[\mathbf{y}_{\bot}-\frac{c t[\mathbf{E}_{\bot}, \mathbf{B}"
@@ -94,7 +88,6 @@ EQUATIONS = (
     Equation(
         name="(95)",
         alias="mf7",
-        kind="derivation step",
         says="Equation for the first shifted variable",
         tex=r"\dot{\mathbf{y}}_1=\frac{\mu}{c}[\mathbf{y}_1,\mathbf{B}]+\mathbf{C}_{\bot}-\frac{c[\mathbf{E}_{"
         r"\bot},\mathbf{B}]}{\mathbf{B}^2},\quad\text{or}\quad\dot{\mathbf{y}}_1=\frac{\mu}{c}\Bigl["
@@ -105,7 +98,6 @@ EQUATIONS = (
     Equation(
         name="(96)",
         alias="mf8",
-        kind="derivation step",
         says=r"The twice shifted variable precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{y}}_2=-\frac{\mu}{c}[\mathbf{B}, \mathbf{y}_2]",
         assumptions=(_FIELDS,),
@@ -113,7 +105,6 @@ EQUATIONS = (
     Equation(
         name="(97)",
         alias="mf9",
-        kind="derivation step",
         says="General solution for the twice shifted variable",
         tex=r"\begin{aligned} "
         r"\mathbf{y}_2(t)&=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)"
@@ -131,7 +122,6 @@ EQUATIONS = (
     Equation(
         name="(98)",
         alias="mf10",
-        kind="derivation step",
         says=r"General solution across $\mathbf{B}$",
         tex=r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert"
         r"\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+a\left\{\mathbf{e}"
@@ -167,6 +157,7 @@ EQUATIONS = (
     Equation(
         name="(99)",
         alias="mf11",
+        kind="claim",
         says="The trochoid: a uniform drift plus a rotation",
         tex=r"\begin{aligned} "
         r"\mathbf{y}_{\bot}(t)&=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+ a\left\{"
@@ -193,6 +184,7 @@ EQUATIONS = (
     Equation(
         name="(100)",
         alias="mf10.1",
+        kind="claim",
         says="The trochoid in components",
         tex=r"x(t)=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t, \qquad y(t)=\frac{\mu "
         r"\lvert \mathbf{E}_{\bot}\rvert}{\omega}+a\cos\omega t",
@@ -209,6 +201,7 @@ EQUATIONS = (
     Equation(
         name="(101)",
         alias="mf10.2",
+        kind="claim",
         says=r"The trajectory: motion along $\mathbf{B}$ by @(93) plus motion across $\mathbf{B}$ by @(99)",
         tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
         assumptions=(_FIELDS,),
@@ -239,6 +232,7 @@ EQUATIONS = (
     Equation(
         name="(104)",
         alias="mf14",
+        kind="claim",
         says="Lagrangian of a charged particle; it implies @(89)",
         tex=r"L=K-U=\frac{m}{2}\dot{\mathbf{y}}^2+eA_0+\frac{e}{c}(\mathbf{A},\dot{\mathbf{y}})=\frac{m}{2}\dot{"
         r"\mathbf{y}}^2+e(\mathbf{y},\mathbf{E})+\frac{e}{2c}([\mathbf{y},\dot{\mathbf{y}}],\mathbf{B})",

@@ -47,7 +47,6 @@ EQUATIONS = (
     Equation(
         name="(34)",
         alias="mf42",
-        kind="derivation step",
         says=r"Euler equations through $\mathbf{K}$",
         tex=r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
         r"\mathbf{K}g, \boldsymbol{\Omega}]",
@@ -56,7 +55,6 @@ EQUATIONS = (
     Equation(
         name="(35)",
         alias="mf43",
-        kind="derivation step",
         says="Rate of the field seen from the body",
         tex=r"\dot{\mathbf{K}}=-[\boldsymbol{\Omega}, \mathbf{K}]",
         assumptions=("$R(t)$ is a rotation",),
@@ -64,7 +62,6 @@ EQUATIONS = (
     Equation(
         name="(36)",
         alias="mf44",
-        kind="derivation step",
         says="First integral: energy",
         tex=r"\Omega_1^2+\Omega_2^2+I\Omega_3^2=E'=\omega_1^2+\omega_2^2+I\omega_3^2",
         assumptions=(SYMMETRIC,),
@@ -72,7 +69,6 @@ EQUATIONS = (
     Equation(
         name="(37)",
         alias="mf45",
-        kind="derivation step",
         says="Second integral: length of the field",
         tex=r"\mathbf{K}^2={B'_2}^2+{B'_3}^2",
         assumptions=("$R(t)$ is a rotation",),
@@ -80,7 +76,6 @@ EQUATIONS = (
     Equation(
         name="(38)",
         alias="mf46",
-        kind="derivation step",
         says="Euler equations of the symmetric body in components",
         tex=r"\begin{aligned} "
         r"\dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
@@ -92,7 +87,6 @@ EQUATIONS = (
     Equation(
         name="(39)",
         alias="mf47",
-        kind="derivation step",
         says="Rate of the field seen from the body in components",
         tex=r"\begin{aligned} "
         r"\dot K_1&=\Omega_3 K_2-\Omega_2 K_3,\\ "
@@ -104,7 +98,6 @@ EQUATIONS = (
     Equation(
         name="(40)",
         alias="mf48",
-        kind="derivation step",
         says="Third integral $c_3$",
         tex=r"K_3+\Omega_3=c_3=\omega_3+B'_3",
         assumptions=(SYMMETRIC,),
@@ -112,7 +105,6 @@ EQUATIONS = (
     Equation(
         name="(41)",
         alias="mf49",
-        kind="derivation step",
         says="Fourth integral $c_5$",
         tex=r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
         r"B'_3)\omega_3",
@@ -129,7 +121,6 @@ EQUATIONS = (
     Equation(
         name="(42)",
         alias="mf50",
-        kind="derivation step",
         says="The field in the body-fixed frame through the angular velocity",
         tex=r"\begin{aligned} "
         r"K_1&=\frac{\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot\Omega_3}{E'-I\Omega_3^2},\\ "
@@ -141,7 +132,6 @@ EQUATIONS = (
     Equation(
         name="(43)",
         alias="mf51",
-        kind="derivation step",
         says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
         tex=r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
         r"\Omega_2",
@@ -150,7 +140,6 @@ EQUATIONS = (
     Equation(
         name="(44)",
         alias="mf52",
-        kind="derivation step",
         says="Coefficients of these linear equations",
         tex=r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
         r"\Omega_3^2(t)}",
@@ -159,7 +148,6 @@ EQUATIONS = (
     Equation(
         name="(45)",
         alias="mf53",
-        kind="derivation step",
         says=r"$\Omega_1$, $\Omega_2$ by quadratures",
         tex=r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
         r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)",
@@ -168,7 +156,6 @@ EQUATIONS = (
     Equation(
         name="(46)",
         alias="mf54",
-        kind="derivation step",
         says=r"Second derivative of $\Omega_3$",
         tex=r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
         r"_3](\Omega_1^2+\Omega_2^2)",
@@ -177,6 +164,7 @@ EQUATIONS = (
     Equation(
         name="(47)",
         alias="mf55",
+        kind="claim",
         says=r"$\Omega_3$ of any motion obeys a cubic pseudo-oscillator",
         tex=r"\ddot\Omega_3=a_0+a_1\Omega_3+a_2\Omega_3^2+a_3\Omega_3^3",
         assumptions=(SYMMETRIC,),
@@ -184,7 +172,6 @@ EQUATIONS = (
     Equation(
         name="(48)",
         alias="mf56",
-        kind="derivation step",
         says="Coefficients of the cubic",
         tex=r"\begin{aligned} "
         r"a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ "
@@ -204,7 +191,6 @@ EQUATIONS = (
     Equation(
         name="(49)",
         alias="mf57",
-        kind="derivation step",
         says="The cubic through the initial data",
         tex=r"\begin{aligned} "
         r"\ddot\Omega_3=&[(2-I)B'_3-I\omega_3+2(\omega_3-\Omega_3)][\omega_2B'_2-(\omega_3^2-\Omega_3^2)+(2-"

@@ -6,7 +6,6 @@ EQUATIONS = (
     Equation(
         name="(50)",
         alias="mf58.1",
-        kind="derivation step",
         says=r"Condition on the initial data for a constant $\Omega_3$",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
         assumptions=(SYMMETRIC, FIELD),
@@ -14,7 +13,6 @@ EQUATIONS = (
     Equation(
         name="(51)",
         alias="mf58",
-        kind="derivation step",
         says="The same condition: a surface of second order",
         tex=r"\omega_1^2+(\omega_2+B'_2)^2-\frac{IB'_2}{B'_3}(\omega_2+B'_2)(\omega_3+B'_3)=(1-I){B'_2}^2",
         assumptions=(SYMMETRIC, FIELD),
@@ -29,7 +27,6 @@ EQUATIONS = (
     Equation(
         name="(52)",
         alias="mf59",
-        kind="derivation step",
         says=r"The condition resolved for $\omega_3$: a two-parametric family of constant solutions",
         tex=r"\begin{aligned} "
         r"\Omega_3(t)&=\omega_3(\omega_1, \omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega"
@@ -77,7 +74,6 @@ EQUATIONS = (
     Equation(
         name="(54)",
         alias="mf60",
-        kind="derivation step",
         says="The quadric in canonical form",
         tex=r"\begin{aligned} "
         r"{\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
@@ -89,6 +85,7 @@ EQUATIONS = (
     Equation(
         name="(55)",
         alias="mf61",
+        kind="claim",
         says="$I > 1$: a hyperboloid of two sheets",
         tex=r"\begin{aligned} "
         r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
@@ -128,6 +125,7 @@ EQUATIONS = (
     Equation(
         name="(56)",
         alias="mf62",
+        kind="claim",
         says="$I = 1$: a cone",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3}=\frac{{\omega'_2}^2}{a_2}",
         assumptions=(FIELD, "$I = 1$"),
@@ -142,6 +140,7 @@ EQUATIONS = (
     Equation(
         name="(57)",
         alias="mf63",
+        kind="claim",
         says="$I < 1$: a hyperboloid of one sheet",
         tex=r"\begin{aligned} "
         r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
