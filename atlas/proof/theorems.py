@@ -5,23 +5,12 @@ from functools import cache
 import sympy
 
 from atlas.proof import ball, elementary, euler_poisson, pseudo_oscillator
-from atlas.proof.model import Model, Value, cross, functions, hat, turn
+from atlas.proof.model import Model, Value, cross, functions, hat, rodrigues, turn
 from atlas.proof.notation import sides
 from atlas.proof.particle import SIGNS as PARTICLE_SIGNS
 from atlas.proof.particle import drift_model
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.quadric import (
-    B2,
-    B3,
-    LETTERS,
-    I,
-    at_start,
-    constant_omega3,
-    lost_lines_model,
-    omega1,
-    omega2,
-    omega3,
-)
+from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, omega1, omega2, omega3
 from atlas.proof.trial import Falsehood, Part, Trial, evaluated, read
 
 SIGNS = pseudo_oscillator.SIGNS | {
@@ -157,6 +146,13 @@ def torque_model() -> Model:
     return Model(letters, whole.where, dict(zip(R, R * hat(spin), strict=True)))
 
 
+def lines_model() -> list[Model]:
+    """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2, with omega1 of either sign."""
+    size = sympy.Symbol("size", positive=True)
+    letters = {**LETTERS, "I": 1 - size**2, "omega2": -B2}
+    return [Model({**letters, "sign": sympy.Integer(sign), "omega1": sign * size * B2}) for sign in (1, -1)]
+
+
 def turning_model(case: str) -> Model:
     """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
     e = elementary
@@ -198,12 +194,9 @@ def angles_model() -> Model:
         flow |= {cosine: -rate / 2 * sine, sine: rate / 2 * cosine}
         where += [(cosine, turn(tangent)[0]), (sine, turn(tangent)[1])]
     whole = {name: (c**2 - s**2, 2 * c * s) for name, (c, s) in halves.items()}
-
-    def about_z(c: Value, s: Value) -> Value:
-        return sympy.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-
-    c, s = whole[names[1]]
-    R = about_z(*whole[names[0]]) * sympy.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]]) * about_z(*whole[names[2]])
+    axes = ball.E3, sympy.Matrix([1, 0, 0]), ball.E3
+    first, second, third = (rodrigues(axis, *whole[name]) for name, axis in zip(names, axes, strict=True))
+    R = first * second * third
     model = Model({}, where, flow)
     W = R.T * R.applyfunc(model.rate)
     spin = sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])
@@ -353,7 +346,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-quadric-lines",
-        model=lost_lines_model,
+        model=lines_model,
         also=(read("(50)", SIGNS),),
         follows=r"@(50) by substitution, any $\omega_3$",
         false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),
