@@ -30,12 +30,12 @@ _KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
 
 
 def _entries() -> Iterator[tuple[str, Equation]]:
-    """Yield the entries in the paper's order, each with its topic, and its section and kind filled in."""
+    """Yield the entries in the paper's order, each with its topic, and its name, section and kind filled in."""
     for section, topics in _SECTIONS.items():
         for stem in topics:
-            for entry in import_module(f"atlas.paper.{stem}").EQUATIONS:
-                kind = entry.kind or _KINDS.get(entry.name.partition("-")[0], "derivation step")
-                yield stem, replace(entry, section=section, kind=kind)
+            for name, entry in import_module(f"atlas.paper.{stem}").EQUATIONS.items():
+                kind = entry.kind or _KINDS.get(name.partition("-")[0], "derivation step")
+                yield stem, replace(entry, name=name, section=section, kind=kind)
 
 
 _PLACED = tuple(_entries())

@@ -2,16 +2,14 @@
 
 from atlas.paper.equation import FIELD, OFF_LINES, Equation
 
-EQUATIONS = (
-    Equation(
-        name="theorem-closed",
+EQUATIONS = {
+    "theorem-closed": Equation(
         says=r"One elementary motion, and no other, has $\phi/k = \varrho$, for every $\varrho$ but two",
         tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat B_3-I\varrho},\qquad\varrho\ne"
         r"\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}",
         assumptions=(FIELD, OFF_LINES, "$I$ differs from 1", "$k$ differs from 0, the motion at rest"),
     ),
-    Equation(
-        name="theorem-closed-free",
+    "theorem-closed-free": Equation(
         says="What the field does to the proper rotation at the same precession depends on $k$ alone",
         tex=r"\frac{\phi_B}{\phi}=\frac{2b+k}{b+k}",
         assumptions=(
@@ -21,4 +19,4 @@ EQUATIONS = (
             "$k$ differs from 0, the motion at rest",
         ),
     ),
-)
+}

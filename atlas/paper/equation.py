@@ -17,12 +17,12 @@ def slug(name: str) -> str:
     return name.strip("()")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Equation:
     r"""An equation: what it is called, what it says, and what it takes for granted.
 
     name         the number that it has in print, "(72)"; one without, such as a claim made in words, has a name
-                 `text-...` of our own, a theorem that the paper doesn't have `theorem-...`
+                 `text-...` of our own, a theorem that the paper doesn't have `theorem-...`: the key in its file
     says         what it says, in one line
     tex          the formula as printed, slips included, in modern TeX
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
@@ -35,7 +35,7 @@ class Equation:
                  its file, as `atlas.paper` has it
     """
 
-    name: str
+    name: str = ""
     says: str
     tex: str
     alias: str = ""

@@ -2,76 +2,65 @@
 
 from atlas.paper.equation import Equation
 
-EQUATIONS = (
-    Equation(
-        name="(10)",
+EQUATIONS = {
+    "(10)": Equation(
         alias="The.1",
         kind="definition",
         says="Second-order system for $R$ and the multipliers with a given matrix $A$",
         tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}-A_{ik}g_{kj}, \qquad R^TR=\mathbf{1}",
         assumptions=("$g$ is symmetric and non-degenerate", r"$\lambda$ is symmetric", "$A$ is a given matrix"),
     ),
-    Equation(
-        name="text-affirmation",
+    "text-affirmation": Equation(
         alias="Aff100",
         says="Affirmation: the second-order system @(10) is equivalent to the first-order system @(11), @(12)",
         tex=r"\text{(10)}\iff\text{(11), (12)}",
         assumptions=("$R$ is a rotation", "the inertia tensor is invertible"),
     ),
-    Equation(
-        name="text-multipliers-algebraic",
+    "text-multipliers-algebraic": Equation(
         says="The multipliers are functions of $R$ and $\\dot R$ alone",
         tex=r"\lambda=-\bigl(\hat\Omega^2+\hat w+R^TA\bigr)g=\lambda^T,\qquad"
         r"\mathbf{w}=I^{-1}\{\text{right side of (11)}\}",
         assumptions=("$R$ is a rotation", "$I$ and $g$ are diagonal", "$\\hat v\\,x=[v,x]$"),
         quote=r"these equations determine $\lambda_{jk}$ algebraically, as some functions of $R$ and $\dot R$",
     ),
-    Equation(
-        name="text-nondegenerate",
+    "text-nondegenerate": Equation(
         says="The mass matrix of the body is not degenerate",
         tex=r"""\det g=g_1g_2g_3\ne0""",
         quote="as before, $g_{kj}$ is a numerical symmetric non-degenerate matrix",
     ),
-    Equation(
-        name="(11)",
+    "(11)": Equation(
         alias="mf22",
         says="Euler equations for a given matrix $A$",
         tex=r"I_{ka}\dot\Omega_a=[I\boldsymbol{\Omega},\boldsymbol{\Omega}]_k+\frac12 \epsilon_{kij}\left"
         r"[(AI)_{ai}R_{aj}+(RI)_{ai}A_{aj}\right]-\frac12 I_{ka}\epsilon_{aij}A_{bi}R_{bj}",
         assumptions=("$R$ is a rotation", "$A$ is any matrix"),
     ),
-    Equation(
-        name="(12)",
+    "(12)": Equation(
         alias="mf21",
         says="Poisson equations: the components of angular velocity in the body-fixed frame drive $R$",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="text-inertia-tensor",
+    "text-inertia-tensor": Equation(
         says=r"The inertia tensor is $\operatorname{tr}(g) - g$: it gives the kinetic energy of the rotating particles",
         tex=r"I_{ij}=\Bigl(\sum_a g_{aa}\Bigr)\delta_{ij}-g_{ij}",
     ),
-    Equation(
-        name="text-mass-moments",
+    "text-mass-moments": Equation(
         says="Moments of mass and of inertia: $2 g_1 = I_2 + I_3 - I_1$, and so on",
         tex=r"2g_1=I_2+I_3-I_1,\qquad 2g_2=I_3+I_1-I_2,\qquad 2g_3=I_1+I_2-I_3",
     ),
-    Equation(
-        name="text-inertia-axes",
+    "text-inertia-axes": Equation(
         says="The columns of $R$ are the axes of inertia, and at $t = 0$ the axes of the laboratory",
         tex=r"(R\,I\,R^T)\,\mathbf{R}_i=I_i\mathbf{R}_i,\qquad\mathbf{R}_i(0)=\mathbf{e}_i",
         assumptions=("$R$ is a rotation", "$I$ and $g$ are diagonal"),
         quote=r"at initial instant $t=0$ the Laboratory basis vectors $\mathbf{e}_i$ were taken in the directions of "
         r"axes of inertia $\mathbf{R}_i(t)$",
     ),
-    Equation(
-        name="text-orthogonal",
+    "text-orthogonal": Equation(
         says="Poisson equations keep $R$ orthogonal: $R R^T$ stays what it is at $t = 0$",
         tex=r"\frac{d}{dt}(RR^T)=0",
     ),
-    Equation(
-        name="text-covariance",
+    "text-covariance": Equation(
         says="The system is covariant under rotations of the laboratory",
         tex=r"\begin{aligned} &[I'\boldsymbol{\Omega}',\boldsymbol{\Omega}']-\frac{\mu}{c}[g'\mathbf{K}',"
         r"\boldsymbol{\Omega}']=S\Bigl\{[I\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu}{c}[g\mathbf{K},"
@@ -81,8 +70,7 @@ EQUATIONS = (
         quote="Note that this system is composed of $SO(3)$ vectors and tensors, so it is covariant under the "
         "rotations",
     ),
-    Equation(
-        name="text-force-matrix",
+    "text-force-matrix": Equation(
         alias="mf23",
         kind="derivation step",
         says=r"The matrix $A$ of the magnetic force written through $R$ and $\boldsymbol{\Omega}$, step by step",
@@ -95,8 +83,7 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(13)",
+    "(13)": Equation(
         alias="mf24",
         says=r"The matrix $A$ of the magnetic force through $R$ and $\boldsymbol{\Omega}$",
         tex=r"\begin{aligned} "
@@ -105,8 +92,7 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(14)",
+    "(14)": Equation(
         alias="mf25",
         says="Euler equations with the magnetic torque, through the inertia tensor",
         tex=r"\begin{aligned} "
@@ -116,8 +102,7 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(15)",
+    "(15)": Equation(
         alias="mf26",
         says="First component of the magnetic torque, through the mass matrix",
         tex=r"\begin{aligned} "
@@ -129,47 +114,41 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=("$I$ and $g$ are diagonal",),
     ),
-    Equation(
-        name="text-other-components",
+    "text-other-components": Equation(
         says="What @(15) says of the first component holds for the second and third",
         tex=r"""I[R^T\mathbf{B},\boldsymbol{\Omega}]-[IR^T\mathbf{B},\boldsymbol{\Omega}]+[R^T\mathbf{B},I\boldsymbol{\Omega}]=2[gR^T\mathbf{B},\boldsymbol{\Omega}]""",
         assumptions=("$I$ and $g$ are diagonal",),
         quote="and similar expressions for the second and third components",
     ),
-    Equation(
-        name="(16)",
+    "(16)": Equation(
         alias="mf27",
         says="Euler equations of the charged body in the magnetic field",
         tex=r"I\dot{\boldsymbol{\Omega}}=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{c}[gR^T"
         r"\mathbf{B}, \boldsymbol{\Omega}]",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(17)",
+    "(17)": Equation(
         alias="mf28",
         says="Rate of the angular momentum in the laboratory frame",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{c}[RgR^T\mathbf{B}, RI^{-1}R^T\mathbf{m}]",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(18)",
+    "(18)": Equation(
         alias="mf29",
         says="Rate of the angular momentum in the body-fixed frame",
         tex=r"\dot{\mathbf{M}}=[\mathbf{M}, I^{-1}\mathbf{M}]-\frac{\mu}{c}[gR^T\mathbf{B}, I^{-1}\mathbf{M}]",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="text-grioli",
+    "text-grioli": Equation(
         says=r"With $\mathbf{e}_3$ along $\mathbf{B}$ the magnetic torque holds the third row of $R$, the form "
         "deduced by Grioli",
         tex=r"I'\dot{\boldsymbol{\Omega}}=[I'\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu\lvert\mathbf{B}"
         r"\rvert}{c}[g'\mathbf{G}_3,\boldsymbol{\Omega}]",
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$",),
     ),
-    Equation(
-        name="text-flight",
+    "text-flight": Equation(
         says="The path of any point of the body: flight and rotation together",
         tex=r"""\mathbf{y}_N(t)=\mathbf{y}_0(t)+R(t)\,\mathbf{x}_N(0)""",
         assumptions=("the constraint forces do no work in a rigid motion", "@(4), @(12) and @(16)"),
     ),
-)
+}

@@ -2,9 +2,8 @@
 
 from atlas.paper.equation import Equation
 
-EQUATIONS = (
-    Equation(
-        name="(1)",
+EQUATIONS = {
+    "(1)": Equation(
         alias="1.6",
         kind="definition",
         says="Action of $n$ free particles held together by Lagrange multipliers",
@@ -16,22 +15,19 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(r"$\lambda_{AB}$ is symmetric",),
     ),
-    Equation(
-        name="text-constraints",
+    "text-constraints": Equation(
         says="Varying the multipliers gives the constraints",
         tex=r"\frac{\partial L}{\partial\lambda_{AB}}=0\iff(\mathbf{y}_A-\mathbf{y}_1,\mathbf{y}_B-\mathbf{y}_1)"
         r"=a_{AB}",
         quote=r"The variations with respect to $\lambda_{AN}$ imply the constraints",
     ),
-    Equation(
-        name="(2)",
+    "(2)": Equation(
         alias="mf15",
         kind="definition",
         says="Potential energy of the body: the sum over its particles of @(103)",
         tex=r"-U=\sum_{N=1}^n e_NA_0(\mathbf{y}_N)+\frac{e_N}{c}(\mathbf{A}(\mathbf{y}_N), \dot{\mathbf{y}}_N)",
     ),
-    Equation(
-        name="(3)",
+    "(3)": Equation(
         alias="mf16",
         says="Equations of motion of the constrained particles, varied from the action",
         tex=r"\begin{aligned} "
@@ -46,31 +42,27 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(r"$\lambda_{AB}$ is symmetric", r"all particles have the same charge-to-mass ratio $\mu$"),
     ),
-    Equation(
-        name="(4)",
+    "(4)": Equation(
         alias="mf17",
         says="The centre of mass moves as one charged point particle",
         tex=r"\ddot{\mathbf{y}}_0=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}_0, \mathbf{B}]",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
     ),
-    Equation(
-        name="text-translation",
+    "text-translation": Equation(
         says="The flight does not depend on the rotation: other places and velocities about the same centre of mass "
         "do not change its acceleration",
         tex=r"\frac{\partial\ddot{\mathbf{y}}_0}{\partial\mathbf{x}_N}=\frac{\partial\ddot{\mathbf{y}}_0}{\partial\dot{\mathbf{x}}_N}=0",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="rotational motion of the body does not affect its translational motion",
     ),
-    Equation(
-        name="text-rigid",
+    "text-rigid": Equation(
         says=r"The constraints keep all distances and angles, so that every solution is $\mathbf{x}_N(t) = R(t) "
         r"\mathbf{x}_N(0)$ with an orthogonal $R$",
         tex=r"\mathbf{x}_N(t)=R(t)\,\mathbf{x}_N(0),\qquad R^TR=\mathbf{1}",
         assumptions=("the vectors from particle 1 to particles 2, 3, 4 are independent",),
         quote="guarantee that distances and angles among the particles do not change with time",
     ),
-    Equation(
-        name="(5)",
+    "(5)": Equation(
         alias="mf18",
         says="Equations of motion of the particles about the centre of mass",
         tex=r"\begin{aligned} "
@@ -84,30 +76,26 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=("@(3) and @(4)", r"all particles have the same charge-to-mass ratio $\mu$"),
     ),
-    Equation(
-        name="(6)",
+    "(6)": Equation(
         alias="mf19",
         says="Second-order equations for the rotation matrix",
         tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i(\sum m_N\mathbf{x}_N)-A_{ia}g_{aj}, \qquad R^TR="
         r"\mathbf{1}, \qquad R(0)=\mathbf{1}",
         assumptions=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$", "the particles obey @(5)"),
     ),
-    Equation(
-        name="(7)",
+    "(7)": Equation(
         alias="mf20",
         kind="definition",
         says="The magnetic force on the rotating body as a matrix",
         tex=r"A_{ia}=\frac{\mu}{c}\epsilon_{inp}B_n\dot R_{pa}",
     ),
-    Equation(
-        name="(8)",
+    "(8)": Equation(
         alias="1.32",
         kind="definition",
         says="Mass matrix of the body",
         tex=r"g_{ij}\equiv\sum_{N=1}^{n}m_Nx_N^i(0)x_N^j(0)",
     ),
-    Equation(
-        name="(9)",
+    "(9)": Equation(
         alias="1.38",
         says="The symmetric matrix of the constraint forces",
         tex=r"\begin{aligned} "
@@ -117,26 +105,23 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(r"$\lambda_{AB}$ is symmetric", "round brackets on indices: sum of both orders, no factor $1/2$"),
     ),
-    Equation(
-        name="text-multipliers-symmetric",
+    "text-multipliers-symmetric": Equation(
         says="The matrix of the constraint forces is symmetric",
         tex=r"""\lambda_{jk}=\lambda_{kj}""",
         assumptions=(r"$\lambda_{AB}$ is symmetric",),
         quote=r"while $\lambda_{jk}(t)$ is the symmetric matrix",
     ),
-    Equation(
-        name="text-electric-field",
+    "text-electric-field": Equation(
         says="The electric field does not affect the rotation: in another one no relative acceleration changes",
         tex=r"\frac{\partial\ddot{\mathbf{x}}_N}{\partial\mathbf{E}}=0",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="the electric field do not affect the motion of rotational degrees of freedom",
     ),
-    Equation(
-        name="text-rotation-apart",
+    "text-rotation-apart": Equation(
         says="The rotation does not depend on the flight: another place and velocity of the whole body changes no "
         "relative acceleration",
         tex=r"\frac{\partial\ddot{\mathbf{x}}_N}{\partial\mathbf{y}_0}=\frac{\partial\ddot{\mathbf{x}}_N}{\partial\dot{\mathbf{y}}_0}=0",
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="so the translational motion does not affect the rotational motion of the body",
     ),
-)
+}

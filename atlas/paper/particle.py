@@ -4,9 +4,8 @@ from atlas.paper.equation import Equation
 
 _FIELDS = r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$"
 
-EQUATIONS = (
-    Equation(
-        name="(89)",
+EQUATIONS = {
+    "(89)": Equation(
         alias="mf1",
         says="Lorentz force: the equation of motion of a charged particle",
         tex=r"\begin{aligned} "
@@ -14,69 +13,59 @@ EQUATIONS = (
         r"\text{or}\quad \ddot{\mathbf{y}}&=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}, \mathbf{B}] "
         r"\end{aligned}",
     ),
-    Equation(
-        name="(90)",
+    "(90)": Equation(
         alias="mf2",
         says="The equation of motion integrated once",
         tex=r"\dot{\mathbf{y}}=\mu\mathbf{E}t+\frac{\mu}{c}[\mathbf{y}, \mathbf{B}]+\mathbf{C}",
     ),
-    Equation(
-        name="text-no-magnetic-field",
+    "text-no-magnetic-field": Equation(
         says=r"Without a magnetic field the particle falls along $\mathbf{E}$",
         tex=r"\mathbf{y}(t)=\mathbf{y}_0+\mathbf{C}t+\frac12 \mu\mathbf{E}t^2",
         assumptions=(r"$\mathbf{B} = 0$",),
     ),
-    Equation(
-        name="text-along-field",
+    "text-along-field": Equation(
         says=r"Without a magnetic field the acceleration has the direction of $\mathbf{E}$",
         tex=r"(\ddot{\mathbf{y}},\mathbf{E})>0",
         assumptions=(r"$\mathbf{B} = 0$",),
         quote=r"particle moves with the acceleration directed along $\mathbf{E}$",
     ),
-    Equation(
-        name="text-helix",
+    "text-helix": Equation(
         says=r"Without an electric field the particle moves on a helix about an axis along $\mathbf{B}$",
         tex=r"\frac{d}{dt}\lvert\mathbf{y}_2\rvert=0,\qquad\ddot{\mathbf{y}}_{\Vert}=0",
         assumptions=(r"$\mathbf{E} = 0$",),
         quote="particle moves along a helical line located on a cylinder",
     ),
-    Equation(
-        name="(91)",
+    "(91)": Equation(
         alias="mf3",
         says=r"Motion along $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\Vert}=\mathbf{C}_{\Vert}+\mu\mathbf{E}_{\Vert}t",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(92)",
+    "(92)": Equation(
         alias="mf4",
         says=r"Motion across $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\bot}=\frac{\mu}{c}[\mathbf{y}_{\bot}, \mathbf{B}]+\mathbf{C}_{\bot}+\mu"
         r"\mathbf{E}_{\bot}t",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(93)",
+    "(93)": Equation(
         alias="mf5",
         says=r"Motion along $\mathbf{B}$",
         tex=r"\mathbf{y}_{\Vert}(t)=\mathbf{y}_{\Vert 0}+\mathbf{C}_{\Vert}t+\frac12 \mu\mathbf{E}_{\Vert}t^2",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="text-parallel-acceleration",
+    "text-parallel-acceleration": Equation(
         says=r"Along $\mathbf{B}$ the particle moves with the acceleration $|\mu \mathbf{E}_\bot|$",
         tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\bot}\rvert",
         assumptions=(_FIELDS,),
         quote=r"moves with the acceleration $\lvert\mu\mathbf{E}_{\bot}\rvert$ along the axis $\mathbf{B}$",
     ),
-    Equation(
-        name="text-double-product",
+    "text-double-product": Equation(
         says=r"A vector orthogonal to $\mathbf{B}$ is minus its double product with $\mathbf{B}$ over $\mathbf{B}^2$",
         tex=r"\mathbf{E}_{\bot}=-[[\mathbf{E}_{\bot},\mathbf{B}],\mathbf{B}]/\mathbf{B}^2",
         assumptions=(r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",),
     ),
-    Equation(
-        name="(94)",
+    "(94)": Equation(
         alias="mf6",
         says=r"The electric field across $\mathbf{B}$ absorbed by a uniform motion",
         tex=r"\begin{aligned} "
@@ -85,8 +74,7 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(95)",
+    "(95)": Equation(
         alias="mf7",
         says="Equation for the first shifted variable",
         tex=r"\dot{\mathbf{y}}_1=\frac{\mu}{c}[\mathbf{y}_1,\mathbf{B}]+\mathbf{C}_{\bot}-\frac{c[\mathbf{E}_{"
@@ -95,15 +83,13 @@ EQUATIONS = (
         r"\mathbf{B}\Bigr]",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(96)",
+    "(96)": Equation(
         alias="mf8",
         says=r"The twice shifted variable precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{y}}_2=-\frac{\mu}{c}[\mathbf{B}, \mathbf{y}_2]",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(97)",
+    "(97)": Equation(
         alias="mf9",
         says="General solution for the twice shifted variable",
         tex=r"\begin{aligned} "
@@ -113,14 +99,12 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="text-drift-direction",
+    "text-drift-direction": Equation(
         says=r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{e}_1$",
         tex=r"[\mathbf{E}_{\bot},\mathbf{B}]=\lvert\mathbf{E}_{\bot}\rvert\lvert\mathbf{B}\rvert\mathbf{e}_1",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(98)",
+    "(98)": Equation(
         alias="mf10",
         says=r"General solution across $\mathbf{B}$",
         tex=r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert"
@@ -128,8 +112,7 @@ EQUATIONS = (
         r"_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="text-time-shift",
+    "text-time-shift": Equation(
         says="The phase $\\omega_0$ goes away with another origin of time",
         tex=r"\begin{aligned} &\mathbf{y}_{\bot}(t;\mathbf{C}_{\bot},\omega_0)=\mathbf{y}_{\bot}\Bigl(t+\frac{"
         r"\omega_0}{\omega};\mathbf{C}'_{\bot},0\Bigr),\\ &\mathbf{C}'_{\bot}=\mathbf{C}_{\bot}-\mu\mathbf{E}_{"
@@ -137,8 +120,7 @@ EQUATIONS = (
         assumptions=(_FIELDS,),
         quote=r"By choosing the time reference point, we can give any desired value to the constant $\omega_0$",
     ),
-    Equation(
-        name="text-first-two-terms",
+    "text-first-two-terms": Equation(
         says=r"With $\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$ the first two terms of @(98) "
         "vanish",
         tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies\frac{[\mathbf{C}_{"
@@ -147,15 +129,13 @@ EQUATIONS = (
         assumptions=(_FIELDS,),
         quote="the first two terms in Eq. (98) vanish",
     ),
-    Equation(
-        name="text-initial-position",
+    "text-initial-position": Equation(
         says=r"That choice puts the particle at $\mathbf{y}_\bot(0) = a \mathbf{e}_2$",
         tex=r"\mathbf{y}_{\bot}(0)=a\mathbf{e}_2",
         assumptions=(_FIELDS, r"$\omega_0 = 0$"),
         quote="This corresponds to the choice of initial position",
     ),
-    Equation(
-        name="(99)",
+    "(99)": Equation(
         alias="mf11",
         kind="claim",
         says="The trochoid: a uniform drift plus a rotation",
@@ -165,24 +145,21 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="text-drift",
+    "text-drift": Equation(
         says=r"The guiding centre moves along $\mathbf{e}_1$ with the speed $\mu |\mathbf{E}_\bot|/\omega$",
         tex=r"\dot{\mathbf{O}}=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1",
         assumptions=(_FIELDS,),
         quote=r"the point $\mathbf{O}(t)$ moves in the direction of $\mathbf{e}_1$ with the speed equal to "
         r"$\mu\lvert\mathbf{E}_{\bot}\rvert/\omega$",
     ),
-    Equation(
-        name="text-trochoid-constant",
+    "text-trochoid-constant": Equation(
         says=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2 - \mu |\mathbf{E}_\bot| \mathbf{e}_1$ "
         "is a constant of @(90): a velocity",
         tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}-\mu\lvert\mathbf{E}_{\bot}"
         r"\rvert\mathbf{e}_1",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(100)",
+    "(100)": Equation(
         alias="mf10.1",
         kind="claim",
         says="The trochoid in components",
@@ -190,24 +167,21 @@ EQUATIONS = (
         r"\lvert \mathbf{E}_{\bot}\rvert}{\omega}+a\cos\omega t",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="text-trochoid",
+    "text-trochoid": Equation(
         says="The curve is a trochoid: the path of a point that a rolling circle carries along",
         tex=r"x=r\omega t+a\sin\omega t,\qquad y=r+a\cos\omega t,\qquad "
         r"r=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}",
         assumptions=(_FIELDS,),
         quote="These are parametric equations of a plane curve called trochoid",
     ),
-    Equation(
-        name="(101)",
+    "(101)": Equation(
         alias="mf10.2",
         kind="claim",
         says=r"The trajectory: motion along $\mathbf{B}$ by @(93) plus motion across $\mathbf{B}$ by @(99)",
         tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
         assumptions=(_FIELDS,),
     ),
-    Equation(
-        name="(102)",
+    "(102)": Equation(
         alias="mf12",
         kind="definition",
         says="Scalar and vector potentials of constant fields",
@@ -215,26 +189,23 @@ EQUATIONS = (
         r"\mathbf{y}]=\frac12 \begin{pmatrix} B_2 y_3-B_3 y_2 \\ B_3y_1-b_1 y_3 \\ B_1 y_2-B_2 y_1 "
         r"\end{pmatrix}",
     ),
-    Equation(
-        name="text-potentials",
+    "text-potentials": Equation(
         says="The fields that these potentials give",
         tex=r"\mathbf{E}=-\frac1c\frac{\partial\mathbf{A}}{\partial t}+\nabla A_0,\qquad\mathbf{B}=[\nabla,"
         r"\mathbf{A}]",
         quote="This implies the standard agreement",
     ),
-    Equation(
-        name="(103)",
+    "(103)": Equation(
         alias="mf13",
         kind="definition",
         says="Potential energy of a charged particle",
         tex=r"-U=eA_0+\frac{e}{c}(\mathbf{A}, \dot{\mathbf{y}})",
     ),
-    Equation(
-        name="(104)",
+    "(104)": Equation(
         alias="mf14",
         kind="claim",
         says="Lagrangian of a charged particle; it implies @(89)",
         tex=r"L=K-U=\frac{m}{2}\dot{\mathbf{y}}^2+eA_0+\frac{e}{c}(\mathbf{A},\dot{\mathbf{y}})=\frac{m}{2}\dot{"
         r"\mathbf{y}}^2+e(\mathbf{y},\mathbf{E})+\frac{e}{2c}([\mathbf{y},\dot{\mathbf{y}}],\mathbf{B})",
     ),
-)
+}

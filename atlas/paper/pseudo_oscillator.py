@@ -2,15 +2,13 @@
 
 from atlas.paper.equation import FIELD, SYMMETRIC, Equation
 
-EQUATIONS = (
-    Equation(
-        name="text-mass-matrix",
+EQUATIONS = {
+    "text-mass-matrix": Equation(
         says="Mass matrix of the symmetric body",
         tex=r"g=\frac12 \,\mathrm{diag}(I_3,I_3,2I_2-I_3)",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="text-laboratory",
+    "text-laboratory": Equation(
         says="The laboratory may be turned about $\\mathbf{e}_3$ until the field lies in the plane of "
         "$\\mathbf{e}_2$ and $\\mathbf{e}_3$",
         tex=r"""S\,\mathbb{I}\,S^T=\mathbb{I},\qquad S\mathbf{B}=(0,B_2,B_3)^T""",
@@ -18,15 +16,13 @@ EQUATIONS = (
         quote="without spoiling the diagonal form of inertia tensor in our equations, the Laboratory system can "
         "be chosen as shown",
     ),
-    Equation(
-        name="(31)",
+    "(31)": Equation(
         alias="mf41.0",
         kind="definition",
         says="Initial angular velocity: the same components in both frames",
         tex=r"\boldsymbol{\Omega}(0)=\boldsymbol{\omega}(0)=(\omega_1, \omega_2, \omega_3)^T",
     ),
-    Equation(
-        name="(32)",
+    "(32)": Equation(
         alias="mf41",
         kind="definition",
         says=r"The field in units of a frequency, $\mathbf{B}'$, and its components $\mathbf{K}$ in the body-fixed "
@@ -37,44 +33,38 @@ EQUATIONS = (
         r"\mathbf{B}'",
         assumptions=(FIELD,),
     ),
-    Equation(
-        name="(33)",
+    "(33)": Equation(
         alias="mf41.1",
         kind="definition",
         says="The ratio of moments $I$ and the energy $E'$",
         tex=r"I\equiv\frac{I_3}{I_2}, \qquad E'\equiv\frac{2E}{I_2}",
     ),
-    Equation(
-        name="(34)",
+    "(34)": Equation(
         alias="mf42",
         says=r"Euler equations through $\mathbf{K}$",
         tex=r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
         r"\mathbf{K}g, \boldsymbol{\Omega}]",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="(35)",
+    "(35)": Equation(
         alias="mf43",
         says="Rate of the field seen from the body",
         tex=r"\dot{\mathbf{K}}=-[\boldsymbol{\Omega}, \mathbf{K}]",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(36)",
+    "(36)": Equation(
         alias="mf44",
         says="First integral: energy",
         tex=r"\Omega_1^2+\Omega_2^2+I\Omega_3^2=E'=\omega_1^2+\omega_2^2+I\omega_3^2",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="(37)",
+    "(37)": Equation(
         alias="mf45",
         says="Second integral: length of the field",
         tex=r"\mathbf{K}^2={B'_2}^2+{B'_3}^2",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(38)",
+    "(38)": Equation(
         alias="mf46",
         says="Euler equations of the symmetric body in components",
         tex=r"\begin{aligned} "
@@ -84,8 +74,7 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="(39)",
+    "(39)": Equation(
         alias="mf47",
         says="Rate of the field seen from the body in components",
         tex=r"\begin{aligned} "
@@ -95,31 +84,27 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=("$R(t)$ is a rotation",),
     ),
-    Equation(
-        name="(40)",
+    "(40)": Equation(
         alias="mf48",
         says="Third integral $c_3$",
         tex=r"K_3+\Omega_3=c_3=\omega_3+B'_3",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="(41)",
+    "(41)": Equation(
         alias="mf49",
         says="Fourth integral $c_5$",
         tex=r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
         r"B'_3)\omega_3",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="text-four-integrals",
+    "text-four-integrals": Equation(
         says="The four integrals @(36), @(37), @(40), @(41) are independent",
         tex=r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}="
         "4",
         assumptions=(SYMMETRIC,),
         quote="This system admits four integrals of motion",
     ),
-    Equation(
-        name="(42)",
+    "(42)": Equation(
         alias="mf50",
         says="The field in the body-fixed frame through the angular velocity",
         tex=r"\begin{aligned} "
@@ -129,48 +114,42 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(SYMMETRIC, r"$E' - I \Omega_3^2$ differs from 0"),
     ),
-    Equation(
-        name="(43)",
+    "(43)": Equation(
         alias="mf51",
         says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
         tex=r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
         r"\Omega_2",
         assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC),
     ),
-    Equation(
-        name="(44)",
+    "(44)": Equation(
         alias="mf52",
         says="Coefficients of these linear equations",
         tex=r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
         r"\Omega_3^2(t)}",
         assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC, "$f$ is meant up to a constant"),
     ),
-    Equation(
-        name="(45)",
+    "(45)": Equation(
         alias="mf53",
         says=r"$\Omega_1$, $\Omega_2$ by quadratures",
         tex=r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
         r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)",
         assumptions=("$E'-I\\Omega_3^2$ differs from 0", SYMMETRIC),
     ),
-    Equation(
-        name="(46)",
+    "(46)": Equation(
         alias="mf54",
         says=r"Second derivative of $\Omega_3$",
         tex=r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
         r"_3](\Omega_1^2+\Omega_2^2)",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="(47)",
+    "(47)": Equation(
         alias="mf55",
         kind="claim",
         says=r"$\Omega_3$ of any motion obeys a cubic pseudo-oscillator",
         tex=r"\ddot\Omega_3=a_0+a_1\Omega_3+a_2\Omega_3^2+a_3\Omega_3^3",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="(48)",
+    "(48)": Equation(
         alias="mf56",
         says="Coefficients of the cubic",
         tex=r"\begin{aligned} "
@@ -181,15 +160,13 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(SYMMETRIC,),
     ),
-    Equation(
-        name="text-cubic-degree",
+    "text-cubic-degree": Equation(
         says="The polynomial on the right side of @(47) has the degree three",
         tex=r"""a_3=-2(1-I)\ne0""",
         assumptions=("$I$ differs from 1 (the paper does not except it)",),
         quote="a root of the third degree polynomial",
     ),
-    Equation(
-        name="(49)",
+    "(49)": Equation(
         alias="mf57",
         says="The cubic through the initial data",
         tex=r"\begin{aligned} "
@@ -200,4 +177,4 @@ EQUATIONS = (
         r"\end{aligned}",
         assumptions=(SYMMETRIC,),
     ),
-)
+}

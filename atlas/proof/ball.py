@@ -192,9 +192,8 @@ def orthogonal_model(sign: int = 1) -> Model:
     return Model(letters, ROTATION)
 
 
-TRIALS = (
-    Trial(
-        name="text-momentum",
+TRIALS = {
+    "text-momentum": Trial(
         signs={r"\mathbf{m}": "m", "m": "mass[]", r"\mathbf{R}": "column[]"},
         model=kinematic_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the principal axes",
@@ -202,11 +201,8 @@ TRIALS = (
             "The angular momentum has the same components in the laboratory and in the body", "R*I*Omega", "I*Omega"
         ),
     ),
-    Trial(
-        name="(19)", model=uniform_ball_model, follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$"
-    ),
-    Trial(
-        name="text-ball-centre",
+    "(19)": Trial(model=uniform_ball_model, follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$"),
+    "text-ball-centre": Trial(
         signs={**PARTICLE_SIGNS, r"\mathbf{y}_0": "y"},
         model=lambda: trajectory_model(signed=False),
         follows="@(4) by substitution, for either sign of the charge",
@@ -218,8 +214,7 @@ TRIALS = (
         note="The centre of any body with one charge-to-mass ratio does, not only that of a ball; for a negative "
         "charge it takes the sign that @(99) takes.",
     ),
-    Trial(
-        name="text-ball-axis",
+    "text-ball-axis": Trial(
         model=round_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the "
         "principal axes with equal moments",
@@ -230,16 +225,14 @@ TRIALS = (
             model=kinematic_model,
         ),
     ),
-    Trial(name="(20)", model=general.poisson_model, follows="@(12)"),
-    Trial(name="(21)", model=ball_model, follows="@(16) with $g = I_0/2$"),
-    Trial(name="(22)", model=ball_model, follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)"),
-    Trial(
-        name="(23)",
+    "(20)": Trial(model=general.poisson_model, follows="@(12)"),
+    "(21)": Trial(model=ball_model, follows="@(16) with $g = I_0/2$"),
+    "(22)": Trial(model=ball_model, follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)"),
+    "(23)": Trial(
         model=lambda: Model({"m": ANY, "Bf": Bf}, flow=dict(zip(ANY, -mu / (2 * c) * cross(Bf, ANY), strict=True))),
         follows="@(22)",
     ),
-    Trial(
-        name="text-ball-body-precession",
+    "text-ball-body-precession": Trial(
         signs={r"\dot{\boldsymbol{\Omega}}": "d(Omega)"},
         model=body_flow_model,
         follows=r"@(21) and @(35): a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
@@ -251,8 +244,7 @@ TRIALS = (
         r"$\boldsymbol{\Omega} + \mathbf{K}$, and the components turn about that with the frequency $\gamma$ of "
         "@(29), not with Larmor's.",
     ),
-    Trial(
-        name="text-ball-equivalent",
+    "text-ball-equivalent": Trial(
         model=any_momentum_model,
         follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @(20), for any rate of $\mathbf{m}$",
         note="The left side vanishes if and only if the right one does.",
@@ -262,8 +254,7 @@ TRIALS = (
             "d(m) - mu/(2*c)*cross(Bf, m)",
         ),
     ),
-    Trial(
-        name="text-linear-poisson",
+    "text-linear-poisson": Trial(
         model=orthogonal_model,
         follows=r"$\det R = 1$",
         slip="text-affirmation",
@@ -273,36 +264,31 @@ TRIALS = (
         "With $R(0) = 1$ no such matrix occurs.",
         false=Falsehood("The sign does not depend on the determinant", "-det(R)/I0", "-1/I0"),
     ),
-    Trial(
-        name="(24)",
+    "(24)": Trial(
         signs={r"\mathbf{R}": "column[]"},
         model=ball_model,
         follows=r"@(20) and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
     ),
-    Trial(name="(25)", model=ball_model, follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)"),
-    Trial(
-        name="text-ball-frame",
+    "(25)": Trial(model=ball_model, follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)"),
+    "text-ball-frame": Trial(
         model=frame_model,
         follows="$R R^T = 1$",
         false=Falsehood(
             "The inertia tensor of a symmetric body stays diagonal too", "R*(I0*one)*T(R) = I0*one", "R*J*T(R) = J"
         ),
     ),
-    Trial(
-        name="(26)",
+    "(26)": Trial(
         form=_turned,
         model=larmor_model,
         follows=r"@(25) by substitution, $\alpha$ of @(27)",
         defines=("m",),
         solves="d(m) = -mu/(2*c)*cross([0, 0, b],m); at0(m) = [0, m2, m3]",
     ),
-    Trial(
-        name="(27)",
+    "(27)": Trial(
         model=larmor_frequency_model,
         follows=r"the rate of the angle of $\mathbf{m}$ about $\mathbf{B}$ in @(22)",
     ),
-    Trial(
-        name="text-ball-ansatz",
+    "text-ball-ansatz": Trial(
         model=start_model,
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
         slip="(29)",
@@ -313,16 +299,14 @@ TRIALS = (
             r"$\hat{\mathbf{k}}$ points along $\mathbf{m}$ and $\mathbf{B}$, not against them", "k2 = -m2", "k2 = m2"
         ),
     ),
-    Trial(
-        name="(28)",
+    "(28)": Trial(
         signs={"": "R"},
         model=motion_model,
         follows=r"@(24) by substitution, with $\mathbf{m}$ of @(26) and $\hat{\mathbf{k}}$, $\gamma$ of @(29)",
         defines=("R",),
         solves=LINEAR,
     ),
-    Trial(
-        name="(29)",
+    "(29)": Trial(
         model=lambda: constants_model()[0],
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$, for all initial data but one point",
         defines=("k2", "k3", "gamma"),
@@ -336,8 +320,7 @@ TRIALS = (
         note=r"Right but for one point, $m_2 = 0$ and $m_3 = -\alpha I_0$, where it reads $0/0$: there $\gamma = 0$ "
         r"and $\hat{\mathbf{k}}$ is any unit vector, see @theorem-ball-rest.",
     ),
-    Trial(
-        name="text-ball-two-rotations",
+    "text-ball-two-rotations": Trial(
         signs={r"R_{\hat{\mathbf{B}}}": "about_B()", r"R_{\hat{\mathbf{k}}}": "about_k()"},
         defines=("R",),
         solves=LINEAR,
@@ -349,8 +332,7 @@ TRIALS = (
             "about_k(-gamma*t)*about_B(-alpha*t)",
         ),
     ),
-    Trial(
-        name="text-ball-parallel",
+    "text-ball-parallel": Trial(
         model=parallel_model,
         follows=r"@(29) with $m_2 = 0$, $m_3 > -\alpha I_0$",
         grade="missing case",
@@ -363,8 +345,7 @@ TRIALS = (
         "@theorem-ball-rest.",
         false=Falsehood("The frequency is the spin alone", "(alpha + m3/I0)", "m3/I0"),
     ),
-    Trial(
-        name="(30)",
+    "(30)": Trial(
         model=parallel_motion_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
         "constants of @text-ball-parallel",
@@ -372,4 +353,4 @@ TRIALS = (
         solves=LINEAR,
         also=(Part(line=read("(30)", SIGNS), model=along_model),),
     ),
-)
+}

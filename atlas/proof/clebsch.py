@@ -101,24 +101,21 @@ def symmetric_model() -> Model:
     return Model(letters, flow=whole.flow)
 
 
-TRIALS = (
-    Trial(
-        name="theorem-larmor-frame",
+TRIALS = {
+    "theorem-larmor-frame": Trial(
         model=frame_model,
         follows="@(12)",
         defines=("S",),
         false=Falsehood(r"The frame turns with $+\mathbf{B}'$", "(Omega + K)[a]", "(Omega - K)[a]"),
     ),
-    Trial(
-        name="theorem-larmor",
+    "theorem-larmor": Trial(
         model=tensor_model,
         follows="@(16) and @(35)",
         note=r"Larmor's theorem, exact in the field and for every inertia tensor. The torque $[\mathbf{K}, J "
         r"\mathbf{K}]$ is that of the potential $(\mathbf{K}, J \mathbf{K})/2$, quadratic in the field.",
         false=Falsehood("In Larmor's frame every body is free", " + cross(K, J*K)", ""),
     ),
-    Trial(
-        name="theorem-momentum-canonical",
+    "theorem-momentum-canonical": Trial(
         also=("d(M) = cross(M,Omega) + cross(J*Omega,K)",),
         model=tensor_model,
         follows="@(16), with the Lagrangian @(104) summed over the body",
@@ -128,16 +125,14 @@ TRIALS = (
             r"The kinetic momentum $J\boldsymbol{\Omega}$ is the canonical one", "M = partial", "J*Omega = partial"
         ),
     ),
-    Trial(
-        name="theorem-lie-poisson",
+    "theorem-lie-poisson": Trial(
         model=poisson_model,
         follows=r"@(16) and @(35) with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
         defines=("H",),
         also=("d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0",),
         false=Falsehood(r"$\mathbf{M}^2$ is conserved", "d(dot(M,K)) = 0", "d(dot(M,M)) = 0"),
     ),
-    Trial(
-        name="theorem-bracket",
+    "theorem-bracket": Trial(
         also=(
             (
                 "eps[i,j,k]*br(br(M[i],M[j]),M[k]) = 0;"
@@ -151,16 +146,14 @@ TRIALS = (
         "antisymmetric, for the coordinates is that for all functions, since a bracket is a derivation.",
         false=Falsehood(r"$\mathbf{M}^2$ commutes with everything", "br(K[i],dot(M,K)) = 0", "br(K[i],dot(M,M)) = 0"),
     ),
-    Trial(
-        name="theorem-kinetic-energy",
+    "theorem-kinetic-energy": Trial(
         also=("d(1/2*dot(Omega,J*Omega)) = 0",),
         model=tensor_model,
         follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @(16) and @(35)",
         note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
         false=Falsehood("The kinetic energy is $H$", " - dot(M, K)", ""),
     ),
-    Trial(
-        name="theorem-clebsch",
+    "theorem-clebsch": Trial(
         also=("cross(J*Omega,J*K) = det(J)*inv(J)*cross(Omega,K)",),
         model=tensor_model,
         follows=r"@(16) and @(35); $\det J J^{-1}$ is the matrix of cofactors",
@@ -169,23 +162,20 @@ TRIALS = (
         r"[\mathbf{K}, \mathbf{W}])$.",
         false=Falsehood(r"$\mathbf{M}^2$ is the further integral", " - det(J)*dot(K, J^(-1)*K)", ""),
     ),
-    Trial(
-        name="theorem-involution",
+    "theorem-involution": Trial(
         model=poisson_model,
         follows="the bracket of @theorem-bracket; the gradients at one point, moments 2, 3, 4",
         note="Independent at one point, so at all but those of a set of measure zero.",
         false=Falsehood("$F$ follows from $H$ and the Casimirs", "dot(K, K)) = 4", "dot(K, K)) = 3"),
     ),
-    Trial(
-        name="theorem-clebsch-symmetric",
+    "theorem-clebsch-symmetric": Trial(
         also=("M3 = I3*c3; E = 2/I2*(H - dot(M,K))",),
         signs={"M_3": "M3"},
         model=symmetric_model,
         follows="@(36), @(40) and @(41) at any state",
         false=Falsehood(r"$F$ is made of $H$ and $\mathbf{K}^2$ alone", " + (1 - I2/I3)*M3^2", ""),
     ),
-    Trial(
-        name="theorem-pair",
+    "theorem-pair": Trial(
         signs={r"\boldsymbol{\Omega}(-t)": "Omega", r"\mathbf{K}(-t)": "K", "R(-t)": "R"},
         defines=("tildeOmega", "tildeR"),
         solves="J*d(tildeOmega) = cross(J*tildeOmega,tildeOmega) - 2*cross(g*K,tildeOmega); T(tildeR)*Bp = K;"
@@ -194,4 +184,4 @@ TRIALS = (
         follows="@(12), @(16) and @(35) by substitution, time reversed",
         false=Falsehood("The two motions run in the same sense", "about_B(-2*b*t)", "about_B(2*b*t)"),
     ),
-)
+}

@@ -19,9 +19,8 @@ def closed_model() -> Model:
     return Model({**letters, "free": (1 - I) / I * h3 * k}, [(h2, turn(p)[1]), (h3, turn(p)[0])])
 
 
-TRIALS = (
-    Trial(
-        name="theorem-closed",
+TRIALS = {
+    "theorem-closed": Trial(
         model=closed_model,
         follows="@(72) and @(79)",
         signs={r"\varrho\ne\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}": ""},
@@ -32,11 +31,10 @@ TRIALS = (
         r"$b + k$ is not 0 if $I$ differs from 1; $k$ is 0 for the second $\varrho$ that is left out.",
         false=Falsehood("The sense of precession is the other one", "k = -b*", "k = b*"),
     ),
-    Trial(
-        name="theorem-closed-free",
+    "theorem-closed-free": Trial(
         model=closed_model,
         signs={r"\phi_B": "phi", r"\phi": "free"},
         follows="@(72), @(79) and @(87)",
         false=Falsehood("The field does not change the proper rotation", "(2*b + k)/(b + k)", "1"),
     ),
-)
+}

@@ -221,44 +221,38 @@ def _rows(line: str) -> str:
     return "; ".join(rows + [" = ".join(value) for value in values if len(value) > 1])
 
 
-TRIALS = (
-    Trial(
-        name="(73)",
+TRIALS = {
+    "(73)": Trial(
         model=velocity_model,
         follows=r"@(34), @(35) by substitution, with $\mathbf{K}$ of @(62), $\omega_3$ of @(71), $\phi$ of @(72)",
         defines=("Omega",),
         solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K)",
     ),
-    Trial(
-        name="text-body-precession",
+    "text-body-precession": Trial(
         model=matrix_model,
         follows="@(73)",
         note=r"Clockwise for $\phi > 0$.",
         false=Falsehood(r"It precesses counter-clockwise for $\phi > 0$", "-phi*cross", "phi*cross"),
     ),
-    Trial(name="(74)", model=row_model, signs={r"\dot{\boldsymbol{\gamma}}": "dgamma"}, follows="@(12) for one row"),
-    Trial(
-        name="(75)",
+    "(74)": Trial(model=row_model, signs={r"\dot{\boldsymbol{\gamma}}": "dgamma"}, follows="@(12) for one row"),
+    "(75)": Trial(
         model=row_model,
         signs={rf"\dot\gamma_{n}": f"dgamma{n}" for n in (1, 2, 3)},
         follows="@(74) in components",
     ),
-    Trial(
-        name="(76)",
+    "(76)": Trial(
         model=integral_model,
         defines=("c",),
         solves="d(c) = 0",
         follows=r"@(75) with $\boldsymbol{\Omega}$ of @(73)",
     ),
-    Trial(name="(77)", model=ratio_model, signs={"B_2": "Bl2", "B_3": "Bl3"}, follows="@(32)"),
-    Trial(
-        name="text-row-constants",
+    "(77)": Trial(model=ratio_model, signs={"B_2": "Bl2", "B_3": "Bl3"}, follows="@(32)"),
+    "text-row-constants": Trial(
         model=rows_model,
         follows="@(76) at $t = 0$ for the rows of $R(0) = 1$",
         false=Falsehood(r"The constant of the second row is the spin $\omega_3$", "c2 = omega2", "c2 = omega3"),
     ),
-    Trial(
-        name="(78)",
+    "(78)": Trial(
         model=integral_model,
         follows="@(75) and @(76)",
         grade="missing case",
@@ -270,9 +264,8 @@ TRIALS = (
         r"\omega_2=0} \end{aligned}",
         note=_AT_REST,
     ),
-    Trial(name="(79)", model=integral_model, follows="@(75), @(76) and @(78)"),
-    Trial(
-        name="(80)",
+    "(79)": Trial(model=integral_model, follows="@(75), @(76) and @(78)"),
+    "(80)": Trial(
         model=solution_model,
         signs={"b": "amp"},
         follows="@(79) by substitution, with two constants",
@@ -282,8 +275,7 @@ TRIALS = (
         corrected_tex=r"\boxed{k^2}\gamma_3(t)=bk^2\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
         note=_AT_REST,
     ),
-    Trial(
-        name="(81)",
+    "(81)": Trial(
         model=solution_model,
         signs={"b": "amp"},
         follows=r"@(75) by substitution, with $\gamma_3$ of @(80)",
@@ -298,8 +290,7 @@ TRIALS = (
         r"\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t \end{aligned}",
         note=_AT_REST,
     ),
-    Trial(
-        name="(82)",
+    "(82)": Trial(
         model=solution_model,
         signs={"b": "amp"},
         follows="@(80) and @(81) at $t = 0$",
@@ -309,8 +300,7 @@ TRIALS = (
         r"\cos k_0-c\hat{B}_3^2,\quad\boxed{\omega_2}\gamma_3(0)=\omega_2b\cos k_0+c\hat{B}_2\hat{B}_3",
         note=_AT_REST,
     ),
-    Trial(
-        name="(83)",
+    "(83)": Trial(
         model=solution_model,
         signs={"b": "amp"},
         follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
@@ -323,24 +313,21 @@ TRIALS = (
         note=r"At $\omega_2 = 0$ all three constants $c$ are 0, and @(80) and @(81) do not reach the second and the "
         "third row: the body is at rest, and @(84) says so.",
     ),
-    Trial(
-        name="(84)",
+    "(84)": Trial(
         model=matrix_model,
         signs={"": "R"},
         follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
         defines=("R",),
         solves=MOTION,
     ),
-    Trial(
-        name="text-hidden",
+    "text-hidden": Trial(
         model=hidden_model,
         signs={r"\lvert\mathbf{B}\rvert": "Bl", "B_2": "Bl2"},
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
         false=Falsehood(r"$k$ is $\omega_2$ times $\hat{B}_2$", "omega2*Bl/Bl2", "omega2*Bl2/Bl"),
     ),
-    Trial(name="(85)", model=matrix_model, follows="@(84)", defines=("R",), solves=POISSON),
-    Trial(
-        name="text-precession",
+    "(85)": Trial(model=matrix_model, follows="@(84)", defines=("R",), solves=POISSON),
+    "text-precession": Trial(
         model=matrix_model,
         also=("Q = rod(e3,cos(phi*t),sin(phi*t))",),
         signs={r"[\hat{\mathbf{B}},\cdot\,]": "hat(hat_B)"},
@@ -349,38 +336,33 @@ TRIALS = (
             r"The second factor turns by $-\phi t$", "rod(e3,cos(phi*t),sin(phi*t))", "rod(e3,cos(phi*t),-sin(phi*t))"
         ),
     ),
-    Trial(
-        name="text-axis-precesses",
+    "text-axis-precesses": Trial(
         model=matrix_model,
         signs={r"\mathbf{R}_3": "(R*e3)"},
         follows="@(84)",
         false=Falsehood(r"The third inertia axis precesses about $\mathbf{e}_3$", "k*cross(hat_B", "k*cross(e3"),
     ),
-    Trial(
-        name="text-ball-limit",
+    "text-ball-limit": Trial(
         model=lambda: _model({}, [*ON_HYPERBOLA, PHI, (I, sympy.Integer(1)), *FIELD]),
         signs={r"I_2=I_3\implies": ""},
         follows="@(71), @(72) with $I = 1$",
         false=Falsehood("There is no proper rotation, whatever the moments", model=velocity_model),
     ),
-    Trial(name="(86)", model=frequencies_model, follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$"),
-    Trial(
-        name="text-free-general",
+    "(86)": Trial(model=frequencies_model, follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$"),
+    "text-free-general": Trial(
         model=free_body_model,
         signs={r"\mathbf{R}_3": "a"},
         follows=r"$\dot{\mathbf{a}} = [\boldsymbol{\omega}, \mathbf{a}]$ for the third axis $\mathbf{a}$,"
         r" $\mathbf{m}$ constant, $\boldsymbol{\omega}= \mathbf{m}/I_2+(1/I_3-1/I_2)(\mathbf{a},\mathbf{m})\mathbf{a}$",
         false=Falsehood(r"The axis turns with the frequency $|\mathbf{m}|/I_3$", "1/I2*cross", "1/I3*cross"),
     ),
-    Trial(
-        name="(87)",
+    "(87)": Trial(
         model=free_model,
         follows="the free Euler and Poisson equations by substitution",
         defines=("phi",),
         solves=f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
     ),
-    Trial(
-        name="text-affirmation-free",
+    "text-affirmation-free": Trial(
         model=free_model,
         signs={r"\mathbf{m}": "J*at0(Omega)", r"\mathbf{B}": "Bp", "B_2": "B2", "B_3": "B3"},
         follows="the launch of the free body",
@@ -390,8 +372,7 @@ TRIALS = (
             "omega2*B3/B2]",
         ),
     ),
-    Trial(
-        name="text-free-frequency",
+    "text-free-frequency": Trial(
         model=lambda: free_frequency_model()[0],
         signs={r"\lvert\mathbf{m}\rvert": "size", "k_B": "kB"},
         follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for positive $\omega_2$",
@@ -402,16 +383,14 @@ TRIALS = (
         grade="missing case",
         note=r"For $\omega_2 < 0$ the length $|\mathbf{m}|$ loses the sign; @(87) holds with $k = \omega_2/\hat{B}_2$.",
     ),
-    Trial(
-        name="text-free-proper",
+    "text-free-proper": Trial(
         model=free_proper_model,
         follows=r"@text-free-general: what is left of $\Omega_3$ when the precession is taken away",
         false=Falsehood(
             "A body longer than a ball turns back about its axis", "= (I2 - I3)/(I2*I3)*m3", "= (I3 - I2)/(I2*I3)*m3"
         ),
     ),
-    Trial(
-        name="text-momentum-moves",
+    "text-momentum-moves": Trial(
         model=matrix_model,
         signs={r"\dot{\mathbf{m}}\ne0": "dot(dm, dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2"},
         follows=r"@(17): the length of $d\mathbf{m}/dt$",
@@ -422,8 +401,7 @@ TRIALS = (
         note="For a ball, whose elementary motion is a steady turn about the field, and at rest it is conserved.",
         false=Falsehood("The angular momentum is conserved", "(I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2", "0"),
     ),
-    Trial(
-        name="text-constant-omega3",
+    "text-constant-omega3": Trial(
         model=matrix_model,
         signs={r"\Omega_3": "Omega[3]"},
         follows="@(73)",
@@ -431,14 +409,12 @@ TRIALS = (
         grade="misprint",
         note="A wrong index.",
     ),
-    Trial(
-        name="(88)",
+    "(88)": Trial(
         model=matrix_model,
         signs={r"\mathbf{B}": "Bp"},
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$ by substitution",
     ),
-    Trial(
-        name="text-momentum-plane",
+    "text-momentum-plane": Trial(
         model=matrix_model,
         signs={r"\mathbf{B}": "Bp"},
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$",
@@ -447,4 +423,4 @@ TRIALS = (
         note=r"The projection is constant, not zero: only the tip of $\mathbf{m}$ stays in a plane orthogonal to "
         r"$\mathbf{B}$.",
     ),
-)
+}

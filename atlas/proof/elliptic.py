@@ -97,9 +97,8 @@ def linear_model() -> Model:
 _SPLITTING = read("theorem-splitting", SIGNS | {r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"})
 _C = sides(_SPLITTING.split("; ")[3])[1]
 
-TRIALS = (
-    Trial(
-        name="theorem-elliptic",
+TRIALS = {
+    "theorem-elliptic": Trial(
         model=elliptic_model,
         follows=r"@(16) and @(35), for any $v$",
         signs={
@@ -115,8 +114,7 @@ TRIALS = (
         r"it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
         false=Falsehood("The moments add, with no $z$", "z + D/I[1]", "D/I[1]"),
     ),
-    Trial(
-        name="theorem-splitting",
+    "theorem-splitting": Trial(
         model=root_model,
         follows="$H$ and $F$, and the characteristic polynomial of the linear flow",
         signs={r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"},
@@ -155,8 +153,7 @@ TRIALS = (
             "lam^6",
         ),
     ),
-    Trial(
-        name="theorem-bifurcation",
+    "theorem-bifurcation": Trial(
         model=critical_model,
         follows=r"$v^2=P$, of which $dv/dz=P'/2v$ is used; $G=2DH$",
         signs={
@@ -177,8 +174,7 @@ TRIALS = (
         "$C=0$, and is convex, as $H$ over $F$, where $C>0$.",
         false=Falsehood("The slope does not depend on the place on the curve", " = -z/(2*D)", " = -e2/(2*D)"),
     ),
-    Trial(
-        name="theorem-edge",
+    "theorem-edge": Trial(
         model=edge_model,
         follows=r"$H$ and $F$",
         note=r"For $I_3$ the largest moment the right side is not negative, and it is 0 for $\mathbf{M}=(0,0,M_3)$, "
@@ -190,4 +186,4 @@ TRIALS = (
             "I3*K^2",
         ),
     ),
-)
+}

@@ -198,16 +198,14 @@ def flight_model() -> Model:
 _LEFT, _RIGHT = r"R_{ia}(\mathbf{B}R\boldsymbol{\Omega})", r"(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a"
 _AFFIRMED = f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({RIGHT_OF_11})"
 
-TRIALS = (
-    Trial(
-        name="(10)",
+TRIALS = {
+    "(10)": Trial(
         model=multiplier_model,
         follows="@(6) about the centre of mass, solved for the multipliers",
         definition=True,
         note="It leaves out the $R(0) = 1$ of @(6), see @text-affirmation.",
     ),
-    Trial(
-        name="text-affirmation",
+    "text-affirmation": Trial(
         signs={r"\text{(10)}\iff\text{(11), (12)}": _AFFIRMED},
         corrected_signs={r"\text{(10)},\ R_{ij}(0)=\delta_{ij}\iff\text{(11), (12)}": _AFFIRMED},
         model=multiplier_model,
@@ -223,8 +221,7 @@ TRIALS = (
             "The Euler equations hold without their last term", " - 1/2*I[k, a]*eps[a, i, j]*A[b, i]*R[b, j]", ""
         ),
     ),
-    Trial(
-        name="text-multipliers-algebraic",
+    "text-multipliers-algebraic": Trial(
         signs={
             r"\lambda": "lam",
             r"\hat\Omega": "hat(Omega)",
@@ -241,8 +238,7 @@ TRIALS = (
             "",
         ),
     ),
-    Trial(
-        name="text-nondegenerate",
+    "text-nondegenerate": Trial(
         model=lambda: moments_model()[0],
         follows="the moments of mass of a body that is not plane",
         corrected_model=moments_model,
@@ -254,41 +250,35 @@ TRIALS = (
         note="For a plane body, the loop of Section IV, $g_3 = 0$. The Affirmation needs only that the inertia "
         "tensor be non-degenerate, which it is for every body that is no rod.",
     ),
-    Trial(name="(11)", model=multiplier_model, follows="the symmetry of the multipliers in @(10)"),
-    Trial(
-        name="(12)",
+    "(11)": Trial(model=multiplier_model, follows="the symmetry of the multipliers in @(10)"),
+    "(12)": Trial(
         signs={r"\dot R": "d(R)"},
         model=poisson_model,
         follows="any moving rotation, by its Cayley parameters",
     ),
-    Trial(
-        name="text-inertia-tensor",
+    "text-inertia-tensor": Trial(
         model=inertia_model,
         follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
         false=Falsehood("The inertia tensor is the mass matrix", "g[a, a]*delta[i, j] - g[i, j]", "g[i, j]"),
     ),
-    Trial(
-        name="text-mass-moments",
+    "text-mass-moments": Trial(
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$",
         false=Falsehood("A moment of mass is half the sum of all moments of inertia", "I2 + I3 - I1", "I2 + I3 + I1"),
     ),
-    Trial(
-        name="text-inertia-axes",
+    "text-inertia-axes": Trial(
         signs={r"\mathbf{R}": "column[]", r"\mathbf{e}": "e[]", "I_i": "moment[i]"},
         also=("turned = R*I*T(R)",),
         model=axes_model,
         follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
         false=Falsehood("The rows of $R$ are the axes of inertia", "turned = R*I*T(R)", "turned = T(R)*I*R"),
     ),
-    Trial(
-        name="text-orthogonal",
+    "text-orthogonal": Trial(
         model=matrix_flow_model,
         follows="@(12) for any matrix $R$",
         false=Falsehood("$R^T R$ stays what it is as well, for any matrix $R(0)$", "R*T(R)", "T(R)*R"),
     ),
-    Trial(
-        name="text-covariance",
+    "text-covariance": Trial(
         defines=("Ip", "gp", "Omegap", "Kp"),
         also=("hat(S*Omega) = S*hat(Omega)*T(S)",),
         model=covariance_model,
@@ -296,8 +286,7 @@ TRIALS = (
         note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
         false=Falsehood("The system is covariant under reflections as well", model=lambda: covariance_model(-1)),
     ),
-    Trial(
-        name="text-force-matrix",
+    "text-force-matrix": Trial(
         model=magnetic_model,
         follows="@(12) and $R R^T = 1$",
         corrected_tex=mended(
@@ -306,16 +295,14 @@ TRIALS = (
         grade="misprint",
         note="The minus of @(12) is lost at the first step and back in @(13).",
     ),
-    Trial(name="(13)", model=magnetic_model, follows="@(7) and @(12)"),
-    Trial(name="(14)", model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
-    Trial(
-        name="(15)",
+    "(13)": Trial(model=magnetic_model, follows="@(7) and @(12)"),
+    "(14)": Trial(model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
+    "(15)": Trial(
         signs={r"R^T\mathbf{B}": "K"},
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$",
     ),
-    Trial(
-        name="text-other-components",
+    "text-other-components": Trial(
         signs={r"R^T\mathbf{B}": "K"},
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
@@ -323,21 +310,18 @@ TRIALS = (
             "The mass matrix may act on the angular velocity instead", "2*cross(g*K, Omega)", "2*cross(K, g*Omega)"
         ),
     ),
-    Trial(name="(16)", model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
-    Trial(
-        name="(17)",
+    "(16)": Trial(model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
+    "(17)": Trial(
         signs={r"\dot{\mathbf{m}}": "dm"},
         model=momentum_model,
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @(12) and @(16)",
     ),
-    Trial(
-        name="(18)",
+    "(18)": Trial(
         signs={r"\dot{\mathbf{M}}": "dM"},
         model=momentum_model,
         follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @(16)",
     ),
-    Trial(
-        name="text-grioli",
+    "text-grioli": Trial(
         signs={"I'": "I", "g'": "g", r"I'\dot{\boldsymbol{\Omega}}": "IdOmega"},
         model=grioli_model,
         follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
@@ -346,8 +330,7 @@ TRIALS = (
             "The torque holds the third column of $R$", "cross(g*G3, Omega)", "cross(g*[R[1,3], R[2,3], R[3,3]], Omega)"
         ),
     ),
-    Trial(
-        name="text-flight",
+    "text-flight": Trial(
         signs={r"\mathbf{y}_0": "y0", r"\mathbf{y}": "y[]", r"\mathbf{x}": "moved[]"},
         model=flight_model,
         follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "
@@ -363,4 +346,4 @@ TRIALS = (
             "The magnetic force has no torque about the centre of mass", "mu/light*cross(d(y[N]),Bf)", "mu*E"
         ),
     ),
-)
+}

@@ -131,40 +131,35 @@ def sigma_model() -> Model:
     return Model(letters, flow={P: P1, t: sympy.Integer(1), **rates})
 
 
-TRIALS = (
-    Trial(
-        name="theorem-top",
+TRIALS = {
+    "theorem-top": Trial(
         model=top_model,
         follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
         defines=("q",),
         also=("d(M3) = 0; d(p) = 0; d(H) = 0; M3 = I*c3",),
         false=Falsehood("The potential is linear, as that of the heavy top", "(I - 1)*b^2*nu^2", "(I - 1)*b^2*nu"),
     ),
-    Trial(
-        name="theorem-top-quartic",
+    "theorem-top-quartic": Trial(
         model=letters_model,
         follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$",
         defines=("E", "c5"),
         false=Falsehood("The two quartics are equal", "= b^2*q(", "= q("),
     ),
-    Trial(
-        name="theorem-weierstrass",
+    "theorem-weierstrass": Trial(
         model=weierstrass_model,
         follows="$P' = P_1$ with $P_1^2 = 4 P^3 - g_2 P - g_3$, the equation of Weierstrass",
         defines=("u", "g2", "g3"),
         solves="(d(u)/P1)^2*(4*P^3 - g2*P - g3) = Q(u)",
         false=Falsehood("The function of Weierstrass is shifted the other way", "(P - ddQ(e)/24)", "(P + ddQ(e)/24)"),
     ),
-    Trial(
-        name="theorem-lame",
+    "theorem-lame": Trial(
         model=curve_model,
         follows="@theorem-cayley-klein in Larmor's frame, and @theorem-top",
         note=r"The potentials have no pole where $\nu = -1$ or 1. So $\xi$ and $\eta$ are regular there, and their "
         "zeros are simple.",
         false=Falsehood("Both parameters obey the same equation", "3/4*A*nu^2 + 1/2*A*nu", "3/4*A*nu^2 - 1/2*A*nu"),
     ),
-    Trial(
-        name="theorem-residues",
+    "theorem-residues": Trial(
         model=residue_model,
         signs={r"\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}": "residue", r"\dot\nu": "w"},
         follows="@theorem-top, and @theorem-cayley-klein in Larmor's frame",
@@ -173,8 +168,7 @@ TRIALS = (
         r"finite; at $\nu = 1$ that of $\eta$ is so with the opposite sign of $M_3$.",
         false=Falsehood(r"The rate of $\nu$ is real there", "= -(p + sign*M3)^2", "= (p + sign*M3)^2"),
     ),
-    Trial(
-        name="theorem-sigma",
+    "theorem-sigma": Trial(
         model=sigma_model,
         follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
         defines=("xi",),
@@ -184,4 +178,4 @@ TRIALS = (
         r"$\xi$; $\eta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
         false=Falsehood("The zero lies on the opposite half period", "sigma(t - z_minus)", "sigma(t + z0)"),
     ),
-)
+}

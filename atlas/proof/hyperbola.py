@@ -140,25 +140,22 @@ _EQUATION_67, _EQUATION_71 = read("(67)", SIGNS), read("(71)", SIGNS)
 _REST = r"At $\omega_1 = \omega_2 = 0$ it reads $0/0$. Of these launches only rest has a constant $\Omega_3$."
 
 
-TRIALS = (
-    Trial(
-        name="(58)",
+TRIALS = {
+    "(58)": Trial(
         model=constant_model,
         also=("d(omega3) = 0",),
         signs={r"\omega_3=\text{const}": "omega3", r"\Omega_3": "Omega3"},
         follows=r"the ansatz: $\Omega_3$ is the constant $\omega_3$",
         definition=True,
     ),
-    Trial(
-        name="(59)",
+    "(59)": Trial(
         model=constant_model,
         signs={r"\Omega_1K_2-\Omega_2K_1=0": "dOmega3 = Omega1*K2 - Omega2*K1"},
         follows=r"@(34) with $\Omega_3 = \omega_3$",
     ),
-    Trial(name="(60)", model=constant_model, follows=r"@(35) and @(40) with $\Omega_3 = \omega_3$"),
-    Trial(name="(61)", model=proportional_model, form=conserved, follows="@(59) and @(60)"),
-    Trial(
-        name="(62)",
+    "(60)": Trial(model=constant_model, follows=r"@(35) and @(40) with $\Omega_3 = \omega_3$"),
+    "(61)": Trial(model=proportional_model, form=conserved, follows="@(59) and @(60)"),
+    "(62)": Trial(
         model=circle_model,
         follows="@(61) and the last equation of @(59)",
         slip="(78)",
@@ -166,8 +163,7 @@ TRIALS = (
         r"\omega_2^2)}K_2=\omega_2B'_2\Omega_2",
         note=_REST,
     ),
-    Trial(
-        name="(63)",
+    "(63)": Trial(
         model=precession_model,
         follows="@(59) and @(62)",
         defines=("phip",),
@@ -178,8 +174,7 @@ TRIALS = (
         r"\omega_3",
         note=_REST,
     ),
-    Trial(
-        name="(64)",
+    "(64)": Trial(
         model=precession_model,
         signs={r"\dot\Omega_1": "nu1", r"\dot\Omega_2": "nu2"},
         follows=r"@(60) and @(62); $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
@@ -190,8 +185,7 @@ TRIALS = (
         r"\omega_2\omega_3-B'_3(\omega_1^2+\omega_2^2)",
         note=r"At $\omega_2 = 0$ it has no value. Of these launches only rest has a constant $\Omega_3$.",
     ),
-    Trial(
-        name="(65)",
+    "(65)": Trial(
         model=agreement_model,
         follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
         slip="(78)",
@@ -199,16 +193,14 @@ TRIALS = (
         r"\omega_2^2)}-I{B'_2}^2\omega_2^2\omega_3=0",
         note=_REST,
     ),
-    Trial(name="(66)", model=condition_model, follows="@(50)"),
-    Trial(
-        name="(67)",
+    "(66)": Trial(model=condition_model, follows="@(50)"),
+    "(67)": Trial(
         model=motion_model,
         follows="@(66) and the last equation of @(59) at $t = 0$",
         note=r"That $\omega_1 = 0$ follows from the last equation of @(59); @(65) and @(66) do not suffice, see "
         "@text-combining.",
     ),
-    Trial(
-        name="text-combining",
+    "text-combining": Trial(
         model=both_conditions_model,
         signs={r"\text{(65), (66)}\implies": ""},
         follows=r"every $\boldsymbol{\omega}$ that obeys @(65) and @(66)",
@@ -224,27 +216,23 @@ TRIALS = (
         note=r"The circle $\omega_3 = 0$, $\omega_1^2 + \omega_2^2 + (2-I) B'_2 \omega_2 = 0$ obeys both conditions "
         "too. The motions are on the hyperbola all the same, by the last equation of @(59) at $t = 0$.",
     ),
-    Trial(
-        name="(68)",
+    "(68)": Trial(
         model=lambda: canonical_model("above", plane=True),
         follows=r"@(55) with $\omega_1 = 0$",
         defines=AXES,
     ),
-    Trial(
-        name="(69)",
+    "(69)": Trial(
         model=lambda: canonical_model("below", plane=True),
         follows=r"@(57) with $\omega_1 = 0$",
         defines=AXES,
     ),
-    Trial(
-        name="(70)",
+    "(70)": Trial(
         model=degenerate_model,
         follows=r"@(56) with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
         defines=("a2", "a3"),
         note="The letters $a_2$ and $a_3$ have another meaning here than in @(54): the roots of the former.",
     ),
-    Trial(
-        name="(71)",
+    "(71)": Trial(
         model=lambda: motion_model()[0],
         follows=r"@(67) for $\omega_2$ different from $-B'_2$",
         corrected_also=(
@@ -269,5 +257,5 @@ TRIALS = (
         "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "
         "is missing.",
     ),
-    Trial(name="(72)", model=frequency_model, follows="@(63) on the hyperbola @(71)"),
-)
+    "(72)": Trial(model=frequency_model, follows="@(63) on the hyperbola @(71)"),
+}

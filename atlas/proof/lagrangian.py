@@ -202,16 +202,14 @@ def _equivalent(line: str) -> str:
     return f"(1 + delta[A,B])*({ast.unparse(slope.left)} - {zero}) = {left} - {right}"
 
 
-TRIALS = (
-    Trial(
-        name="(1)",
+TRIALS = {
+    "(1)": Trial(
         signs={r"S=\int dt": "L ="},
         model=action_model,
         follows="kinetic energy of six particles, and each constraint with its multiplier",
         definition=True,
     ),
-    Trial(
-        name="text-constraints",
+    "text-constraints": Trial(
         also=("2*partial(L,lam[A,beta]) = dot(y[A] - y[1], y[beta] - y[1]) - a[A,beta]",),
         model=action_model,
         form=_equivalent,
@@ -222,17 +220,15 @@ TRIALS = (
             "dot(y[beta] - y[1], y[beta] - y[1])",
         ),
     ),
-    Trial(
-        name="(2)",
+    "(2)": Trial(
         signs={r"A_0(\mathbf{y}_N)": "A0[N]", r"\mathbf{A}(\mathbf{y}_N)": "A[N]"},
         model=potential_model,
         follows="the sum of @(103) over the particles, with the potentials @(102)",
         definition=True,
     ),
-    Trial(name="(3)", model=particles_model, follows="the variation of the action @(1), @(2) for six particles"),
-    Trial(name="(4)", model=particles_model, follows="the sum of @(3) over six particles"),
-    Trial(
-        name="text-translation",
+    "(3)": Trial(model=particles_model, follows="the variation of the action @(1), @(2) for six particles"),
+    "(4)": Trial(model=particles_model, follows="the sum of @(3) over six particles"),
+    "text-translation": Trial(
         model=free_model,
         follows="@(3) summed over six particles, at two states with the same centre of mass",
         false=Falsehood(
@@ -240,8 +236,7 @@ TRIALS = (
             model=lambda: free_model(equal=False),
         ),
     ),
-    Trial(
-        name="text-rigid",
+    "text-rigid": Trial(
         signs={
             r"R^TR=\mathbf{1}": "T(R)*R - one = T(inverse)*(T(X)*X - T(X0)*X0)*inverse",
             r"\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0\implies": "",
@@ -266,8 +261,7 @@ TRIALS = (
             "T(R)*R = one",
         ),
     ),
-    Trial(
-        name="(5)",
+    "(5)": Trial(
         signs={
             r"\mathbf{E}": "E[i]",
             "E^i": "E[i]",
@@ -292,8 +286,7 @@ TRIALS = (
         r"zero it is $-\mu \mathbf{E}^i$, and then the printed form is right: the two terms cancel, and the "
         "electric field is gone already here. The vectors of the last two terms lack the index that the others have.",
     ),
-    Trial(
-        name="(6)",
+    "(6)": Trial(
         signs={
             "E": "E[]",
             r"\ddot R_{ik}g_{kj}": "ddRg[i,j]",
@@ -311,22 +304,19 @@ TRIALS = (
         note="The second term lacks its index $j$, and its places are those at $t = 0$. It vanishes "
         "about the centre of mass, so nothing later suffers.",
     ),
-    Trial(
-        name="(7)",
+    "(7)": Trial(
         signs={"B": "Bf[]"},
         model=rotation_model,
         follows=r"the magnetic force on six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$",
         definition=True,
     ),
-    Trial(
-        name="(8)",
+    "(8)": Trial(
         signs={"x": "moved[]"},
         model=rotation_model,
         follows="the matrix that multiplies the second derivative of $R$ in @(6)",
         definition=True,
     ),
-    Trial(
-        name="(9)",
+    "(9)": Trial(
         signs={
             r"\lambda_{jk}": "lamM[j,k]",
             **{
@@ -345,8 +335,7 @@ TRIALS = (
         grade="misprint",
         note=r"The last sign is wrong: the products of $\mathbf{x}_1$ with itself add.",
     ),
-    Trial(
-        name="text-multipliers-symmetric",
+    "text-multipliers-symmetric": Trial(
         signs={r"\lambda": "lamM[]"},
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
@@ -356,8 +345,7 @@ TRIALS = (
             "lamM[j, k] + (T(R)*A*g)[j, k] = lamM[k, j] + (T(R)*A*g)[k, j]",
         ),
     ),
-    Trial(
-        name="text-electric-field",
+    "text-electric-field": Trial(
         model=free_model,
         follows="@(3) less @(4) for six particles, in two electric fields",
         false=Falsehood(
@@ -365,8 +353,7 @@ TRIALS = (
             model=lambda: free_model(equal=False),
         ),
     ),
-    Trial(
-        name="text-rotation-apart",
+    "text-rotation-apart": Trial(
         model=free_model,
         follows="@(3) less @(4) for six particles, at two states that differ by a shift and a velocity",
         false=Falsehood(
@@ -374,4 +361,4 @@ TRIALS = (
             model=lambda: free_model(equal=False),
         ),
     ),
-)
+}

@@ -248,25 +248,22 @@ def rolling_model() -> list[Model]:
 TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
 """What the place of a charged particle obeys, (89)."""
 
-TRIALS = (
-    Trial(name="(89)", signs=_LAGRANGIAN, model=lagrangian_model, follows="the variation of the Lagrangian @(104)"),
-    Trial(
-        name="(90)",
+TRIALS = {
+    "(89)": Trial(signs=_LAGRANGIAN, model=lagrangian_model, follows="the variation of the Lagrangian @(104)"),
+    "(90)": Trial(
         model=velocity_model,
         follows="its rate is @(89)",
         defines=("dy",),
         solves="d(dy) = mu*E + mu/c*cross(dy,Bf); at0(dy) - mu/c*cross(y,Bf) = C",
     ),
-    Trial(
-        name="text-no-magnetic-field",
+    "text-no-magnetic-field": Trial(
         model=fall_model,
         follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
         solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
         false=Falsehood(r"The particle falls with the acceleration $2\mu\mathbf{E}$", "1/2*mu*E*t^2", "mu*E*t^2"),
     ),
-    Trial(
-        name="text-along-field",
+    "text-along-field": Trial(
         solves="d2(y) = mu*E",
         corrected_solves="",
         signs={r"\ddot{\mathbf{y}}": "d2(y)"},
@@ -276,24 +273,21 @@ TRIALS = (
         slip="(97)",
         note=r"A negative charge is accelerated against $\mathbf{E}$.",
     ),
-    Trial(
-        name="text-helix",
+    "text-helix": Trial(
         also=("d2(y2) = -(mu*b/c)^2*y2",),
         model=helix_model,
         follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
         false=Falsehood("It turns with Larmor's frequency", "-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2"),
     ),
-    Trial(name="(91)", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
-    Trial(name="(92)", model=split_model, follows=r"@(90) projected across $\mathbf{B}$"),
-    Trial(
-        name="(93)",
+    "(91)": Trial(model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
+    "(92)": Trial(model=split_model, follows=r"@(90) projected across $\mathbf{B}$"),
+    "(93)": Trial(
         model=parallel_model,
         follows="@(91) by substitution",
         defines=("ypar",),
         solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0",
     ),
-    Trial(
-        name="text-parallel-acceleration",
+    "text-parallel-acceleration": Trial(
         solves="d2(ypar) = mu*Epar",
         model=fall_along_model,
         follows="@(93)",
@@ -301,21 +295,18 @@ TRIALS = (
         grade="misprint",
         note=r"The wrong part of $\mathbf{E}$.",
     ),
-    Trial(
-        name="text-double-product",
+    "text-double-product": Trial(
         model=lambda: Model({"Eperp": cross(B, vector("w")), "Bf": B}),
         follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
         false=Falsehood("The identity holds for any vector", model=lambda: Model({"Eperp": vector("w"), "Bf": B})),
     ),
-    Trial(name="(94)", model=split_model, follows="@(92)"),
-    Trial(
-        name="(95)",
+    "(94)": Trial(model=split_model, follows="@(92)"),
+    "(95)": Trial(
         model=shifted_model,
         follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
     ),
-    Trial(name="(96)", model=shifted_model, follows="@(92) for the twice shifted variable"),
-    Trial(
-        name="(97)",
+    "(96)": Trial(model=shifted_model, follows="@(92) for the twice shifted variable"),
+    "(97)": Trial(
         model=charges_model,
         follows="@(96) by substitution, for either sign of the charge",
         defines=("y2", "omega"),
@@ -324,16 +315,14 @@ TRIALS = (
         grade="sign of the charge",
         note=f"{_SENSE} A negative charge turns the other way.",
     ),
-    Trial(
-        name="text-drift-direction",
+    "text-drift-direction": Trial(
         model=charges_model,
         follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
         false=Falsehood(
             r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{E}_\bot$", "norm(Bf)*e1", "norm(Bf)*e2"
         ),
     ),
-    Trial(
-        name="(98)",
+    "(98)": Trial(
         model=charges_model,
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
@@ -343,8 +332,7 @@ TRIALS = (
         slip="(97)",
         note=_SENSE,
     ),
-    Trial(
-        name="text-time-shift",
+    "text-time-shift": Trial(
         signs={r"\mathbf{y}_{\bot}": "place()", r"\mathbf{C}'_{\bot}": "Clater"},
         defines=("Clater",),
         model=later_model,
@@ -353,8 +341,7 @@ TRIALS = (
         note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
         false=Falsehood(r"$\mathbf{C}_\bot$ stays what it is", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
     ),
-    Trial(
-        name="text-first-two-terms",
+    "text-first-two-terms": Trial(
         signs={r"\implies": ""},
         defines=("Cperp",),
         model=lambda: signed_model("origin"),
@@ -364,14 +351,12 @@ TRIALS = (
         grade="wording",
         note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @(99) has it.",
     ),
-    Trial(
-        name="text-initial-position",
+    "text-initial-position": Trial(
         model=start_model,
         follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
         false=Falsehood(r"The particle starts at $a\mathbf{e}_1$", "a*e2", "a*e1"),
     ),
-    Trial(
-        name="(99)",
+    "(99)": Trial(
         model=lambda: charges_model("origin"),
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
@@ -381,8 +366,7 @@ TRIALS = (
         slip="(97)",
         note=_SENSE,
     ),
-    Trial(
-        name="text-drift",
+    "text-drift": Trial(
         model=drift_model,
         follows=r"@(89) solved for the velocity that does not change, for either sign of the charge, $\omega$ of @(97)",
         corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
@@ -390,8 +374,7 @@ TRIALS = (
         note=r"The drift doesn't depend on the charge; with the positive $\omega$ of @(97) a negative one would drift "
         "backwards.",
     ),
-    Trial(
-        name="text-trochoid-constant",
+    "text-trochoid-constant": Trial(
         model=lambda: signed_model("trochoid"),
         follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
         corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
@@ -399,8 +382,7 @@ TRIALS = (
         note=r"An acceleration is taken from a velocity. What is meant is $\mathbf{C}_\bot = 0$: the acceleration over "
         r"$\omega$ is the drift, and nothing is left.",
     ),
-    Trial(
-        name="(100)",
+    "(100)": Trial(
         model=lambda: charges_model("trochoid"),
         follows="@(98) with the constant chosen there",
         defines=("x", "y"),
@@ -411,15 +393,13 @@ TRIALS = (
         note=r"The shift of $y$ must be a length, $\mu |\mathbf{E}_\bot|/\omega^2$, as $\mathbf{C}_\bot$ must be a "
         r"velocity; and, as in @(97), $\omega$ takes the sign of the charge.",
     ),
-    Trial(
-        name="text-trochoid",
+    "text-trochoid": Trial(
         model=rolling_model,
         follows="@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
         "turns by one radian",
         false=Falsehood("The circle rolls along the line through its middle", "y = r + a*cos", "y = a*cos"),
     ),
-    Trial(
-        name="(101)",
+    "(101)": Trial(
         model=lambda: trajectory_model(signed=False),
         follows="@(89) by substitution, the parts of @(93) and @(99), for either sign of the charge",
         defines=("y",),
@@ -429,8 +409,7 @@ TRIALS = (
         slip="(97)",
         note="The sum is right; @(99), which it sends to, holds for a positive charge.",
     ),
-    Trial(
-        name="(102)",
+    "(102)": Trial(
         signs={r"\mathbf{A}(\mathbf{y})": "A", r"A_0(\mathbf{y})": "A0"},
         model=lagrangian_model,
         follows="the vector product in components",
@@ -438,8 +417,7 @@ TRIALS = (
         grade="misprint",
         note="A lower-case $b_1$ that means nothing here stands for $B_1$.",
     ),
-    Trial(
-        name="text-potentials",
+    "text-potentials": Trial(
         signs={
             r"\frac{\partial\mathbf{A}}{\partial t}": "partial_t(A)",
             r"\nabla A_0": "grad(A0)",
@@ -451,19 +429,17 @@ TRIALS = (
         "minus the usual potential, and @(103) agrees with it.",
         false=Falsehood(r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$", "+ grad(A0)", "- grad(A0)"),
     ),
-    Trial(
-        name="(103)",
+    "(103)": Trial(
         signs=_LAGRANGIAN,
         model=lagrangian_model,
         follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
         solves="force(U) = e*E + e/c*cross(v,Bf)",
     ),
-    Trial(
-        name="(104)",
+    "(104)": Trial(
         signs=_LAGRANGIAN,
         model=lagrangian_model,
         follows="the potentials @(102), and @(89) by variation",
         defines=("L",),
         solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)",
     ),
-)
+}

@@ -155,16 +155,14 @@ def degree_model() -> list[Model]:
     return cases
 
 
-TRIALS = (
-    Trial(
-        name="text-mass-matrix",
+TRIALS = {
+    "text-mass-matrix": Trial(
         model=symmetric_body_model,
         signs={r"\mathrm{diag}": "diag()"},
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
         false=Falsehood("The third moment of mass of a ball is zero", "2*I2 - I3", "I2 - I3"),
     ),
-    Trial(
-        name="text-laboratory",
+    "text-laboratory": Trial(
         signs={"B_2": "B2", "B_3": "B3"},
         model=laboratory_model,
         follows=r"a rotation about $\mathbf{e}_3$ by the angle between $\mathbf{e}_2$ and the part of $\mathbf{B}$ "
@@ -185,14 +183,12 @@ TRIALS = (
             "S*B = [B2, 0, B3]",
         ),
     ),
-    Trial(
-        name="(31)",
+    "(31)": Trial(
         model=frame_model,
         signs={r"\boldsymbol{\omega}": "(R*Omega)"},
         follows=r"$\boldsymbol{\Omega} = R^T \boldsymbol{\omega}$ and $R(0) = 1$",
     ),
-    Trial(
-        name="(32)",
+    "(32)": Trial(
         model=frame_model,
         signs={
             r"\mathbf{B}": "Bf",
@@ -203,29 +199,26 @@ TRIALS = (
         },
         follows="$K_j = B'_i R_{ij}$ and $R(0) = 1$",
     ),
-    Trial(
-        name="(33)",
+    "(33)": Trial(
         model=state_model,
         signs={"E": "energy"},
         follows=r"the energy is $(I_2 \Omega_1^2 + I_2 \Omega_2^2 + I_3 \Omega_3^2)/2$ and makes @(36)",
         defines=("I", "E"),
         solves="Omega1^2 + Omega2^2 + I*Omega3^2 = E",
     ),
-    Trial(
-        name="(34)",
+    "(34)": Trial(
         model=field_model,
         signs={r"\mathbb{I}\dot{\boldsymbol{\Omega}}": "IdOmega", r"\mathbf{K}g": "g*K"},
         follows="@(16) and @(32)",
     ),
-    Trial(name="(35)", model=field_model, signs={r"\dot{\mathbf{K}}": "dK"}, follows="@(12) and @(32)"),
-    Trial(name="(36)", model=state_model, form=conserved, follows="@(34), @(35)"),
-    Trial(name="(37)", model=state_model, form=conserved, follows="@(35)"),
-    Trial(name="(38)", model=state_model, follows="@(34) in components"),
-    Trial(name="(39)", model=state_model, follows="@(35) in components"),
-    Trial(name="(40)", model=state_model, form=conserved, follows="@(38) and @(39)"),
-    Trial(name="(41)", model=state_model, form=conserved, follows="@(38) and @(39)"),
-    Trial(
-        name="text-four-integrals",
+    "(35)": Trial(model=field_model, signs={r"\dot{\mathbf{K}}": "dK"}, follows="@(12) and @(32)"),
+    "(36)": Trial(model=state_model, form=conserved, follows="@(34), @(35)"),
+    "(37)": Trial(model=state_model, form=conserved, follows="@(35)"),
+    "(38)": Trial(model=state_model, follows="@(34) in components"),
+    "(39)": Trial(model=state_model, follows="@(35) in components"),
+    "(40)": Trial(model=state_model, form=conserved, follows="@(38) and @(39)"),
+    "(41)": Trial(model=state_model, form=conserved, follows="@(38) and @(39)"),
+    "text-four-integrals": Trial(
         model=state_model,
         also=("d([E, dot(K, K), c3, c5]) = 0",),
         signs={
@@ -239,8 +232,7 @@ TRIALS = (
             "The component of the angular velocity along the field is conserved", "d([E,", "d([dot(Omega, K),"
         ),
     ),
-    Trial(
-        name="(42)",
+    "(42)": Trial(
         model=state_model,
         follows="@(38), @(40) and @(41)",
         grade="missing case",
@@ -251,8 +243,7 @@ TRIALS = (
         r"\omega_3)$, and again whenever $\Omega_3$ comes back: for $I = 3/2$, $\mathbf{B}' = (0, 1, 1)$, $\omega_3 = "
         "1$ at $t = 2.347$.",
     ),
-    Trial(
-        name="(43)",
+    "(43)": Trial(
         model=state_model,
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
         slip="(42)",
@@ -261,8 +252,7 @@ TRIALS = (
         r"\Omega_1-I\Omega_3\dot\Omega_3\Omega_2 \end{aligned}",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ neither $\phi$ nor $\dot f$ of @(44) has a value.",
     ),
-    Trial(
-        name="(44)",
+    "(44)": Trial(
         model=state_model,
         follows="@(43) by substitution",
         defines=("phi", "f"),
@@ -275,8 +265,7 @@ TRIALS = (
         note=r"Where $\Omega_1 = \Omega_2 = 0$ the quotient reads $0/0$ and the logarithm has no value. "
         "$f$ counts up to a constant: the logarithm of a quantity with a dimension.",
     ),
-    Trial(
-        name="(45)",
+    "(45)": Trial(
         model=quadrature_model,
         signs={r"\Omega_3": "u"},
         follows="@(43) by substitution, with two constants",
@@ -290,17 +279,15 @@ TRIALS = (
         r"with it the angle would have to jump by $\pi$. With a $\rho$ of either sign, which passes through zero too, "
         "all is smooth. General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
     ),
-    Trial(
-        name="(46)",
+    "(46)": Trial(
         model=state_model,
         follows="the rate of the last equation of @(38), with @(38), @(39) and @(40)",
         corrected_tex=mended("(46)", {"k_2": "K_2"}),
         grade="misprint",
         note="A lower-case $k_2$ that means nothing here stands for $K_2$.",
     ),
-    Trial(name="(47)", model=state_model, follows="@(46) and the four integrals, with @(48) as corrected"),
-    Trial(
-        name="(48)",
+    "(47)": Trial(model=state_model, follows="@(46) and the four integrals, with @(48) as corrected"),
+    "(48)": Trial(
         model=launch_model,
         signs={rf"a_{n}(\boldsymbol{{\omega}}, \mathbf{{B}}')": f"a{n}" for n in (0, 1, 2)},
         follows="@(46) and the four integrals",
@@ -311,8 +298,7 @@ TRIALS = (
         grade="misprint",
         note="A 1 stands for $I$.",
     ),
-    Trial(
-        name="text-cubic-degree",
+    "text-cubic-degree": Trial(
         model=lambda: degree_model()[:2],
         signs={"a_3": "leading"},
         follows="@(47) with @(48) as corrected",
@@ -323,10 +309,9 @@ TRIALS = (
         note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @(47) is a harmonic oscillator.",
         false=Falsehood("The degree is three for the ball too", model=lambda: degree_model()[2]),
     ),
-    Trial(
-        name="(49)",
+    "(49)": Trial(
         model=initial_model,
         signs={r"\ddot\Omega_3": "ddOmega3"},
         follows="@(47), @(48) as corrected, and the integrals at $t = 0$",
     ),
-)
+}

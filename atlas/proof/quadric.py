@@ -187,20 +187,17 @@ def turned_model() -> Model:
     return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"})
 
 
-TRIALS = (
-    Trial(
-        name="(50)",
+TRIALS = {
+    "(50)": Trial(
         model=condition_model,
         follows=r"@(49) with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
     ),
-    Trial(
-        name="(51)",
+    "(51)": Trial(
         model=condition_model,
         follows=r"@(50), and the other way round: the two differ by the factor $B'_3$ for every $\boldsymbol{\omega}$",
         also=(Part(line=f"{sides(_EQUATION_50)[0]} = B3*({sides(_EQUATION_51)[0]} - (1 - I)*B2^2)", model=free_model),),
     ),
-    Trial(
-        name="text-quadric-origin",
+    "text-quadric-origin": Trial(
         model=lambda: Model({**LETTERS, **dict.fromkeys(("omega1", "omega2", "omega3"), sympy.Integer(0))}),
         signs={r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}": _EQUATION_51},
         follows=r"@(51) at $\boldsymbol{\omega} = 0$",
@@ -209,8 +206,7 @@ TRIALS = (
             model=lambda: Model({**LETTERS, "omega1": 0 * B2, "omega2": -B2, "omega3": -B3}),
         ),
     ),
-    Trial(
-        name="(52)",
+    "(52)": Trial(
         model=lambda: condition_model()[0],
         follows=r"@(50) for $\omega_2$ different from $-B'_2$",
         signs={r"\Omega_3": "Omega3"},
@@ -238,63 +234,54 @@ TRIALS = (
         r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
         "1$ nothing is missing.",
     ),
-    Trial(
-        name="(53)",
+    "(53)": Trial(
         model=coordinates_model,
         follows=r"lengths from the centre $-\mathbf{B}'$ are kept, and the form @(51) becomes that of @(54)",
         defines=("w1", "w2", "w3"),
         solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form; sense([w1, w2, w3]) = 1",
     ),
-    Trial(
-        name="text-turned",
+    "text-turned": Trial(
         model=turned_model,
         also=(read("(53)", SIGNS),),
         signs={r"\omega'_i": "w[i]", r"\mathbf{e}'_i": "axis[i]", r"\mathbf{e}'_2": "axis[2]"},
         follows="components along the turned axes, against @(53)",
         false=Falsehood("The axes are turned clockwise", "*e2 + sin", "*e2 - sin"),
     ),
-    Trial(
-        name="text-beta",
+    "text-beta": Trial(
         model=angle_model,
         follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
         false=Falsehood(r"$\beta$ is the angle between $\mathbf{e}_2$ and $\mathbf{B}'$", "B3/(I*B2)", "B3/B2"),
     ),
-    Trial(
-        name="text-beta-range",
+    "text-beta-range": Trial(
         model=range_model,
         follows=r"$\tan\beta > 0$",
         form=_sharp,
         false=Falsehood(r"They are turned by less than $\pi/3$", "< pi/2", "< pi/3"),
     ),
-    Trial(
-        name="(54)",
+    "(54)": Trial(
         model=canonical_model,
         follows="@(51) in the coordinates along its own eigenvectors",
         defines=("a2", "a3"),
     ),
-    Trial(name="(55)", model=lambda: canonical_model("above"), follows="@(54)", defines=AXES),
-    Trial(
-        name="text-two-sheets",
+    "(55)": Trial(model=lambda: canonical_model("above"), follows="@(54)", defines=AXES),
+    "text-two-sheets": Trial(
         model=lambda: axes_model(above=True, sheets=2),
         follows=r"@(55), $0 < \sin\beta < 1$ and $I > 1$",
         false=Falsehood("The surface has two sheets for $I < 1$ too", model=lambda: axes_model(above=False, sheets=2)),
     ),
-    Trial(
-        name="text-short-cylinder",
+    "text-short-cylinder": Trial(
         model=shell_model,
         signs={r">1\iff h<\sqrt6\,r": "I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)"},
         follows="the moments of the surface, integrated",
         false=Falsehood("A cylindrical surface is short if it is wider than high", "(6*r^2 - h^2)", "(4*r^2 - h^2)"),
     ),
-    Trial(
-        name="text-plane-body",
+    "text-plane-body": Trial(
         model=plane_body_model,
         signs={r"I=2\iff g_3=0": "2 - I = 2*g3/I2"},
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
         false=Falsehood("A plane body has $I = 1$", "2 - I =", "1 - I ="),
     ),
-    Trial(
-        name="text-tangent-planes",
+    "text-tangent-planes": Trial(
         model=lambda: Model({**LETTERS, "I": sympy.Integer(2)}, [(omega3, constant_omega3()), (I, sympy.Integer(2))]),
         signs={
             r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3": (
@@ -309,24 +296,21 @@ TRIALS = (
             r"The second plane is $\omega_3 = -B'_3$", "(omega3 + B3)^2 - B3^2", "(omega3 + B3/2)^2 - (B3/2)^2"
         ),
     ),
-    Trial(name="(56)", model=lambda: canonical_model("one"), follows="@(54) with $I = 1$, $a_2$ and $a_3$ as there"),
-    Trial(
-        name="text-cone-semi-axes",
+    "(56)": Trial(model=lambda: canonical_model("one"), follows="@(54) with $I = 1$, $a_2$ and $a_3$ as there"),
+    "text-cone-semi-axes": Trial(
         model=lambda: canonical_model("one"),
         follows="@(54) with $I = 1$",
         corrected_tex=mended("text-cone-semi-axes", {f"a_{n}^2": rf"(\sqrt{{a_{n}}})^2" for n in (2, 3)}),
         grade="wording",
         note="The semi-axes are the roots of $a_2$ and $a_3$, as @(70) has them under the same letters.",
     ),
-    Trial(name="(57)", model=lambda: canonical_model("below"), follows="@(54)", defines=AXES),
-    Trial(
-        name="text-one-sheet",
+    "(57)": Trial(model=lambda: canonical_model("below"), follows="@(54)", defines=AXES),
+    "text-one-sheet": Trial(
         model=lambda: axes_model(above=False, sheets=1),
         follows=r"@(57), $0 < \sin\beta < 1$ and $I < 1$",
         false=Falsehood("The surface has one sheet for $I > 1$ too", model=lambda: axes_model(above=True, sheets=1)),
     ),
-    Trial(
-        name="text-not-all",
+    "text-not-all": Trial(
         model=leaving_points_model,
         also=(_EQUATION_50,),
         signs={r"\omega_1B'_2\ne0\implies": "", r"\dot\Omega_3(0)": "rate"},
@@ -336,4 +320,4 @@ TRIALS = (
         "quadric is its mirror image.",
         false=Falsehood(r"At every point of the quadric $\Omega_3$ starts with the rate zero", "rate != 0", "rate = 0"),
     ),
-)
+}

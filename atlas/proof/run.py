@@ -58,7 +58,7 @@ def trials(stem: str) -> dict[str, Trial]:
     """Return the trials of one topic by name; what its `SIGNS` say holds for all of them."""
     module = import_module(f"atlas.proof.{stem}")
     signs: dict[str, str] = getattr(module, "SIGNS", {})
-    return {trial.name: replace(trial, signs={**signs, **trial.signs}) for trial in module.TRIALS}
+    return {name: replace(trial, name=name, signs={**signs, **trial.signs}) for name, trial in module.TRIALS.items()}
 
 
 def trial(name: str) -> Trial:

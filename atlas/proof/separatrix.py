@@ -188,9 +188,8 @@ _SPINOR = (
     " argument(spinor,2) = 1/2*((p - M3*height(spinor))/(1 - height(spinor)) - c3 - b)"
 )
 
-TRIALS = (
-    Trial(
-        name="theorem-steady",
+TRIALS = {
+    "theorem-steady": Trial(
         model=precession_model,
         signs={r"\hat B_3": "hB3"},
         follows=r"@theorem-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, and "
@@ -199,8 +198,7 @@ TRIALS = (
         note=r"With $|\nu_0| < 1$ the slope vanishes exactly if $M_3 w = \nu_0 (w^2 + A)$. ",
         false=Falsehood("The condition is that of the free top", "nu0*(w^2 + A)", "nu0*w^2"),
     ),
-    Trial(
-        name="theorem-nutation",
+    "theorem-nutation": Trial(
         model=nutation_model,
         signs={r"\nu_n^2": "nun2"},
         follows="@theorem-steady",
@@ -211,16 +209,14 @@ TRIALS = (
             "The term linear in $A$ has one sign, whatever the inclination", "A*(3*nu0^2 - 1)", "A*(3*nu0^2 + 1)"
         ),
     ),
-    Trial(
-        name="theorem-companion-range",
+    "theorem-companion-range": Trial(
         model=range_model,
         signs={"q": "q"},
         defines=("e_plus", "e_minus"),
         follows="@theorem-steady with $A = -w^2/z$, $z = w^2/((1-I) b^2)$",
         false=Falsehood("The other roots are real for every $z < 1$", "(z - nu0^2)/z", "(z + nu0^2)/z"),
     ),
-    Trial(
-        name="theorem-companion-roots",
+    "theorem-companion-roots": Trial(
         model=family_model,
         also=("q(nu) = A*(nu - nu0)^2*(nu - e)*(nu + 2*nu0 + e)",),
         follows=r"@theorem-companion-range with $z = \cos^2\kappa$ and $e=\cos2\delta$",
@@ -228,8 +224,7 @@ TRIALS = (
         "met by any two angles.",
         false=Falsehood(r"The exponent vanishes where $e = 3\nu_0$", "(3*nu0 + e)", "(3*nu0 - e)"),
     ),
-    Trial(
-        name="theorem-companion",
+    "theorem-companion": Trial(
         model=family_model,
         follows="@theorem-top and @theorem-cayley-klein by substitution, $T = S/C$",
         signs={r"\Lambda": "L"},
@@ -239,8 +234,7 @@ TRIALS = (
         "formula holds for $c$ of either sign and 0; $c > 0$ is the separatrix of an unstable elementary motion.",
         false=Falsehood("Both vectors are turned by the same angle", "sin(delta - kappa)", "sin(delta + kappa)"),
     ),
-    Trial(
-        name="theorem-companion-nutation",
+    "theorem-companion-nutation": Trial(
         model=double_model,
         follows="$2S' = C$, $2C' = cS$",
         defines=("nu",),
@@ -249,8 +243,7 @@ TRIALS = (
             "The nutation does not depend on the strength of the potential", "(c - A*(e - nu0)^2)*S^2", "c*S^2"
         ),
     ),
-    Trial(
-        name="theorem-companion-triple",
+    "theorem-companion-triple": Trial(
         model=triple_model,
         follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
         signs={"q": "q(nu)"},
@@ -258,8 +251,7 @@ TRIALS = (
         solves="d(nu)^2 = q(nu)",
         false=Falsehood("It reaches half as far", "4*nu0/(1 + 4", "2*nu0/(1 + 4"),
     ),
-    Trial(
-        name="theorem-axis-stable",
+    "theorem-axis-stable": Trial(
         model=axis_model,
         follows=r"@theorem-top; $p - M_3 = M_1 n_1 + M_2 n_2 - M_3 (1 - \nu)$",
         defines=("D",),
@@ -271,8 +263,7 @@ TRIALS = (
             "1/4*M3^2*(1 - nu^2)",
         ),
     ),
-    Trial(
-        name="theorem-axis-escape",
+    "theorem-axis-escape": Trial(
         model=escape_model,
         follows="@theorem-top and @theorem-cayley-klein by substitution, $p = M_3$, $T = S/C$",
         signs={r"\lvert M_3\rvert": "size"},
@@ -284,20 +275,18 @@ TRIALS = (
             r"It turns where $\nu = 1 - |M_3|/(b\sqrt{I-1})$", "size/(b*sqrt(I - 1)) - 1", "1 - size/(b*sqrt(I - 1))"
         ),
     ),
-    Trial(
-        name="theorem-axis-pushed",
+    "theorem-axis-pushed": Trial(
         model=pushed_model,
         follows="@theorem-top with $p = M_3$ and $2 H - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
         false=Falsehood(
             "The momentum along the axis keeps it from tipping at every angle alike", "M3^2*(1 + x)^2", "M3^2"
         ),
     ),
-    Trial(
-        name="theorem-axis-pendulum",
+    "theorem-axis-pendulum": Trial(
         model=pendulum_model,
         follows=r"@theorem-top by substitution, $T = \tanh(\sqrt{A} t)$",
         defines=("nu",),
         solves="d(nu)^2 = q(nu); at0(d(nu)) < 0",
         false=Falsehood("It comes back to the end from which it started", "nu = -tanh", "nu = tanh"),
     ),
-)
+}

@@ -215,17 +215,15 @@ def _and_only_there(line: str) -> str:
 
 _CONDITION = sides(read("theorem-points", SIGNS).split("; ")[-1])[1]
 
-TRIALS = (
-    Trial(
-        name="theorem-quartic",
+TRIALS = {
+    "theorem-quartic": Trial(
         model=quartic_model,
         follows="@(38) to @(41), for any state",
         defines=("Q",),
         solves="leading(Q(u)) = I - 1",
         false=Falsehood("The quartic is that of the ball for every body", "E - I*u^2", "E - u^2"),
     ),
-    Trial(
-        name="theorem-points",
+    "theorem-points": Trial(
         signs={
             r"\Omega_3=\text{const}\iff\dot\Omega_3(0)=0\ \text{and}\ \ddot\Omega_3(0)=0": "d(d2(Omega3))"
             " = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)"
@@ -239,8 +237,7 @@ TRIALS = (
         "for $I = 1$, the line of @theorem-ball-line.",
         false=Falsehood(r"$\Omega_3$ starts with the rate $\omega_1 B'_3$", "omega1*B2", "omega1*B3"),
     ),
-    Trial(
-        name="theorem-stability",
+    "theorem-stability": Trial(
         model=stability_model,
         follows="@(48) as corrected, on the hyperbola @(71)",
         note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
@@ -251,8 +248,7 @@ TRIALS = (
             "(2*tau^2 + 1)",
         ),
     ),
-    Trial(
-        name="theorem-root",
+    "theorem-root": Trial(
         defines=("nun2",),
         model=root_model,
         follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
@@ -260,14 +256,12 @@ TRIALS = (
         r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
         false=Falsehood("At an end of the band the motion leaves by $2B'_3$", "(4*B3 - v)", "(2*B3 - v)"),
     ),
-    Trial(
-        name="theorem-stable-short",
+    "theorem-stable-short": Trial(
         model=short_model,
         follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
         false=Falsehood("The bound holds from above", "> (I", "< (I"),
     ),
-    Trial(
-        name="theorem-band",
+    "theorem-band": Trial(
         model=lambda: places_model(within=True),
         follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
         signs={"x^2": "z", r"\tau^2": "t2", "y_-": "ym", "y_+": "yp", r"\tau\le\frac{1}{2\sqrt2}": "8*t2 <= 1"},
@@ -288,8 +282,7 @@ TRIALS = (
         "@theorem-band-ends.",
         false=Falsehood("Inside the band the motions are stable", "nun2 <= 0", "nun2 > 0"),
     ),
-    Trial(
-        name="theorem-band-ends",
+    "theorem-band-ends": Trial(
         model=leaving_model,
         follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
         signs={r"\nu_n=0": ""},
@@ -306,8 +299,7 @@ TRIALS = (
         r"@(42) brings $\mathbf{K}$ near as well.",
         false=Falsehood("It leaves to infinity in a finite time", "(1 + 4*(1 - I)", "(1 - 4*(1 - I)"),
     ),
-    Trial(
-        name="theorem-equatorial-stability",
+    "theorem-equatorial-stability": Trial(
         model=equatorial_model,
         signs={r"\omega_2=-B'_2:\quad\nu_n^2": "upright", r"\omega_3=0:\quad\nu_n^2": "level"},
         follows=r"@(48) as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
@@ -319,8 +311,7 @@ TRIALS = (
             "I^2*omega3^2 + (1 - I)*B2^2",
         ),
     ),
-    Trial(
-        name="theorem-ball-nutation",
+    "theorem-ball-nutation": Trial(
         model=ball_nutation_model,
         follows="@(48) as corrected, with $I = 1$",
         note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
@@ -328,61 +319,53 @@ TRIALS = (
         r"$\delta$, however small.",
         false=Falsehood("The ball nutates with its angular velocity in the laboratory", "omega + Bp", "omega"),
     ),
-    Trial(
-        name="theorem-ball-line",
+    "theorem-ball-line": Trial(
         model=lambda: turning_model("ball"),
         follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
         solves=elementary.MOTION,
         false=Falsehood(r"The proper rotation is the spin $\omega_3$", "(omega3 + B3)", "omega3"),
     ),
-    Trial(
-        name="theorem-equatorial-field",
+    "theorem-equatorial-field": Trial(
         model=lambda: turning_model("equator"),
         follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
         solves=elementary.MOTION,
         false=Falsehood("The proper rotation is counted from Larmor's frame", "omega3*t", "(omega3 + B2)*t"),
     ),
-    Trial(
-        name="theorem-quadric-lines",
+    "theorem-quadric-lines": Trial(
         model=lines_model,
         also=(read("(50)", SIGNS),),
         follows=r"@(50) by substitution, any $\omega_3$",
         false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),
     ),
-    Trial(
-        name="theorem-momentum",
+    "theorem-momentum": Trial(
         signs={r"\dot{\mathbf{m}}": "dm"},
         model=elementary.matrix_model,
         follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
         false=Falsehood("The angular momentum precesses against the axis", "k*cross(hat_B, m)", "k*cross(m, hat_B)"),
     ),
-    Trial(
-        name="theorem-moment",
+    "theorem-moment": Trial(
         signs={r"\dot{\mathbf{m}}": "dm", r"\mathbf{B}": "Bf"},
         model=torque_model,
         follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
         false=Falsehood("The equation of the magnetic moment holds for every body", " - d(R*I*T(R)*Bf)", ""),
     ),
-    Trial(
-        name="theorem-drift",
+    "theorem-drift": Trial(
         signs=PARTICLE_SIGNS | {r"\mathbf{E}": "E"},
         model=drift_model,
         follows="@(89) solved for the velocity that does not change, for either sign of the charge",
         note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
         false=Falsehood("A negative charge drifts the other way", "c*cross(E, Bf)", "mu/abs(mu)*c*cross(E, Bf)"),
     ),
-    Trial(
-        name="theorem-ball-rest",
+    "theorem-ball-rest": Trial(
         model=rest_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
         solves=ball.LINEAR,
         false=Falsehood(r"The ball turns by $+\alpha t$", "-alpha*t", "alpha*t"),
     ),
-    Trial(
-        name="theorem-angles",
+    "theorem-angles": Trial(
         signs={r"\dot\psi": "psi1", r"\dot\chi": "chi1"},
         model=angles_model,
         follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
@@ -392,12 +375,11 @@ TRIALS = (
             "chi1 = u",
         ),
     ),
-    Trial(
-        name="theorem-cayley-klein",
+    "theorem-cayley-klein": Trial(
         signs={r"\frac{\dot\xi}{\xi}": "xi", r"\frac{\dot\eta}{\eta}": "eta"},
         model=angles_model,
         follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "
         r"\chi)/2)$: moduli and arguments",
         false=Falsehood("The spin enters both arguments with the same sign", "(1 - nu) - u", "(1 - nu) + u"),
     ),
-)
+}

@@ -113,9 +113,8 @@ def border_model() -> list[Model]:
     return [Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model()]
 
 
-TRIALS = (
-    Trial(
-        name="theorem-every-top",
+TRIALS = {
+    "theorem-every-top": Trial(
         model=state_model,
         defines=("q",),
         also=("d(M3) = 0; d(p) = 0; d(h) = 0",),
@@ -123,16 +122,14 @@ TRIALS = (
         "$h$, and the rates of @theorem-angles",
         false=Falsehood("The coupling adds nothing to the linear term: $a = a_0$", "2*a*nu", "2*a0*nu"),
     ),
-    Trial(
-        name="theorem-top-precession",
+    "theorem-top-precession": Trial(
         model=precession_model,
         follows=r"@theorem-every-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, "
         r"and $q'(\nu_0)$ is then a multiple of the first",
         also=(Part(line="q(nu0) = 0; dq(nu0) = -2*(1 - nu0^2)*(nu0*w^2 - M3*w + a + A*nu0)", model=quartic_model),),
         false=Falsehood("The two rates are those of the heavy top", "a + A*nu0", "a"),
     ),
-    Trial(
-        name="theorem-top-nutation",
+    "theorem-top-nutation": Trial(
         model=precession_model,
         follows=r"@theorem-top-precession: $M_3 w = \nu_0 w^2 + a + A \nu_0$",
         elsewhere={1: marginal_model, 2: marginal_model},
@@ -140,8 +137,7 @@ TRIALS = (
         note=r"Where $a = -2 A \nu_0$ too the root is fourfold, $q = A (\nu - \nu_0)^4$, and the sign of $A$ decides.",
         false=Falsehood("The linear term makes no nutation faster or slower", "- 2*a*nu0", "- 0*a*nu0"),
     ),
-    Trial(
-        name="theorem-sleeping-top",
+    "theorem-sleeping-top": Trial(
         model=sleeping_model,
         signs={"q": "q"},
         elsewhere={1: border_model, 2: border_model},
@@ -150,8 +146,7 @@ TRIALS = (
             "The spin steadies the top as strongly at every angle", "(1 + sigma*nu)*(2*sigma*a", "2*(2*sigma*a"
         ),
     ),
-    Trial(
-        name="theorem-top-quadric",
+    "theorem-top-quadric": Trial(
         model=start_model,
         follows=r"@theorem-every-top: the rates of $\nu$ by the equations, at $t = 0$; the quadratic form is that of "
         r"@(51) with $\mathbf{n}$ in the place of $\mathbf{B}'$",
@@ -161,8 +156,7 @@ TRIALS = (
             "The kind is the sign of $A$ and of the weight alone", "D = A + kappa^2 + a0/n3", "D = A + a0/n3"
         ),
     ),
-    Trial(
-        name="theorem-top-hyperbola",
+    "theorem-top-hyperbola": Trial(
         model=turns_model,
         follows=r"the equations by substitution, at any phase of the turn about the axis",
         defines=("v", "psi1", "chi1"),
@@ -172,4 +166,4 @@ TRIALS = (
             "The paper's hyperbola is that of every top: the constant is $A$", "n3*(w^2 + n2^2*D)", "n3*(w^2 + n2^2*A)"
         ),
     ),
-)
+}

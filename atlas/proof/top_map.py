@@ -51,9 +51,8 @@ def residue_model() -> list[Model]:
     return cases
 
 
-TRIALS = (
-    Trial(
-        name="theorem-cusp",
+TRIALS = {
+    "theorem-cusp": Trial(
         signs={r"\implies": ""},
         model=cusp_model,
         follows=r"@theorem-every-top: the axis stops where $\dot\nu$ and $\dot\psi$ vanish together",
@@ -63,8 +62,7 @@ TRIALS = (
         r"$g = 2 a p/M_3$.",
         false=Falsehood("The energy of a cusp does not depend on the coupling", " - k2^2*(1 - nuc^2)", ""),
     ),
-    Trial(
-        name="theorem-focus",
+    "theorem-focus": Trial(
         model=spin_model,
         follows=r"@theorem-every-top, where $g - 2a\nu - A\nu^2 = M_1^2 + M_2^2$, the square of the axis's velocity "
         "but for the turn by $-k_2$",
@@ -74,8 +72,7 @@ TRIALS = (
         "it is a sum of squares.",
         false=Falsehood("The weight does not enter the second order", "4*(sigma*a + A)", "4*A"),
     ),
-    Trial(
-        name="theorem-residue",
+    "theorem-residue": Trial(
         model=residue_model,
         also=("root^2 = q(sigma)",),
         follows=r"@theorem-every-top, $q(\sigma) = -(p - \sigma M_3)^2$",
@@ -83,4 +80,4 @@ TRIALS = (
         "which goes to and fro, by a full turn.",
         false=Falsehood(r"Both angles have the same residue at $\nu = 1$ and at $-1$", "-sigma*res_dpsi", "res_dpsi"),
     ),
-)
+}

@@ -60,6 +60,7 @@ class Falsehood:
 class Trial:
     r"""The trial of one entry of the ledger.
 
+    name       that of the entry, the key under which its topic has it
     model      what stands before it, made when it is needed; several cases where the claim covers them all
     follows    from what the printed form is derived, in a few words
     signs      what letters and phrases of its TeX mean, where its topic does not say so; see `tex`
@@ -79,7 +80,7 @@ class Trial:
     false      a false sentence near it; a claim in words must have one, unless it is refuted itself
     """
 
-    name: str
+    name: str = ""
     model: Callable[[], Cases]
     follows: str
     signs: Mapping[str, str] = field(default_factory=dict)
