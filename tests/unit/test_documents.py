@@ -218,4 +218,4 @@ def test_the_number_leads_to_kernel_ball_entry_and_proof(name: str) -> None:
         homes = {home(floor, quantity) for found, at, quantity in CASES if (found, at) == (name, floor)}
         assert any(name in path.read_text("utf-8") for path in homes), (floor, homes)
     for floor in ("paper", "proof"):
-        assert f'name="{name}"' in (ROOT / "atlas" / floor / f"{topic(name)}.py").read_text("utf-8")
+        assert f'    "{name}": ' in (ROOT / "atlas" / floor / f"{topic(name)}.py").read_text("utf-8")
