@@ -1,34 +1,12 @@
 """Any motion of a charged body with three different moments of inertia."""
 
-from typing import Any
-
 from atlas.families.family import RATE, Command, Family, Quantity, Sampled
 from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, rotation
-
-
-def _kernels() -> Any:
-    from atlas.core.motions.asymmetric import AsymmetricMotion
-
-    return AsymmetricMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.asymmetric import AsymmetricMotion
-
-    return AsymmetricMotion
-
-
-def _proven(motion: Any) -> str:
-    """Return what is known of the digits of balls."""
-    del motion
-    return "every digit is proven"
-
 
 FAMILY = Family(
     "asymmetric",
     "any motion of a charged body of any three moments",
-    _kernels,
-    _balls,
+    "motions.asymmetric.AsymmetricMotion",
     (
         MOMENTS,
         PRINCIPAL_FIELD,
@@ -36,7 +14,7 @@ FAMILY = Family(
     ),
     (
         Quantity("kind", "name of the kind"),
-        Quantity("agreement", "of R, K, Omega", exact=_proven, tabled=False, slow=True),
+        Quantity("agreement", "of R, K, Omega", exact=lambda _: "every digit is proven", tabled=False, slow=True),
         Quantity(
             "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
             slow=True,

@@ -1,30 +1,15 @@
 """The charged ball, (20) to (30)."""
 
-from typing import Any
-
 from atlas.families.family import RATE, Command, Family, Parameter, Quantity, Sampled
 from atlas.families.shared import in_brackets, rotation
 
 MOMENT = "inertia/time"
 
 
-def _kernels() -> Any:
-    from atlas.core.motions.ball import BallMotion
-
-    return BallMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.ball import BallMotion
-
-    return BallMotion
-
-
 FAMILY = Family(
     "ball",
     "motion of a charged ball, B along e3",
-    _kernels,
-    _balls,
+    "motions.ball.BallMotion",
     (
         Parameter("inertia", "Moment of inertia I0.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
         Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c), either sign.", RATE, (0.5,), (-3.0, 3.0)),

@@ -1,28 +1,12 @@
 """The paper's family for a body with any three moments of inertia, theorem-elliptic."""
 
-from typing import Any
-
 from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
 from atlas.families.shared import MOMENTS, PRINCIPAL_FIELD, in_brackets, rotation
-
-
-def _kernels() -> Any:
-    from atlas.core.motions.elliptic import EllipticMotion
-
-    return EllipticMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.elliptic import EllipticMotion
-
-    return EllipticMotion
-
 
 FAMILY = Family(
     "elliptic",
     "elliptic motion of a charged body of any three moments",
-    _kernels,
-    _balls,
+    "motions.elliptic.EllipticMotion",
     (
         MOMENTS,
         PRINCIPAL_FIELD,

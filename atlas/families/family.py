@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from importlib import import_module
 from operator import attrgetter
 from typing import Any
 
@@ -153,15 +154,14 @@ class Command:
 class Family:
     """A family: parameters in the order that both classes take them in, quantities, and what it has at a time.
 
-    `kernels` and `balls` import and return the class of `atlas.core` and that of `atlas.exact`. `promises` holds the
-    largest errors, in ulps, by the names of a stress run: of quantities and of what else is checked. Tables make so
-    many motions `at_once`. `figures` are recipes that draw one, from parameters by the same names.
+    `source` is where both `atlas.core` and `atlas.exact` have its class. `promises` holds the largest errors, in ulps,
+    by the names of a stress run: of quantities and of what else is checked. Tables make so many motions `at_once`.
+    `figures` are recipes that draw one, from parameters by the same names.
     """
 
     name: str
     says: str
-    kernels: Callable[[], Any]
-    balls: Callable[[], Any]
+    source: str
     parameters: tuple[Parameter, ...]
     quantities: tuple[Quantity, ...]
     sampled: tuple[Sampled, ...] = ()
@@ -169,3 +169,15 @@ class Family:
     command: Command | None = None
     at_once: int = 50_000
     figures: tuple[str, ...] = ()
+
+    def kernels(self) -> Any:
+        """Import and return the class of `atlas.core`."""
+        return self._class("core")
+
+    def balls(self) -> Any:
+        """Import and return the class of `atlas.exact`."""
+        return self._class("exact")
+
+    def _class(self, floor: str) -> Any:
+        module, _, name = self.source.rpartition(".")
+        return getattr(import_module(f"atlas.{floor}.{module}"), name)

@@ -1,28 +1,12 @@
 """The free symmetric body beside the charged one, (87)."""
 
-from typing import Any
-
 from atlas.families.family import RATE, TIME, Family, Quantity, Sampled
 from atlas.families.shared import OMEGA, RATIO, rotation
-
-
-def _kernels() -> Any:
-    from atlas.core.motions.elementary import FreeMotion
-
-    return FreeMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.elementary import FreeMotion
-
-    return FreeMotion
-
 
 FAMILY = Family(
     "free",
     "motion of a free symmetric body",
-    _kernels,
-    _balls,
+    "motions.elementary.FreeMotion",
     (RATIO, OMEGA),
     (
         Quantity("k", "frequency of precession about m", RATE, "(87)", checked="free k", certified=True),

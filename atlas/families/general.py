@@ -1,21 +1,7 @@
 """The motion of a charged symmetric body from any initial angular velocity, in elliptic functions."""
 
-from typing import Any
-
-from atlas.families.family import RATE, TIME, Command, Family, Quantity, Sampled
-from atlas.families.shared import FIELD, OMEGA, RATIO, integrals, rates, rotation
-
-
-def _kernels() -> Any:
-    from atlas.core.motions.general import GeneralMotion
-
-    return GeneralMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.general import GeneralMotion
-
-    return GeneralMotion
+from atlas.families.family import RATE, Command, Family, Quantity, Sampled
+from atlas.families.shared import ELLIPTIC, FIELD, OMEGA, RATIO, integrals, nutation, rotation
 
 
 def _complex(x: str, y: str) -> str:
@@ -25,8 +11,7 @@ def _complex(x: str, y: str) -> str:
 FAMILY = Family(
     "general",
     "any motion of a charged symmetric body",
-    _kernels,
-    _balls,
+    "motions.general.GeneralMotion",
     (RATIO, FIELD, OMEGA),
     (
         Quantity("kind", "name of the kind"),
@@ -39,14 +24,8 @@ FAMILY = Family(
             get=lambda motion: [[z.real, z.imag] for z in motion.roots if abs(float(z.real)) != float("inf")],
             text=lambda roots: ", ".join(_complex(*z) for z in roots) or "none",
         ),
-        Quantity("period", "period of nutation", TIME, certified=True),
-        Quantity("precession_per_period", "turn about B in one period", "rad", missing="no period", certified=True),
-        Quantity(
-            "spin_per_period", "turn about the body's axis in one period", "rad", missing="no period", certified=True
-        ),
-        *rates("B"),
-        Quantity("modulus", "of the elliptic functions", missing="triple root", certified=True),
-        Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
+        *nutation("B"),
+        *ELLIPTIC,
         *integrals("M"),
     ),
     (

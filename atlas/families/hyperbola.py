@@ -1,28 +1,12 @@
 """The hyperbola of elementary motions, (67) to (72)."""
 
-from typing import Any
-
 from atlas.families.family import RATE, Family, Quantity
 from atlas.families.shared import FIELD, RATIO
-
-
-def _kernels() -> Any:
-    from atlas.core.surfaces.hyperbola import Hyperbola
-
-    return Hyperbola
-
-
-def _balls() -> Any:
-    from atlas.exact.surfaces.hyperbola import Hyperbola
-
-    return Hyperbola
-
 
 FAMILY = Family(
     "hyperbola",
     "curve of elementary motions of a body in a field",
-    _kernels,
-    _balls,
+    "surfaces.hyperbola.Hyperbola",
     (RATIO, FIELD),
     (
         Quantity("pole", "pole of omega3(omega2)", RATE, "(71)", symbol="-B2", tabled=False),

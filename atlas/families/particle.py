@@ -1,23 +1,9 @@
 """A charged point particle in constant E and B, (89) to (99)."""
 
-from typing import Any
-
 from atlas.families.family import RATE, Command, Family, Parameter, Quantity, Sampled
 from atlas.families.shared import in_brackets
 
 SPEED = "length/time"
-
-
-def _kernels() -> Any:
-    from atlas.core.motions.particle import ParticleMotion
-
-    return ParticleMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.particle import ParticleMotion
-
-    return ParticleMotion
 
 
 def _vector(name: str, letter: str, unit: str, default: tuple[float, float, float], says: str) -> Parameter:
@@ -30,8 +16,7 @@ def _vector(name: str, letter: str, unit: str, default: tuple[float, float, floa
 FAMILY = Family(
     "particle",
     "motion of a point charge in constant fields",
-    _kernels,
-    _balls,
+    "motions.particle.ParticleMotion",
     (
         Parameter("mu", "Charge-to-mass ratio, either sign.", "charge/mass", (1.0,), (-3.0, 3.0)),
         _vector("electric", "E", "electric field", (0.2, 0.5, 0.0), "Electric field E; zero when left out."),

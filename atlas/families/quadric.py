@@ -1,28 +1,12 @@
 """The quadric of initial data with constant Omega3, (51) to (57)."""
 
-from typing import Any
-
 from atlas.families.family import RATE, Command, Family, Quantity
 from atlas.families.shared import FIELD, RATIO, in_brackets
-
-
-def _kernels() -> Any:
-    from atlas.core.surfaces.quadric import Quadric
-
-    return Quadric
-
-
-def _balls() -> Any:
-    from atlas.exact.surfaces.quadric import Quadric
-
-    return Quadric
-
 
 FAMILY = Family(
     "quadric",
     "surface of initial data with constant Omega3",
-    _kernels,
-    _balls,
+    "surfaces.quadric.Quadric",
     (RATIO, FIELD),
     (
         Quantity("kind", "name of the surface"),

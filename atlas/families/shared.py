@@ -3,7 +3,7 @@
 from functools import partial
 from typing import Any
 
-from atlas.families.family import RATE, Parameter, Quantity, Sampled
+from atlas.families.family import RATE, TIME, Parameter, Quantity, Sampled
 
 RATIO = Parameter("ratio", "I = I3/I2, in (0, 2].", "", (1.5,), (0.05, 2.0), option=False)
 FIELD = Parameter(
@@ -50,18 +50,31 @@ def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
     )  # fmt: skip
 
 
-def rates(axis: str) -> tuple[Quantity, ...]:
-    """Return the mean rates of a motion that nutates."""
-    return tuple(
-        Quantity(
-            f"{name}_rate", says, RATE, exact=partial(_mean, f"{name}_per_period"), missing="no period", certified=True
-        )
-        for name, says in (("precession", f"mean, about {axis}"), ("spin", "mean, about the body's axis"))
-    )
+def nutation(axis: str) -> tuple[Quantity, ...]:
+    """Return the period of a motion that nutates, its turns in one and its mean rates."""
+    turns = (("precession", axis), ("spin", "the body's axis"))
+    return (
+        Quantity("period", "period of nutation", TIME, certified=True),
+        *(
+            Quantity(f"{name}_per_period", f"turn about {what} in one period", "rad", missing="no period",
+                     certified=True)
+            for name, what in turns
+        ),
+        *(
+            Quantity(f"{name}_rate", f"mean, about {what}", RATE, exact=partial(_mean, f"{name}_per_period"),
+                     missing="no period", certified=True)
+            for name, what in turns
+        ),
+    )  # fmt: skip
 
 
 def _mean(name: str, motion: Any) -> Any:
     return getattr(motion, name) / motion.period
+
+
+ELLIPTIC = tuple(
+    Quantity(name, "of the elliptic functions", missing="triple root", certified=True) for name in ("modulus", "nome")
+)
 
 
 def in_brackets(parts: Any) -> str:

@@ -2,20 +2,8 @@
 
 from typing import Any
 
-from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
-from atlas.families.shared import OMEGA, rates, rotation
-
-
-def _kernels() -> Any:
-    from atlas.core.motions.top import TopMotion
-
-    return TopMotion
-
-
-def _balls() -> Any:
-    from atlas.exact.motions.top import TopMotion
-
-    return TopMotion
+from atlas.families.family import RATE, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.shared import ELLIPTIC, OMEGA, nutation, rotation
 
 
 def _rates(motion: Any) -> Any:
@@ -31,8 +19,7 @@ def _stability(motion: Any) -> str:
 FAMILY = Family(
     "top",
     "any motion of a symmetric top in a uniform field",
-    _kernels,
-    _balls,
+    "motions.top.TopMotion",
     (
         Parameter(
             "inertia", "Moments of inertia across and along the axis.", "inertia", (1.0, 0.5), (0.05, 2.0),
@@ -62,12 +49,7 @@ FAMILY = Family(
             "turning_points", "least and largest", symbol="nu", columns=("least", "largest"), text=" ... ".join,
             certified=True,
         ),
-        Quantity("period", "period of nutation", TIME, certified=True),
-        Quantity("precession_per_period", "turn about n in one period", "rad", missing="no period", certified=True),
-        Quantity(
-            "spin_per_period", "turn about the body's axis in one period", "rad", missing="no period", certified=True
-        ),
-        *rates("n"),
+        *nutation("n"),
         Quantity(
             "steady_precessions", "rates of steady precession at this inclination and omega3", RATE,
             "theorem-top-precession", get=_rates, exact=_rates, tabled=False,
@@ -77,8 +59,7 @@ FAMILY = Family(
             "stable", "this steady motion against nutation", "", "theorem-top-nutation", get=_stability,
             exact=_stability, tabled=False,
         ),
-        Quantity("modulus", "of the elliptic functions", missing="triple root", certified=True),
-        Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
+        *ELLIPTIC,
     ),
     (
         *rotation("", "top R"),

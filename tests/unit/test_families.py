@@ -45,7 +45,9 @@ def plain(name: str, value: Any) -> bool:
     """Whether a field is set, and to something that is no prose and no function."""
     parts = [*value, *value.values()] if isinstance(value, Mapping) else value if isinstance(value, tuple) else [value]
     return (
-        name not in {"says", "cases"} and bool(value) and all(isinstance(x, str | float | int | tuple) for x in parts)
+        name not in {"says", "cases", "source"}
+        and bool(value)
+        and all(isinstance(x, str | float | int | tuple) for x in parts)
     )
 
 
