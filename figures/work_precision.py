@@ -57,6 +57,6 @@ def drawn(runs: list[benchmark.Run]) -> Iterator[Layer]:
     for method, group in benchmark.by_method(runs).items():
         points = benchmark.pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
         if group[0].tolerance is None:
-            yield Points(points, benchmark.LINES.get(method, "eighth"), benchmark.title(method))
+            yield Points(points, benchmark.role(method), benchmark.title(method))
         else:
             yield from benchmark.line(points, method)

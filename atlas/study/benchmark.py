@@ -18,29 +18,35 @@ FORMAT = 2
 Status: TypeAlias = Literal["done", "failed", "timed out", "skipped"]
 Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
 
-TITLES = {
-    "ours": "atlas",
-    "ours_grid": "atlas, grid",
-    "alone": "atlas, one by one",
-    "plain": "plain NumPy",
-    "lambdify": "sympy lambdify",
-    "compiled": "compiled C",
-    "rotation": "SciPy Rotation",
-    "ours_out": "atlas, out=",
-    "ours_out_far": "atlas, out=, far",
-    "grid": "atlas, grid",
-    "grid_out": "atlas, grid, out=",
-    "even_out": "atlas, times of the grid, out=",
-    "heyoka_own": "heyoka, its own tolerance",
-    "heyoka_7": "heyoka, with a quaternion",
-    "DOP853_7": "DOP853, with a quaternion",
-    "heyoka_long": "heyoka, long double",
-    "third_axis": "atlas, third axis alone",
-    "omega": "atlas, Omega alone",
-    "plain_out": "plain NumPy, out=",
-    "plain_out_far": "plain NumPy, out=, far",
-    "fill": "filling the memory",
+METHODS = {
+    "ours": ("atlas", "main"),
+    "ours_grid": ("atlas, grid", "seventh"),
+    "alone": ("atlas, one by one", "eighth"),
+    "plain": ("plain NumPy", "second"),
+    "lambdify": ("sympy lambdify", "third"),
+    "compiled": ("compiled C", "limit"),
+    "rotation": ("SciPy Rotation", "sixth"),
+    "ours_out": ("atlas, out=", "main"),
+    "ours_out_far": ("atlas, out=, far", "eighth"),
+    "grid": ("atlas, grid", "eighth"),
+    "grid_out": ("atlas, grid, out=", "seventh"),
+    "even_out": ("atlas, times of the grid, out=", "eighth"),
+    "heyoka_own": ("heyoka, its own tolerance", "fourth"),
+    "heyoka_7": ("heyoka, with a quaternion", "fourth"),
+    "DOP853_7": ("DOP853, with a quaternion", "fifth"),
+    "heyoka_long": ("heyoka, long double", "fourth"),
+    "third_axis": ("atlas, third axis alone", "eighth"),
+    "omega": ("atlas, Omega alone", "eighth"),
+    "plain_out": ("plain NumPy, out=", "second"),
+    "plain_out_far": ("plain NumPy, out=, far", "eighth"),
+    "fill": ("filling the memory", "limit"),
+    "RK45": ("RK45", "pole"),
+    "DOP853": ("DOP853", "fifth"),
+    "LSODA": ("LSODA", "eighth"),
+    "Radau": ("Radau", "reference"),
+    "heyoka": ("heyoka", "fourth"),
 }
+"""What a method is called, and the role of its line in a figure."""
 
 CASES = {
     "elementary": "elementary motion",
@@ -52,28 +58,6 @@ CASES = {
     "elliptic": "elliptic motion",
 }
 
-LINES = {
-    "ours": "main",
-    "ours_out": "main",
-    "ours_grid": "seventh",
-    "grid_out": "seventh",
-    "plain": "second",
-    "plain_out": "second",
-    "lambdify": "third",
-    "compiled": "limit",
-    "rotation": "sixth",
-    "RK45": "pole",
-    "DOP853": "fifth",
-    "LSODA": "eighth",
-    "Radau": "reference",
-    "heyoka": "fourth",
-    "heyoka_own": "fourth",
-    "heyoka_7": "fourth",
-    "DOP853_7": "fifth",
-    "heyoka_long": "fourth",
-    "fill": "limit",
-}
-
 BESIDE = ("heyoka_own", "heyoka_7", "DOP853_7")
 """Variants of an integrator that tables give, and no figure: they lie next to its line."""
 
@@ -82,7 +66,12 @@ OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "ev
 
 def title(method: str) -> str:
     """Return the name of a method in words; one that is not known keeps its own."""
-    return TITLES.get(method, method)
+    return METHODS[method][0] if method in METHODS else method
+
+
+def role(method: str) -> str:
+    """Return the role of a method's line."""
+    return METHODS[method][1] if method in METHODS else "eighth"
 
 
 def case_title(case: str) -> str:
@@ -202,8 +191,7 @@ def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]
 
 def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
     """Return the line of a method with a dot where it was measured."""
-    role = LINES.get(method, "eighth")
-    return Curve(points, role, title(method)), Points(points, "sample")
+    return Curve(points, role(method), title(method)), Points(points, "sample")
 
 
 def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> tuple[float, float]:

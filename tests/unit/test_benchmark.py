@@ -10,7 +10,7 @@ from atlas.scene import recipes
 from atlas.scene.captions import tex
 from atlas.scene.layers import Curve, Plane, Points, Scene
 from atlas.study import benchmark as results
-from atlas.study.benchmark import BESIDE, LINES, OURS, title
+from atlas.study.benchmark import BESIDE, METHODS, OURS, title
 
 NAMES = ("work_precision", "horizon", "cost")
 
@@ -98,5 +98,5 @@ def test_the_best_run_at_each_horizon_is_drawn() -> None:
 def test_every_method_of_the_record_has_a_name_and_a_look() -> None:
     """No method of the record is drawn by default alone."""
     for run in results.read().runs:
-        assert run.method in LINES
+        assert run.method in METHODS
         assert run.tolerance or title(run.method) != run.method
