@@ -2,7 +2,7 @@
 
 import textwrap
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -13,6 +13,8 @@ from atlas.errors import AtlasError
 
 if TYPE_CHECKING:
     from atlas.scene.recipes import Recipe
+
+T = TypeVar("T")
 
 WIDTH = 90
 """Letters in a line of parameters."""
@@ -36,9 +38,10 @@ def command(which: str | None, as_json: bool) -> int:
     from atlas.report import toml
     from atlas.scene import recipes
 
-    figures, broken = titles(recipes.names(), recipes.title)
-    reports, also = titles(toml.names(), report_title)
-    known = {name: recipe for name in figures if (recipe := _loaded(name, broken))}
+    broken = list[str]()
+    figures = {name: title for name in recipes.names() if (title := _read(recipes.title, name, broken)) is not None}
+    known = {name: recipe for name in figures if (recipe := _read(recipes.load, name, broken))}
+    reports = {name: title for name in toml.names() if (title := _read(report_title, name, broken)) is not None}
     record: dict[str, Any] = {
         "figures": figures,
         "parameters": {name: parameters(recipe) for name, recipe in known.items()},
@@ -53,9 +56,9 @@ def command(which: str | None, as_json: bool) -> int:
         dump(record)
     else:
         lay_out(record)
-    for reason in broken + also:
+    for reason in broken:
         click.echo(f"atlas: {reason}", err=True)
-    return 1 if broken or also else 0
+    return 1 if broken else 0
 
 
 def lay_out(record: dict[str, Any]) -> None:
@@ -98,26 +101,13 @@ def _lines(words: list[str]) -> list[str]:
     return textwrap.wrap("  ".join(words), WIDTH, break_on_hyphens=False, break_long_words=False)
 
 
-def _loaded(name: str, broken: list[str]) -> "Recipe | None":
-    """Read what a recipe takes; where that fails, note why."""
-    from atlas.scene import recipes
-
+def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
+    """Read what has a name; where that fails, note why."""
     try:
-        return recipes.load(name)
+        return read(name)
     except AtlasError as error:
         broken.append(str(error))
         return None
-
-
-def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str], list[str]]:
-    """Return the titles by name, and in a sentence each why the others have none."""
-    titles, broken = {}, []
-    for name in names:
-        try:
-            titles[name] = title(name)
-        except AtlasError as error:
-            broken.append(str(error))
-    return titles, broken
 
 
 def report_title(name: str) -> str:
