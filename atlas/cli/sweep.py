@@ -4,14 +4,15 @@ import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 import click
+import msgspec
 
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
 from atlas.cli.measured import split
-from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, pair, stack
+from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, given, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.families import FAMILIES
@@ -32,6 +33,9 @@ OUT.new.csv, and then the exit status is 2.
 
 MOST = 10**7
 """Values of one parameter that a range may have."""
+
+OF_BODY = {*body.BODY, *body.SIZES}
+"""Options of a body that say nothing of a field."""
 
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
@@ -110,27 +114,28 @@ def swept(
                 "--set I1=0.8 and so on, or motion, which finds it."
             )
         parameters = fixed | {name.strip(): _values(family, name.strip(), values) for name, values in pairs}
-        wanted = Wanted(family, quantities, parameters, listing, out, digits, rows)
     elif family or settings or listing or quantities or digits or rows or body.body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")
     else:
-        wanted = read(toml)
-        wanted = wanted._replace(out=out or wanted.out)
+        recipe = read(toml)
+        family, quantities, digits, rows = recipe.family, (*recipe.quantities,), recipe.digits, recipe.rows
+        listing, out = Path(recipe.listing) if recipe.listing else None, out or recipe.out
+        parameters = {name: _values(family, name, value) for name, value in recipe.parameters.items()}
     typed = [x.strip() for text in settings for x in re.split("[,:]", text.partition("=")[2])]
-    columns, units = _listed(wanted.family, wanted.listing) if wanted.listing else ({}, set())
+    columns, units = _listed(family, listing) if listing else ({}, set())
     in_seconds = any(map(split, typed)) or bool(units)
-    _once([*columns, *wanted.parameters], f"{wanted.listing} and elsewhere")
-    if wanted.out is None:
+    _once([*columns, *parameters], f"{listing} and elsewhere")
+    if out is None:
         raise click.UsageError("--out is missing: name the file that the table goes to.")
     with bar("sweep", every=60) as tell:
         path = sweep(
-            wanted.family,
-            columns | wanted.parameters,
-            wanted.quantities,
-            wanted.out,
-            listed=wanted.listing is not None,
-            digits=wanted.digits,
-            rows=wanted.rows,
+            family,
+            columns | parameters,
+            quantities,
+            out,
+            listed=listing is not None,
+            digits=digits,
+            rows=rows,
             jobs=jobs,
             progress=lambda done, total: tell(done, total, ""),
             time="s" if in_seconds else body.units_of(options).get("time", "time"),
@@ -174,16 +179,17 @@ def command(**options: Any) -> None:
     swept(**options)
 
 
-class Wanted(NamedTuple):
-    """A sweep as the command line or a file says it, its parameters as numbers."""
+class Recipe(msgspec.Struct, forbid_unknown_fields=True):
+    """A sweep as it stands in a TOML file."""
 
     family: str
-    quantities: Sequence[str]
-    parameters: dict[str, Any]
-    listing: Path | None
-    out: str | None
-    digits: int | None
-    rows: int | None
+    quantities: list[str]
+    parameters: dict[str, float | int | str | list[float | int]] = {}
+    # not called list itself, which from Python 3.14 on would be what the annotations above mean
+    listing: str | None = msgspec.field(default=None, name="list")
+    out: str | None = None
+    digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None
+    rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
 
 
 def _meant(family: str, names: set[str]) -> str:
@@ -196,61 +202,31 @@ def _meant(family: str, names: set[str]) -> str:
 
 
 def _body(options: dict[str, Any]) -> dict[str, float]:
-    """Return what the options of body, field and start say, by the names of a table."""
-    if "tensor" in options:
-        return _of_three_moments(options)
-    parameters, motion = body.body_parameters(options), None
-    if any(options[name] is not None for name in body.BODY):
-        motion = body.chosen_body(options)
-    ratio = getattr(motion, "ratio", motion)
-    B = (
-        dict(zip(("B2", "B3"), body.chosen_field(options), strict=True))
-        if set(parameters) - {*body.BODY, *body.SIZES}
-        else {}
-    )
-    start, second = body.start_of(options, needed=False), options["omega2"]
-    omega = {} if start is None else dict(zip(("omega1", "omega2", "omega3"), map(float, start), strict=True))
-    omega |= {} if second is None else {"omega2": float(second)}
-    return ({} if ratio is None else {"ratio": float(ratio)}) | B | omega
-
-
-def _of_three_moments(options: dict[str, Any]) -> dict[str, float]:
-    """Return moments, field and start of a body with three moments; of a tensor along its principal axes."""
-    if body.given_tensor(options) is not None:
+    """Return what the options of body, field and start say, by the names of a table; a tensor along principal axes."""
+    three, found = "tensor" in options, dict[str, float]()
+    if three and body.given_tensor(options) is not None:
         principal = in_principal_axes(motion_in_given_axes(options))
         click.echo(f"The axes are principal ones: {principal.axes} in those of the body that were given.", err=True)
         names = {p.name: p.names for p in principal.family.parameters}
-        return {
-            name_of: x
-            for name, values in principal.values.items()
-            for name_of, x in zip(names[name], values, strict=True)
-        }
-    moments: dict[str, float] = {}
-    if any(options[name] is not None for name in body.BODY):
-        moments |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
-    if options["field"] is not None or options["magnetic"] is not None:
-        moments |= zip(("B1", "B2", "B3"), body.chosen_field(options), strict=True)
-    if options["omega"] is not None or options["spin"] is not None:
-        moments |= zip(("omega1", "omega2", "omega3"), map(float, body.start_of(options)), strict=True)
-    return moments
+        parts = ((names[name], values) for name, values in principal.values.items())
+        return {name: x for several, values in parts for name, x in zip(several, values, strict=True)}
+    if given(options, body.BODY):
+        if three:
+            found |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
+        else:
+            chosen = body.chosen_body(options)
+            found["ratio"] = float(getattr(chosen, "ratio", chosen))
+    of_field = given(options, ("field", "magnetic")) if three else body.body_parameters(options).keys() - OF_BODY
+    if of_field:
+        found |= zip(("B1", "B2", "B3")[not three :], body.chosen_field(options), strict=True)
+    start = body.start_of(options, needed=False)
+    if start is not None:
+        found |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)
+    return found | {name: float(x) for name, x in given(options, ["omega2"]).items()}
 
 
-def read(path: Path) -> Wanted:
+def read(path: Path) -> Recipe:
     """Return the sweep in a TOML file; click.UsageError says what is wrong with it."""
-    import msgspec
-
-    class Recipe(msgspec.Struct, forbid_unknown_fields=True):
-        """A sweep as it stands in a TOML file."""
-
-        family: str
-        quantities: list[str]
-        parameters: dict[str, float | int | str | list[float | int]] = {}
-        # not called list itself, which from Python 3.14 on would be what the annotations above mean
-        listing: str | None = msgspec.field(default=None, name="list")
-        out: str | None = None
-        digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None
-        rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
-
     try:
         recipe = msgspec.toml.decode(path.read_bytes(), type=Recipe)
     except OSError as error:
@@ -265,15 +241,9 @@ def read(path: Path) -> Wanted:
             raise click.UsageError(f"{path}: {name!r} is no name of a file.")
         return name if "://" in name else str(path.parent / name) + "/" * name.endswith("/")
 
-    return Wanted(
-        recipe.family,
-        recipe.quantities,
-        {name: _values(recipe.family, name, value) for name, value in recipe.parameters.items()},
-        None if recipe.listing is None else Path(beside(recipe.listing)),
-        None if recipe.out is None else OUT.convert(beside(recipe.out), None, None),
-        recipe.digits,
-        recipe.rows,
-    )
+    recipe.listing = None if recipe.listing is None else beside(recipe.listing)
+    recipe.out = None if recipe.out is None else OUT.convert(beside(recipe.out), None, None)
+    return recipe
 
 
 def _once(names: Sequence[str], where: str) -> None:
