@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from atlas.cli.measured import RATE, WANTED
-from atlas.cli.options import FILE, REAL, Inclined, Measured, Typed, exactly, stack
+from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.errors import nearest
 
@@ -130,7 +130,7 @@ spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
     names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
-    parameters: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
+    parameters = given(options, names)
     parameters |= {"points": str(options["points"])} if "points" in parameters else {}
     return parameters | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
 
@@ -149,7 +149,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
     """
     one_of(options, "body", (*BODY, "tensor"))
-    sizes = {name: options[name] for name in SIZES if options[name] is not None}
+    sizes = given(options, SIZES)
     if sizes and options["shape"] is None:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
     if options["ratio"] is not None:
@@ -157,7 +157,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     if options["shape"] is not None:
         return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options))
     if options["points"] is not None:
-        return points(options["points"]).body
+        return points(options["points"])
     from atlas.core.bodies.body import SymmetricBody
 
     return SymmetricBody(*options["inertia"])
@@ -216,12 +216,12 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
 
 def one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> str:
     """Return which of some options says what it is. Raises click.UsageError unless it is one."""
-    options_typed = [name for name in names if options.get(name) is not None]
-    if len(options_typed) != 1:
-        known = [f"--{name}" for name in names if name in options]
-        typed = " and ".join(f"--{name}" for name in options_typed) or "none"
-        raise click.UsageError(f"the {what} is one of {', '.join(known)}; found {typed}.")
-    return options_typed[0]
+    typed = list(given(options, names))
+    if len(typed) != 1:
+        known = ", ".join(f"--{name}" for name in names if name in options)
+        found = " and ".join(f"--{name}" for name in typed) or "none"
+        raise click.UsageError(f"the {what} is one of {known}; found {found}.")
+    return typed[0]
 
 
 def exact_moments(options: dict[str, Any]) -> Any:
@@ -242,14 +242,12 @@ def exact_body(options: dict[str, Any]) -> Any:
     if options["points"] is not None and options["decimal"]:
         raise click.UsageError("--decimal goes with --ratio, --inertia or --shape, not with --points.")
     if options["shape"] is not None:
-        sizes = {name: options[name] for name in ("mass", *SIZES) if options.get(name) is not None}
-        sizes = {name: exactly(size, options) for name, size in sizes.items()}
-        sizes |= {"mass": mass_of(options)} if options.get("density") is not None else {}
-        return Moments(*shape_moments(options["shape"].replace("-", "_"), **({"mass": 1} | sizes)))
-    if options["decimal"]:
-        typed = options["ratio"] if options["inertia"] is None else options["inertia"]
-        return exactly(typed, options) if options["inertia"] is None else Moments(*exactly(typed, options))
-    return body
+        sizes = {name: exactly(size, options) for name, size in given(options, SIZES).items()}
+        mass = 1 if mass_of(options) is None else exactly(mass_of(options), options)
+        return Moments(*shape_moments(options["shape"].replace("-", "_"), mass=mass, **sizes))
+    if options["inertia"] is not None:
+        return Moments(*exactly(options["inertia"], options))
+    return exactly(body, options)
 
 
 def mass_of(options: Mapping[str, Any]) -> Any:
@@ -266,10 +264,10 @@ def mass_of(options: Mapping[str, Any]) -> Any:
     return options["density"] * volume[shape]
 
 
-def measured(options: Mapping[str, Any]) -> list[tuple[str, Measured]]:
+def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
     """Return the numbers that were typed with a unit, each with the name of its option."""
     values = ((name, value if isinstance(value, tuple) else (value,)) for name, value in options.items())
-    return [(name, x) for name, several in values for x in several if isinstance(x, Measured)]
+    return [(name, x) for name, several in values for x in several if isinstance(x, Typed) and x.unit]
 
 
 def system_of(options: Mapping[str, Any]) -> str:
@@ -282,7 +280,7 @@ def system_of(options: Mapping[str, Any]) -> str:
     return options["units"] or ("si" if charged or typed else "natural")
 
 
-def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Measured]]:
+def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
     """Return the numbers with a unit, which is in SI. Raises click.UsageError for one beside another system."""
     typed = measured(options)
     if typed and options["units"] not in {None, "si"}:
@@ -301,6 +299,22 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
 
     Raises click.UsageError where none of them or several are given.
     """
+    from atlas.core.bodies.units import charge_to_mass
+
+    return charge_to_mass(*_charge_and_mass(options, needs))
+
+
+def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> Any:
+    """Return the ratio of `charge_to_mass_of` for the certified floor: what was typed, nothing rounded."""
+    from atlas.exact.inputs import rational
+
+    charge_to_mass_of(options, needs)  # says what is wrong with it
+    charge, mass = exactly(_charge_and_mass(options, needs), options)
+    return rational(charge, "the charge") / rational(mass, "the mass")
+
+
+def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float, float]:
+    """Return a charge and a mass as they were typed; the charge-to-mass ratio and 1 where that is given."""
     mass = mass_of(options)
     both = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
     if options.get("points") is not None:
@@ -308,30 +322,15 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
             raise click.UsageError(
                 f"--points holds masses and charges: {(both or ['--mu'])[0]} has no place beside it."
             )
-        return ratio_of_points(options["points"])
+        return ratio_of_points(options["points"]), 1.0
     if options["mu"] is not None:
         if both:
             raise click.UsageError(f"--mu is the charge-to-mass ratio: {both[0]} has no place beside it.")
-        return float(options["mu"])
-    if len(both) != 2:
-        missing = "--mass and --charge, or --mu" if not both else "--mass" if both == ["--charge"] else "--charge"
+        return options["mu"], 1.0
+    if mass is None or options["charge"] is None:
+        missing = "--mass and --charge, or --mu" if not both else "--mass" if mass is None else "--charge"
         raise click.UsageError(f"{needs} needs {missing}, for the charge-to-mass ratio.")
-    from atlas.core.bodies.units import charge_to_mass
-
-    return charge_to_mass(options["charge"], mass)
-
-
-def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> Any:
-    """Return the ratio of `charge_to_mass_of` for the certified floor: what was typed, nothing rounded."""
-    from atlas.exact.inputs import rational
-
-    mu = charge_to_mass_of(options, needs)
-    if options.get("points") is not None:
-        return rational(mu, "mu")
-    if options["mu"] is not None:
-        return rational(exactly(options["mu"], options), "mu")
-    charge, mass = exactly([options["charge"], mass_of(options)], options)
-    return rational(charge, "the charge") / rational(mass, "the mass")
+    return options["charge"], mass
 
 
 def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:

@@ -1,6 +1,6 @@
 """``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at given times."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cache
@@ -17,6 +17,7 @@ from atlas.cli.options import (
     chosen_times,
     exactly,
     examples,
+    given,
     output_options,
     stack,
     times_options,
@@ -57,8 +58,12 @@ OTHERWISE = {
 CHARGE = ("mass", "charge")
 """Options that may stand for the charge-to-mass ratio of a point charge."""
 
-OF_BODY = ("inertia", "field")
-"""Parameters for which bodies with three moments have options of their own."""
+OF_BODY: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
+    "ratio": (body.chosen_body, body.exact_body),
+    "inertia": (body.chosen_moments, body.exact_moments),
+    "field": (body.chosen_field, body.exact_field),
+}
+"""What kernels and balls take of body and field, from options of their own."""
 
 OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
 THIRD = dict.fromkeys(("free", "elementary", "general"), ", the last that of symmetry")
@@ -196,7 +201,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
             return
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
-            show(_printout(family, described, texts, options, certificate(options)))
+            show(_printout(family, described, texts, options, certificate(options), _in_hertz(family, texts, options)))
             _show_lines(family, options)
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
@@ -276,25 +281,23 @@ def _with_sigma(
         dump({"parameters": parameters, **spread_of_answers.record()})
     else:
         texts = spread_of_answers.texts()
-        printout = _printout(family, described, texts, options, "")
         rates = spread_of_answers.rates([q.name for q in family.quantities if q.unit == RATE] + ["larmor"])
         hertz = [Line(f"{name}/2 pi", "in turns a second", text, "Hz") for name, text in rates.items()]
-        known = [line for line in printout.lines if not line.symbol.endswith("/2 pi") and line.symbol != "larmor"]
         larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
-        lines = [*known, *larmor, *(hertz if body.units_of(options) else [])]
-        show(replace(printout, lines=lines, notes=[*filter(None, printout.notes), *spread_of_answers.notes]))
+        beside = [*larmor, *(hertz if body.units_of(options) else [])]
+        printout = _printout(family, described, texts, options, "", beside)
+        show(replace(printout, notes=[*filter(None, printout.notes), *spread_of_answers.notes]))
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     """Return the parameters as they were given."""
     names = [p.name for p in family.parameters]
+    if family.name == "top" and given_otherwise(options):
+        return parameters_of_top(names, options)
     parameters = body.body_parameters(options) if in_field(family) else {}
-    parameters |= {p.name: options[p.name] for p in family.parameters if p.option and options[p.name] is not None}
-    parameters |= {"spin": options["spin"]} if options.get("spin") is not None else {}
-    parameters = parameters_of_top(names, options) if family.name == "top" and given_otherwise(options) else parameters
+    parameters |= given(options, [*(p.name for p in family.parameters if p.option), "spin"])
     if "c" in names:
-        parameters |= {name: options[name] for name in CHARGE if options[name] is not None}
-        parameters["units"] = body.system_of(options)
+        parameters |= given(options, CHARGE) | {"units": body.system_of(options)}
     return parameters
 
 
@@ -374,7 +377,7 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
-        printout = _printout(family, described, texts, options, IN_DOUBLES)
+        printout = _printout(family, described, texts, options, IN_DOUBLES, _in_hertz(family, texts, options))
         axes, third = in_principal_axes(motion).axes, THIRD.get(motion.family, "")
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
@@ -492,26 +495,15 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
             return
         needs_no_way(options)
     for p in family.parameters:
-        if p.name == "ratio":
-            yield (body.exact_body if exact else body.chosen_body)(options)
-        elif p.name == "inertia" and of_any_body(family):
-            yield (body.exact_moments if exact else body.chosen_moments)(options)
-        elif p.name == "field" and (not p.option or of_any_body(family)):
-            yield (body.exact_field if exact else body.chosen_field)(options)
-        elif p.name == "omega" and "spin" in options:
-            yield exactly(body.start_of(options), options) if exact else body.start_of(options)
+        if p.name in OF_BODY and (not p.option or of_any_body(family)):
+            yield OF_BODY[p.name][exact](options)
         elif p.name == "mu":
-            yield _charge_to_mass(options, exact=exact)
+            yield (body.exact_charge_to_mass if exact else body.charge_to_mass_of)(options, "A point charge")
         elif p.name == "c":
             yield _speed_of_light(body.system_of(options))
         else:
-            value = options[p.name]
-            yield exactly(value, options) if exact and value is not None else value
-
-
-def _charge_to_mass(options: dict[str, Any], *, exact: bool) -> Any:
-    """Return mu of a point charge, as it was typed or from its charge and mass."""
-    return (body.exact_charge_to_mass if exact else body.charge_to_mass_of)(options, "A point charge")
+            value = body.start_of(options) if p.name == "omega" and "spin" in options else options[p.name]
+            yield exactly(value, options) if exact else value
 
 
 def _speed_of_light(units: str) -> float:
@@ -579,16 +571,20 @@ def _quantities(
 
 
 def _printout(
-    family: Family, described: Described, texts: dict[str, Any], options: dict[str, Any], worth: str
+    family: Family,
+    described: Described,
+    texts: dict[str, Any],
+    options: dict[str, Any],
+    worth: str,
+    beside: Iterable[Line],
 ) -> Printout:
-    """Lay the certified texts out, three rows a time."""
+    """Lay the certified texts out, with lines that stand beside the quantities, and three rows a time."""
     from atlas.exact.digits import NOT_CERTIFIED
 
     case = texts[described.named] if described.named else ""
     units = _units(family, options)
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
-    lines += _in_hertz(family, shown, texts, options) if units else []
     rows = in_threes(texts.get("samples", []))
     heading = [
         head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
@@ -601,7 +597,7 @@ def _printout(
     notes = [*turns, *dict.fromkeys(texts.get("missing", {}).values()), worth]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
-    return Printout(described.title + case, lines, ("t", *heading) if rows else (), rows, notes)
+    return Printout(described.title + case, [*lines, *beside], ("t", *heading) if rows else (), rows, notes)
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
@@ -623,11 +619,12 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
         yield Line(symbol, words, "-" if component is None else q.text(component), unit, equation)
 
 
-def _in_hertz(
-    family: Family, shown: Sequence[Quantity], texts: dict[str, Any], options: dict[str, Any]
-) -> Iterator[Line]:
-    """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits."""
-    rates = {q.name: float(texts[q.name]) for q in shown if q.unit == RATE and _is_number(texts[q.name])}
+def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
+    """Yield the lines of rates in turns a second, and Larmor's beside them, rounded to six digits, where units tell."""
+    if not _units(family, options):
+        return
+    found = {q.name: texts[q.name] for q in family.quantities if q.unit == RATE and q.name in texts}
+    rates = {name: float(text) for name, text in found.items() if _is_number(text)}
     if in_field(family) and options["magnetic"] is not None:
         larmor = hypot(*body.chosen_field(options))
         yield Line("larmor", "Larmor frequency |B'|, rounded", f"{larmor:.6g}", "1/s", "(27)")

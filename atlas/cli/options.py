@@ -3,18 +3,16 @@
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import pairwise, takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import Any, Self, TypeVar
 
 import click
 
 from atlas.cli.measured import WANTED, in_si, split
 from atlas.errors import AtlasError
-
-if TYPE_CHECKING:
-    from fractions import Fraction
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -52,19 +50,31 @@ UNCERTAIN = re.compile(r"([+-]?(?:\d+(?:\.(\d*))?|\.(\d+)))\((\d+(?:\.\d*)?|\.\d
 
 
 class Typed(float):
-    """A double that remembers the decimal it was typed as; `sigma` is its standard deviation, if it has one."""
+    """A double that remembers what it was typed as; in SI, where that has a unit.
+
+    `sigma` is its standard deviation, if it has one, `exact` the number with its unit, None where that has pi in it.
+    """
 
     text: str
     sigma: float = 0.0
+    unit: str = ""
+    exact: Fraction | None = None
 
-    def __new__(cls, text: str) -> Self:
-        """Read a decimal, a fraction such as 2/3 or a hexadecimal float such as 0x1.8p0; ValueError for all else."""
+    def __new__(cls, text: str, option: str | None = None, place: int = 0) -> Self:
+        """Read a decimal, a fraction such as 2/3, a hexadecimal float such as 0x1.8p0; for an option also with a unit.
+
+        Raises ValueError for all else, AtlasError for a unit that does not fit the option, at this place of it.
+        """
         form = NUMBER.fullmatch(text) if len(text) <= LONGEST else None
-        if form is None:
+        unit, exact = "", None
+        if form is not None:
+            value = float.fromhex(text) if form["hexadecimal"] else float(Fraction(text) if form["fraction"] else text)
+        elif option is not None and len(text) <= LONGEST and (parts := split(text)):
+            value, exact = in_si(Fraction(parts[0]), unit := parts[1], option, place)
+        else:
             raise ValueError(text)
-        value = float.fromhex(text) if form["hexadecimal"] else float(_fraction(text) if form["fraction"] else text)
         number = super().__new__(cls, value)
-        number.text = text
+        number.text, number.unit, number.exact = text, unit, exact
         return number
 
     def moved(self, value: float, **about: Any) -> Self:
@@ -73,38 +83,13 @@ class Typed(float):
         vars(new).update(vars(self) | about)
         return new
 
-    def exactly(self) -> "Fraction":
-        """Return the number that was typed, not the double nearest to it."""
-        return _fraction(float(self) if "0x" in self.text.lower() else self.text)
-
-
-class Measured(Typed):
-    """A number that was typed with a unit, in SI."""
-
-    exact: "Fraction | None"
-
-    @classmethod
-    def of(cls, text: str, option: str, place: int = 0) -> Self | None:
-        """Read a number with a unit; None where there is none. AtlasError for a unit that does not fit the option."""
-        parts = split(text) if len(text) <= LONGEST else None
-        if parts is None:
-            return None
-        value, exact = in_si(_fraction(parts[0]), parts[1], option, place)
-        number = float.__new__(cls, value)
-        number.text, number.exact = text, exact
-        return number
-
-    def exactly(self) -> "Fraction":
-        """Return the number, exact. Raises click.UsageError for one with pi in it."""
+    def exactly(self) -> Fraction:
+        """Return the number that was typed, not the nearest double. Raises click.UsageError for one with pi in it."""
+        if not self.unit:
+            return Fraction(float(self) if "0x" in self.text.lower() else self.text)
         if self.exact is None:
             raise click.UsageError(f"{self.text} has pi in it and is no decimal: leave out --decimal.")
         return self.exact
-
-
-def _fraction(value: str | float) -> "Fraction":
-    from fractions import Fraction
-
-    return Fraction(value)
 
 
 class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
@@ -121,7 +106,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         if (parts := UNCERTAIN.fullmatch(text)) is not None:
             return self._with_sigma(text, parts, param, ctx)
         try:
-            number: Typed = Measured.of(text, str(param.name) if param else "", self.place) or Typed(text)
+            number = Typed(text, str(param.name) if param else "", self.place)
         except AtlasError as error:
             self.fail(str(error), param, ctx)
         except OverflowError:
@@ -331,7 +316,7 @@ def _listed(word: str, option: str) -> list[str]:
         return [word]
     name = option.removeprefix("--")
     start, stop, count = (REAL.convert(item, click.Option([option]), None) for item in parts[:3])
-    unit = str(WANTED[name]) if isinstance(start, Measured) or isinstance(stop, Measured) else ""
+    unit = str(WANTED[name]) if start.unit or stop.unit else ""
     if not count.is_integer() or not 2 <= count <= MOST:
         raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
     if log and start * stop <= 0:
@@ -437,6 +422,11 @@ times_options: Callable[[F], F] = stack(
 )
 
 
+def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
+    """Return those of some options that were given, by name."""
+    return {name: options[name] for name in names if options.get(name) is not None}
+
+
 def exactly(value: Any, options: dict[str, Any]) -> Any:
     """Return a typed number, or several, as the certified floor takes them: doubles, or decimals with --decimal."""
     if isinstance(value, tuple | list):
@@ -458,7 +448,8 @@ def chosen_times(options: dict[str, Any]) -> list[float]:
         raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
     whole = start.exactly().denominator * step.exactly().denominator
     first, by = int(start.exactly() * whole), int(step.exactly() * whole)
+    steps = (first + by * i for i in range(int(count)))
     try:
-        return [start.moved(t / whole, text=f"{t}/{whole}") for t in (first + by * i for i in range(int(count)))]
+        return [start.moved(t / whole, text=f"{t}/{whole}", unit="") for t in steps]
     except (OverflowError, ValueError):  # beyond floats, or of more digits than Python writes
         return [start + step * i for i in range(int(count))]

@@ -260,8 +260,8 @@ def _body(options: dict[str, Any]) -> dict[str, Any]:
     """Return the body as a report file has it."""
     parameters = {name: _plain(value) for name, value in body.body_parameters(options).items() if _of_body(name, value)}
     if options["points"] is not None:
-        places = points(options["points"])
-        parameters |= {"inertia": [places.body.I2, places.body.I3]}
+        masses = points(options["points"])
+        parameters |= {"inertia": [masses.I2, masses.I3]}
     if parameters.pop("density", None) is not None:
         parameters["mass"] = float(body.mass_of(options))
     if options["shape"] is not None:

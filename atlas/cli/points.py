@@ -18,14 +18,6 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 """Options that have the units of point masses, by the names of the columns."""
 
 
-class Points(NamedTuple):
-    """The body of point masses, their charge-to-mass ratio, None where the file has no charges, and their mass."""
-
-    body: Any
-    mu: float | None
-    mass: float
-
-
 class Masses(NamedTuple):
     """Point masses, their mass matrix (3, 3) about their centre of mass, and their charges, if the file has any."""
 
@@ -56,8 +48,8 @@ def point_masses(path: Path) -> Masses:
     return Masses(m, g, np.array(columns["charge"]) if "charge" in columns else None)
 
 
-def points(path: Path) -> Points:
-    """Read point masses that are symmetric about the axis z. Raises click.UsageError for others."""
+def points(path: Path) -> Any:
+    """Return the body of point masses that are symmetric about the axis z. Raises click.UsageError for others."""
     import numpy as np
 
     from atlas.core.bodies.body import SymmetricBody
@@ -74,10 +66,10 @@ def points(path: Path) -> Points:
             f"I3 = {inertia[2, 2]:.10g}, I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, "
             f"I23 = {inertia[1, 2]:.3g}. Another body has --field B1 B2 B3."
         )
+    if read.charges is not None:
+        _one_ratio(path, read.masses, read.charges)
     across = (g[0, 0] + g[1, 1]) / 2
-    body = SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
-    mu = None if read.charges is None else _one_ratio(path, read.masses, read.charges)
-    return Points(body, mu, read.masses.sum())
+    return SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
 
 
 def oblique_tensor(path: Path) -> Any:

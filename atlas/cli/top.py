@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from math import hypot
+from pathlib import Path
 from typing import Any
 
 import click
 
 from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, start_of, units_of
-from atlas.cli.options import REAL, Real, stack
+from atlas.cli.options import FILE, REAL, Real, given, stack
 from atlas.cli.points import columns_of
 
 WAYS = ("heavy", "magnetic")
@@ -27,7 +28,7 @@ top_options: Callable[[F], F] = stack(
                  "list."),
     *(click.option(f"--{name}", type=REAL, help=f"{name.capitalize()}{rest} of the shape, see atlas list.") for
       name, rest in (("radius", ""), ("height", ""), ("equatorial", " semi-axis"), ("polar", " semi-axis"))),
-    click.option("--points", type=click.Path(exists=True, dir_okay=False), metavar="FILE", help="Point masses and "
+    click.option("--points", type=FILE, metavar="FILE", help="Point masses and "
                  "charges instead: a CSV file with the columns x, y, z, mass, charge; the axis is z."),
     click.option("--charged", type=REAL, nargs=2, metavar="J2 J3", help="Moments of the charges, across and along the "
                  "axis, about the centre of mass, with --heavy about the point: charge times length squared."),
@@ -65,14 +66,13 @@ def needs_no_way(options: Mapping[str, Any]) -> None:
 def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and its forces, as they were given."""
     names = (*WAYS, *BODY, *SIZES, *OF_HEAVY, *OF_CHARGED)
-    return {name: options[name] for name in dict.fromkeys(names) if options.get(name) is not None}
+    return given(options, dict.fromkeys(names)) | ({"points": str(options["points"])} if options["points"] else {})
 
 
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
     """Return what was given, and what the top has from it."""
     top = chosen_top(options)
-    typed = top_parameters(options) | {name: options[name] for name in ("omega", "spin") if options[name] is not None}
-    typed |= {} if options["direction"] is None else {"direction": options["direction"]}
+    typed = top_parameters(options) | given(options, ("omega", "spin", "direction"))
     return typed | {"top": {name: getattr(top, name) for name in names}}
 
 
@@ -89,7 +89,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
         return _charged(options, omega)
     _nothing_of(options, (*OF_CHARGED, "points"), "--magnetic", "--heavy")
     _needs(options, "direction", "--heavy")
-    return _heavy(options, _pair(options["direction"]), omega)
+    return _heavy(options, options["direction"], omega)
 
 
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
@@ -109,16 +109,16 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
     from atlas.core.motions.top import TopMotion
 
     in_one_system(options)
-    field, body, length, weight = _pair(options["magnetic"]), _body(options), None, (0.0, 0.0)
+    field, body, length, weight = options["magnetic"], _body(options), None, (0.0, 0.0)
     if options["heavy"] is not None:
-        n2, n3 = _pair(options["direction"] or field)
+        n2, n3 = options["direction"] or field
         held, length, size = _heavy(options, (n2, n3), omega), float(options["heavy"][1]), hypot(n2, n3)
         body, weight = SymmetricBody(*held.inertia), (held.linear * (n2 / size), held.linear * (n3 / size))
     elif options["direction"] is not None:
         raise click.UsageError("--direction has no place beside --magnetic: it is that of the field.")
     return TopMotion.charged(
         body, _charges(options, length), field, omega, units=options["units"] or "si",
-        moment=options["moment"] or 0.0, polarizability=_pair(options["polarizability"] or (0.0, 0.0)), weight=weight,
+        moment=options["moment"] or 0.0, polarizability=options["polarizability"] or (0.0, 0.0), weight=weight,
     )  # fmt: skip
 
 
@@ -135,9 +135,9 @@ def _body(options: Mapping[str, Any]) -> Any:
         return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
     _goes_with(options, ("mass",), ("heavy", "shape"))
     if options["inertia"] is not None:
-        return SymmetricBody(*_pair(options["inertia"]))
+        return SymmetricBody(*options["inertia"])
     _needs(options, "mass", "--shape")
-    return from_shape(options["shape"].replace("-", "_"), mass=options["mass"], **_sizes(options))
+    return from_shape(options["shape"].replace("-", "_"), mass=options["mass"], **given(options, SIZES))
 
 
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
@@ -151,21 +151,15 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
         from_point = _centred(columns, length or 0.0)
         return ChargeMoments.points(columns["charge"], from_point, held=length is not None)
     if options["charged"] is not None:
-        return ChargeMoments(*_pair(options["charged"]))
+        return ChargeMoments(*options["charged"])
     _needs(options, "charge", "--coat")
-    coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **_sizes(options))
+    coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **given(options, SIZES))
     return coat + ChargeMoments(options["charge"] * (length or 0.0) ** 2, 0.0)
 
 
-def _sizes(options: Mapping[str, Any]) -> dict[str, float]:
-    return {name: float(options[name]) for name in SIZES if options.get(name) is not None}
-
-
-def _points(path: str) -> dict[str, Any]:
+def _points(path: Path) -> dict[str, Any]:
     """Return the columns of a file of point masses and charges."""
-    from pathlib import Path
-
-    columns = columns_of(Path(path))
+    columns = columns_of(path)
     if set(columns) != {"x", "y", "z", "mass", "charge"}:
         raise click.UsageError(f"{path} must have the columns x, y, z, mass, charge; it has {', '.join(columns)}.")
     return columns
@@ -177,11 +171,6 @@ def _centred(columns: Mapping[str, Any], along: float = 0.0) -> Any:
 
     places, masses = np.transpose([columns[name] for name in "xyz"]), np.array(columns["mass"])
     return places - masses @ places / masses.sum() + np.array([0.0, 0.0, along])
-
-
-def _pair(typed: Any) -> tuple[float, float]:
-    first, second = typed
-    return float(first), float(second)
 
 
 def _needs(options: Mapping[str, Any], name: str, other: str) -> None:

@@ -18,7 +18,7 @@ from click.testing import CliRunner
 from atlas.cli.app import atlas as command
 from atlas.cli.figure import setting
 from atlas.cli.options import Typed
-from atlas.cli.points import points
+from atlas.cli.points import point_masses, points, ratio_of_points
 
 ATLAS = [sys.executable, "-m", "atlas"]
 EPS = 2.0**-52
@@ -106,9 +106,8 @@ def test_point_masses_may_have_units_in_their_heading(tmp_path: Path) -> None:
     for scale, heading in ((1, "x,y,z,mass,charge"), (1000, "x [mm],y [mm],z [mm],mass [g],charge [mC]")):
         rows = [(1, 0, 0, 1, 2), (-1, 0, 0, 1, 2), (0, 1, 0, 1, 2), (0, -1, 0, 1, 2), (0, 0, 1, 1, 2), (0, 0, -1, 1, 2)]
         file.write_text("\n".join([heading, *(",".join(str(x * scale) for x in row) for row in rows)]))
-        read = points(file)
-        assert (read.mass, read.mu) == (6, 2)
-        assert read.body.inertia == (4, 4, 4)
+        assert (point_masses(file).masses.sum(), ratio_of_points(file)) == (6, 2)
+        assert points(file).inertia == (4, 4, 4)
     file.write_text("x,y,z [kg],mass\n0,0,1,1\n")
     with pytest.raises(UsageError, match=r"points\.csv: line 2: '1' under z \[kg\] is not a number in m, "):
         points(file)
@@ -376,6 +375,19 @@ def test_a_typed_number_remembers_what_was_typed(text: str) -> None:
     exact = number.exactly()
     assert isinstance(exact, Fraction)
     assert float(exact) == float(number)
+
+
+@pytest.mark.parametrize("times", ["--grid 1{} 1{} 3", "--times 0{} 2{}"])
+def test_times_with_a_unit_are_exact(times: str) -> None:
+    """With --decimal each row is that of its own time, as it is without a unit."""
+    words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --digits 12 --decimal".split()
+    first, second = (record(*words, *times.replace("{}", unit).split())["samples"] for unit in ("s", ""))
+    assert first == second
+
+
+def test_zero_may_have_a_unit() -> None:
+    """It is read as any other number."""
+    assert record(*"classify --ratio 1.5 --magnetic 1T 0T --mu 1 --json".split())["parameters"]["magnetic"] == [1, 0]
 
 
 def test_the_reader_of_a_pipe_may_leave() -> None:
