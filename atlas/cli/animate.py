@@ -7,7 +7,7 @@ import click
 
 from atlas import files
 from atlas.cli.figure import FigureCommand, setting
-from atlas.cli.options import Many, examples, out_option, style_option
+from atlas.cli.options import examples, out_option, style_option
 from atlas.cli.present import bar
 
 
@@ -29,7 +29,7 @@ from atlas.cli.present import bar
     help="The parameter that moves, its ends, and how many frames, or a list a,b,c of numbers; when left out, the "
     "figure's time t.",
 )
-@click.option("--set", "settings", cls=Many, metavar="KEY=VALUE [...]", help="Other parameters; a list is a,b,c.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Other parameters; a list is a,b,c.")
 @click.option(
     "--format",
     "kind",

@@ -18,6 +18,9 @@ LONG = 400
 """Characters of a word that an error repeats whole."""
 
 
+SUMMARIES = {one.command.name: one.command.summary for one in FAMILIES.values() if one.command and one.command.summary}
+"""What the commands that are made from the register do."""
+
 BESIDE = {"data": "report", "tex": "report"}
 """Commands that stand in the file of another one."""
 
@@ -28,6 +31,10 @@ class LazyCommand(click.Command):
     def loaded(self) -> click.Command:
         """Load the command."""
         name = str(self.name)
+        if name in SUMMARIES:
+            from atlas.cli.family import command as of_families
+
+            return of_families(name)
         module = import_module(f"atlas.cli.{BESIDE.get(name, name)}")
         command: click.Command = getattr(module, name if name in BESIDE else "command")
         return command
@@ -35,16 +42,6 @@ class LazyCommand(click.Command):
     def make_context(self, *arguments: Any, **more: Any) -> click.Context:
         """Load the command and let it read its arguments."""
         return self.loaded().make_context(*arguments, **more)
-
-
-class FamilyCommand(LazyCommand):
-    """The command of a family of motions or surfaces, which is made from the register."""
-
-    def loaded(self) -> click.Command:
-        """Make the command."""
-        from atlas.cli.family import command
-
-        return command(str(self.name))
 
 
 GONE = {
@@ -132,11 +129,9 @@ for name, says in {
     "fit": "Find body and field from measurements.",
     "tex": "Write a report as LaTeX.",
     "verify": "Put the paper's equations on trial.",
+    **SUMMARIES,
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))
-for family in FAMILIES.values():
-    if family.command and family.command.summary:
-        atlas.add_command(FamilyCommand(family.command.name, short_help=family.command.summary))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -16,13 +16,8 @@ F = TypeVar("F", bound=Callable[..., Any])
 BODY = ("ratio", "inertia", "shape", "points")
 """The options of which one says what body it is."""
 SIZES = ("radius", "height", "length", "equatorial", "polar")
-SECONDS = {
-    "1/time": "1/s",
-    "1/time^2": "1/s^2",
-    "time": "s",
-    "inertia/time^2": "inertia/s^2",
-    "(inertia/time)^2": "(inertia/s)^2",
-}
+TIMES = ("1/time", "1/time^2", "time", "inertia/time^2", "(inertia/time)^2")
+SECONDS = {unit: unit.replace("time", "s") for unit in TIMES}
 """Units where the field is given as B, in gauss or tesla."""
 
 LIKE = {

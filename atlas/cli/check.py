@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import FILE, REAL, Command, Place, WithThreeMoments, examples, stack
+from atlas.cli.options import FILE, REAL, Command, Place, are_of_any_body, examples, stack
 from atlas.cli.present import dump, picture
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
@@ -56,8 +56,8 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 
 @click.command(
     "check",
-    cls=WithThreeMoments,
-    wider=lambda: three_moments,
+    cls=Command,
+    other=lambda args: three_moments if are_of_any_body(args) else None,
     epilog=examples(
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2",

@@ -104,33 +104,25 @@ def command(name: str) -> click.Command:
     commands_by_key = {
         key: _command_of(one, one.command) for key, one in FAMILIES.items() if one.command and one.command.name == name
     }
-    return next(iter(commands_by_key.values())) if len(commands_by_key) == 1 else AnyMotion(name, commands_by_key)
+    return next(iter(commands_by_key.values())) if len(commands_by_key) == 1 else _any_motion(name, commands_by_key)
 
 
-class AnyMotion(click.Command):
-    """The command of several families: of that to which the options belong."""
-
-    def __init__(self, name: str, commands: Mapping[str, click.Command]) -> None:
-        first, *_ = commands.values()
-        params = dict[str, click.Parameter]()
-        for param in (copy(param) for each in commands.values() for param in each.params):
-            known = params.setdefault(str(param.name), param)
-            known.required = False
-            if param.metavar and param.metavar not in str(known.metavar):
-                known.metavar = f"{known.metavar} or {param.metavar}"
-        lines = [line for param in commands.values() for line in str(param.epilog).split("\n")[2:]]
-        super().__init__(
-            name, params=list(params.values()), help=first.help, epilog="\n".join(["\b", "Examples:", *lines])
-        )
-        self._commands = commands
-
-    def make_context(
-        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
-    ) -> click.Context:
-        """Let the command of a family read its arguments."""
-        if any(word in {"-h", "--help"} for word in args):
-            return super().make_context(info_name, args, parent, **extra)
-        return self._commands[family_of(args)].make_context(info_name, args, parent, **extra)
+def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Command:
+    """Return the command of several families: its help is that of all, its arguments are of the one they belong to."""
+    params = dict[str, click.Parameter]()
+    for param in (copy(param) for each in commands.values() for param in each.params):
+        known = params.setdefault(str(param.name), param)
+        known.required = False
+        if param.metavar and param.metavar not in str(known.metavar):
+            known.metavar = f"{known.metavar} or {param.metavar}"
+    lines = [line.strip() for each in commands.values() for line in str(each.epilog).split("\n")[2:]]
+    return Command(
+        name,
+        params=list(params.values()),
+        help=next(iter(commands.values())).help,
+        epilog=examples(*lines),
+        other=lambda args: None if {"-h", "--help"} & {*args} else commands[family_of(args)],
+    )
 
 
 def family_of(args: Sequence[str]) -> str:
@@ -205,13 +197,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
             _show_lines(family, options)
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
-    return click.command(described.name, cls=Carrying, **texts)(stack(*decorators)(run))
-
-
-class Carrying(Command):
-    """A command that carries uncertainties of numbers to what it prints."""
-
-    carries = True
+    return click.command(described.name, cls=Command, carries=True, **texts)(stack(*decorators)(run))
 
 
 def _shown_otherwise(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option, pair, style_option
+from atlas.cli.options import Command, Typed, examples, jobs_option, out_option, pair, style_option
 from atlas.cli.present import bar, explained, show
 from atlas.errors import AtlasError
 from atlas.targets import TARGETS, find
@@ -64,11 +64,11 @@ class FigureCommand(Command):
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
 @click.option("--all", "everything", is_flag=True, help="Every recipe in figures/.")
-@click.option("--set", "settings", cls=Many, metavar="KEY=VALUE [...]", help="Parameters; a list is a,b,c.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE [...]", help="Parameters; a list is a,b,c.")
 @click.option(
     "--format",
     "formats",
-    cls=Many,
+    multiple=True,
     type=click.Choice(["svg", "pdf", "png", "pgf", "csv"]),
     help="svg, pdf, png, pgf, csv (the points drawn); the first three when left out.",
 )

@@ -14,7 +14,7 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.options import REAL, Command, Many, exactly, examples, output_options
+from atlas.cli.options import REAL, Command, exactly, examples, output_options
 from atlas.cli.present import Line, Printout, along, answer, certificate, show
 
 CROSS = "With B3 = 0 the curve is this line and another, omega2 = -B2, on which omega3 is free."
@@ -31,7 +31,7 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @body_options
 @field_options
-@click.option("--omega2", cls=Many, type=REAL, metavar="W [W ...]", help="Points at these omega2.")
+@click.option("--omega2", multiple=True, type=REAL, metavar="W [W ...]", help="Points at these omega2.")
 @click.option(
     "--count", type=click.IntRange(2, 100_000), default=12, show_default=True, help="Else so many, on both branches."
 )

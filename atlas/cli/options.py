@@ -116,7 +116,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
                 self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
             if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
                 self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
-            ranges = ", or a range START:STOP:COUNT" * isinstance(param, Many)
+            ranges = ", or a range START:STOP:COUNT" * bool(param and param.multiple)
             self.fail(f"{text!r} is not a finite number; write 1.5, 3/2 or 1e-3{ranges}.", param, ctx)
         if not math.isfinite(number):
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
@@ -157,15 +157,29 @@ class Place(click.Path):
         return place
 
 
-class Many(click.Option):
-    """An option that takes as many values as follow it: ``--times 0 1 2.5``."""
-
-    def __init__(self, names: Sequence[str], **kwargs: Any) -> None:
-        super().__init__(names, **(kwargs | {"multiple": True}))
-
-
 class Command(click.Command):
-    """A command whose `Many` options may be followed by several values."""
+    """A command whose options of many values may be followed by several: ``--times 0 1 2.5``.
+
+    `other` finds the command that the arguments are of, where it is not this one; `carries` says whether uncertainties
+    of numbers go on to what is printed.
+    """
+
+    def __init__(
+        self,
+        *args: Any,
+        other: Callable[[Sequence[str]], click.Command | None] = lambda _: None,
+        carries: bool = False,
+        **more: Any,
+    ) -> None:
+        super().__init__(*args, **more)
+        self.other, self.carries = other, carries
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Let the command that the arguments are of read them."""
+        other = self.other(args)
+        return (other.make_context if other else super().make_context)(info_name, args, parent, **extra)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
@@ -177,7 +191,7 @@ class Command(click.Command):
             args, option, field = _inclined(args, ctx)
         if taken.get("inertia") == 3:
             args = _three_moments(args)
-        several = [param for param in self.params if isinstance(param, Many)]
+        several = [param for param in self.params if param.multiple]
         many = {name for param in several for name in param.opts}
         numbers = {name for param in several if param.type is REAL for name in param.opts}
         words = {name for param in several if param.name not in WHOLE for name in param.opts} - numbers
@@ -265,22 +279,6 @@ def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
             if len(following) != param.nargs:
                 return f"{args[place]} takes {param.nargs} numbers, {param.metavar}."
     return ""
-
-
-class WithThreeMoments(Command):
-    """A command of symmetric bodies with another one, `wider`, for any body, see `are_of_any_body`."""
-
-    def __init__(self, *args: Any, wider: Callable[[], click.Command], **more: Any) -> None:
-        super().__init__(*args, **more)
-        self._wider = wider
-
-    def make_context(
-        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
-    ) -> click.Context:
-        """Let the command that the options are of read its arguments."""
-        if are_of_any_body(args):
-            return self._wider().make_context(info_name, args, parent, **extra)
-        return super().make_context(info_name, args, parent, **extra)
 
 
 def are_of_any_body(args: Sequence[str]) -> bool:
@@ -415,7 +413,9 @@ style_option: Callable[[F], F] = click.option(
 
 
 times_options: Callable[[F], F] = stack(
-    click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT[:log]."),
+    click.option(
+        "--times", multiple=True, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT[:log]."
+    ),
     click.option(
         "--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="The same by a step; or START:STOP:COUNT."
     ),

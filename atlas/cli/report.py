@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from atlas.cli.options import Command, Many, examples, jobs_option, out_option, style_option
+from atlas.cli.options import Command, examples, jobs_option, out_option, style_option
 from atlas.cli.present import Printout, bar, explained, show
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
@@ -33,7 +33,7 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml
 @click.option(
     "--format",
     "formats",
-    cls=Many,
+    multiple=True,
     type=click.Choice(["html", "pdf", "single"]),
     help="html, pdf, both when left out; single is one page with all that belongs to it as one file. What is left out "
     "stays as it is.",

@@ -12,7 +12,7 @@ import msgspec
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
 from atlas.cli.measured import split
-from atlas.cli.options import REAL, Command, Many, Place, WithThreeMoments, examples, given, pair, stack
+from atlas.cli.options import REAL, Command, Place, are_of_any_body, examples, given, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.families import FAMILIES
@@ -62,7 +62,7 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         click.option(
             "--set",
             "settings",
-            cls=Many,
+            multiple=True,
             metavar="NAME=VALUES [...]",
             help="Parameters: a number, several with commas, or START:STOP:COUNT; :log for even steps of the "
             "logarithm.",
@@ -71,7 +71,7 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         click.option(
             "--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading."
         ),
-        click.option("--quantity", "quantities", cls=Many, metavar="NAME [NAME ...]", help="What to compute."),
+        click.option("--quantity", "quantities", multiple=True, metavar="NAME [NAME ...]", help="What to compute."),
         click.option(
             "--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file."
         ),
@@ -152,8 +152,8 @@ def of_three_moments() -> click.Command:
 
 @click.command(
     "sweep",
-    cls=WithThreeMoments,
-    wider=of_three_moments,
+    cls=Command,
+    other=lambda args: of_three_moments() if are_of_any_body(args) else None,
     help=HELP,
     epilog=examples(
         "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "

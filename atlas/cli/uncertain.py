@@ -1,7 +1,7 @@
 """Numbers typed with an uncertainty, 5000(200)e: what it does to each number that a command prints."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -70,7 +70,7 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     """
     inputs = uncertain(options)
     answers = answer(options)
-    middle = dict(_numbers(answers))
+    middle = _numbers(answers)
     sizes = _sizes(middle)
     ways: list[Mapping[tuple[str, int, Typed], float]] = [{name: 1.0} for name in inputs]
     together = [dict.fromkeys(inputs, len(inputs) ** -0.5)] if len(inputs) > 1 else []
@@ -78,7 +78,7 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     for way in [*ways, *together]:
         try:
             four = [
-                dict(_numbers(answer(_moved(options, {name: step * x for name, x in way.items()}))))
+                _numbers(answer(_moved(options, {name: step * x for name, x in way.items()})))
                 for step in (STEP, -STEP, 1.0, -1.0)
             ]
         except DomainError:
@@ -141,9 +141,9 @@ def _draws(
     draws: dict[tuple[Any, ...], list[float]] = {key: [] for key in places}
     for _ in range(count):
         try:
-            for key, x in _numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs}))):
-                if key in draws:
-                    draws[key].append(x)
+            numbers = _numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs})))
+            for key in draws.keys() & numbers.keys():
+                draws[key].append(numbers[key])
         except DomainError:
             failed += 1
     return draws, failed
@@ -158,18 +158,11 @@ def _deviation(values: list[float]) -> tuple[float, float]:
     return math.sqrt(second), math.sqrt(max(fourth / second - second, 0.0) / (4 * few)) if second else 0.0
 
 
-def _numbers(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], float]]:
-    """Yield the finite numbers of an answer, each with its place; times are none of them."""
-    if isinstance(value, float):
-        if math.isfinite(value):
-            yield place, float(value)
-    elif isinstance(value, Mapping):
-        for key, entry in value.items():
-            if key != "t":
-                yield from _numbers(entry, (*place, key))
-    elif not isinstance(value, str) and hasattr(value, "__iter__"):
-        for i, entry in enumerate(value):
-            yield from _numbers(entry, (*place, i))
+def _numbers(value: Any) -> Numbers:
+    """Return the finite numbers of an answer by their places; times are none of them."""
+    numbers = Numbers()
+    mapped(value, lambda x, place: numbers.update({place: x}))
+    return {place: x for place, x in numbers.items() if math.isfinite(x)}
 
 
 def mapped(value: Any, function: Callable[[float, tuple[Any, ...]], Any], place: tuple[Any, ...] = ()) -> Any:
