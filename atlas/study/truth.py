@@ -5,6 +5,7 @@ Of an elementary motion axis and frequencies come from the exact floor, and the 
 be graded against in a second; where a digit hangs on it, and for phases out of `within`, balls decide.
 """
 
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -32,6 +33,9 @@ Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMot
 
 UNCERTAINTY = 2e-18
 """Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
+
+KERNELS = 1e-14
+"""The same of a kernel, of Omega in units of the largest rate."""
 
 PART = 100
 """An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
@@ -81,60 +85,49 @@ class Truth:
         return R, Omega, q
 
 
+@dataclass(frozen=True)
 class KernelTruth:
-    """R, Omega and the quaternion of other motions, by the kernels: to a few units in the last place of a double."""
+    """R, Omega and the quaternion of other motions, by the kernels: to a few units in the last place of a double.
 
-    uncertainty = 1e-14
-    """Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate."""
-    growth = 0.0
-    """What time adds to it, by unit."""
+    They are good to `uncertainty`, and `growth` for each unit of time. Errors below `near` are to be found by balls;
+    those below `floor` are not told from it.
+    """
 
-    def __init__(self, single: Any, reach: float) -> None:
-        self._single, self._reach = single, reach
-        self.near, self.floor = PART * self.uncertainty, 0.0
-        """Errors below `near` are to be found by balls; those below `floor` are not told from it."""
+    single: Any
+    reach: float
+    uncertainty: float = KERNELS
+    near: float = PART * KERNELS
+    floor: float = 0.0
+    growth: float = 0.0
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
         """Tell at which times there is a value, shape (m,)."""
-        return np.asarray(np.abs(t) <= self._reach)
+        return np.asarray(np.abs(t) <= self.reach)
 
     def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
         """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`."""
         from scipy.spatial.transform import Rotation
 
-        R, Omega = self._single.rotation(t), self._single.angular_velocity(t)
+        R, Omega = self.single.rotation(t), self.single.angular_velocity(t)
         q = Rotation.from_matrix(R).as_quat(scalar_first=True)
         return R.reshape(-1, 9).astype(np.longdouble), Omega.astype(np.longdouble), q.astype(np.longdouble)
 
 
 def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
     """Return what a motion is at arrays of times, Omega in this unit."""
-    if isinstance(motion, Turned):
-        return _in_given_axes(motion, float(arb(unit)))
+    if isinstance(motion, Turned):  # in doubles: the components along the axes of its class are rounded
+        bound = 4 * KERNELS
+        return KernelTruth(motion, np.inf, bound, 0.0, bound, 4 * float(arb(unit)) * float(np.finfo(float).eps))
     if isinstance(motion, ElementaryMotion):
         return Truth(motion)
     if isinstance(motion, AsymmetricMotion):
-        return _of_three_moments(SingleAsymmetric(motion), float(arb(unit)))
+        of_three = SingleAsymmetric(motion)
+        if not isinstance(of_three.closed, ThetaKernel):
+            return KernelTruth(of_three, -1.0)  # balls decide each row
+        bound = of_three.closed.accuracy + (of_three.closed.proved or 0.0)
+        return KernelTruth(of_three, PHASE * REACH / float(arb(unit)), bound, 0.0, bound)
     single = SingleTop(motion, np.eye(3)) if isinstance(motion, TopMotion) else SingleGeneral(motion, np.eye(3))
     return KernelTruth(single, PHASE * single.parts.phases.reach)
-
-
-def _in_given_axes(motion: Turned, unit: float) -> KernelTruth:
-    """Return a motion in given axes, in doubles: the components along the axes of its class are rounded."""
-    truth = KernelTruth(motion, np.inf)
-    truth.uncertainty = truth.floor = 4 * KernelTruth.uncertainty
-    truth.near, truth.growth = 0.0, 4 * unit * float(np.finfo(float).eps)
-    return truth
-
-
-def _of_three_moments(single: SingleAsymmetric, unit: float) -> KernelTruth:
-    """Return the theta functions of a motion; where there are none balls decide each row."""
-    if not isinstance(single.closed, ThetaKernel):
-        return KernelTruth(single, -1.0)
-    truth = KernelTruth(single, PHASE * REACH / unit)
-    truth.uncertainty = truth.floor = single.closed.accuracy + (single.closed.proved or 0.0)
-    truth.near = 0.0
-    return truth
 
 
 def long(value: Real) -> np.longdouble:
