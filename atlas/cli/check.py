@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import FILE, REAL, Command, Place, are_of_any_body, examples, stack
+from atlas.cli.options import FILE, REAL, Command, Place, are_of_any_body, examples, json_option, stack
 from atlas.cli.present import dump, picture
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
@@ -24,7 +24,7 @@ graded_options: Callable[[Any], Any] = stack(
     click.option(
         "--order", is_flag=True, help="Of several files, with other steps: the order of convergence, and its figure."
     ),
-    click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."),
+    json_option,
 )
 
 

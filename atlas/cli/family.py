@@ -163,16 +163,13 @@ def _command_of(family: Family, described: Described) -> click.Command:
         sampled = [s for s in family.sampled if s.printed]
 
         def floats() -> dict[str, Any]:
-            motion = family.kernels()(*values_of(family, options, exact=False))
-            columns = _columns(sampled, motion, times)
-            lines = _spectrum(motion, options)
-            return named | _quantities(family, motion, times, columns, exact=False) | _recorded(lines)
+            return named | _answers(family, _kernel(family, options), times, sampled, options)
 
         @cache
         def near() -> list[Any]:
             """Return the quaternions in doubles, which have a sign; none where that is not known."""
             try:
-                return list(along(family.kernels()(*values_of(family, options, exact=False)).quaternion, times))
+                return list(along(_kernel(family, options).quaternion, times))
             except NotCertifiedError:
                 return [None for _ in times]
 
@@ -253,12 +250,11 @@ def _with_sigma(
     def answered(values: dict[str, Any]) -> dict[str, Any]:
         motion = motion_in_given_axes(values) if family.name == "asymmetric" else None
         answering = family if motion is None else FAMILIES[motion.family]
-        motion = answering.kernels()(*values_of(answering, values, exact=False)) if motion is None else motion
-        columns = _columns([s for s in sampled if hasattr(motion, s.method)], motion, times)
+        motion = _kernel(answering, values) if motion is None else motion
         answers = {"family": answering.name} if described.name == "motion" else {}
         if values is not options:  # a proof that is a sentence is said once
             answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
-        answers |= _quantities(answering, motion, times, columns, exact=False)
+        answers |= _answers(answering, motion, times, [s for s in sampled if hasattr(motion, s.method)], values)
         larmor = in_field(family) and values["magnetic"] is not None
         return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
 
@@ -351,15 +347,11 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
         )
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-    columns = _columns(sampled, motion, times)
-    record, lines = (
-        {"family": family.name} | _quantities(family, motion, times, columns, exact=False),
-        _spectrum(motion, options),
-    )
+    record = {"family": family.name} | _answers(family, motion, times, sampled, options)
     if options["as_json"]:
         known = body_of(motion.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
-        dump({"parameters": parameters, **principal, **record, **_recorded(lines)})
+        dump({"parameters": parameters, **principal, **record})
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
@@ -372,12 +364,23 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
         _show_lines(family, options, motion)
 
 
-def _columns(sampled: Sequence[Sampled], motion: Any, times: Sequence[float]) -> dict[str, Any]:
-    """Return what a motion has at the times by name; in given axes m is that of the body, not over I2 as in tables."""
+def _kernel(family: Family, options: dict[str, Any]) -> Any:
+    """Return the object of kernels that the options say."""
+    return family.kernels()(*values_of(family, options, exact=False))
+
+
+def _answers(
+    family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled], options: dict[str, Any]
+) -> dict[str, Any]:
+    """Return what there is of a motion in doubles: quantities, what it has at the times, lines that are asked for.
+
+    In given axes m is that of the body, not over I2 as in tables.
+    """
     columns = {s.name: along(s.method_of(motion), times) for s in sampled}
     own = getattr(motion, "own", None)
     I2 = getattr(own.arguments.get("ratio"), "I2", 1.0) if own else 1.0
-    return columns | {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}
+    columns |= {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}
+    return _quantities(family, motion, times, columns, exact=False) | _recorded(_spectrum(motion, options))
 
 
 def _check_spectrum(options: dict[str, Any]) -> None:
@@ -411,7 +414,7 @@ def _show_lines(family: Family, options: dict[str, Any], motion: Any = None) -> 
     """Print lines that are asked for, one a row, those of negative frequencies left out."""
     if not options.get("spectrum"):
         return
-    lines = _spectrum(motion or family.kernels()(*values_of(family, options, exact=False)), options)
+    lines = _spectrum(motion or _kernel(family, options), options)
     unit = _units(family, options).get(RATE, RATE)
     rows = [
         [*map(str, c), f"{f:.10g}", f"{size:.6g}"]

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import FILE, REAL, Command, Place, examples, stack
+from atlas.cli.options import FILE, REAL, Command, Place, examples, json_option, stack
 from atlas.cli.present import dump, picture
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
@@ -44,7 +44,7 @@ fit_options: Callable[[Any], Any] = stack(
 @click.option(
     "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw data, curve, residuals: svg, pdf, png."
 )
-@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+@json_option
 def command(file: Path, **options: Any) -> int:
     """Find inertia, field and start of a motion from measured attitudes, axes, angular velocities or fields.
 

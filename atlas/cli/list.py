@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from atlas.cli.body import shapes
-from atlas.cli.options import Command
+from atlas.cli.options import Command, json_option
 from atlas.cli.present import Printout, dump, show
 from atlas.errors import AtlasError
 
@@ -25,7 +25,7 @@ LISTS = ("figures", "reports", "shapes")
 
 @click.command("list", cls=Command)
 @click.argument("which", required=False, type=click.Choice(LISTS))
-@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+@json_option
 def command(which: str | None, as_json: bool) -> int:
     """Name the figures with titles and parameters, the reports, and the shapes of bodies with their dimensions.
 

@@ -378,8 +378,12 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
     return apply
 
 
+json_option: Callable[[F], F] = click.option(
+    "--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."
+)
+
 output_options: Callable[[F], F] = stack(
-    click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."),
+    json_option,
     click.option(
         "--digits",
         type=click.IntRange(1, 1000),

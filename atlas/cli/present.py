@@ -4,7 +4,7 @@ import json
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -224,15 +224,30 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
     if not sys.stderr.isatty():
         yield _lines(title, every) if every else lambda _done, _total, _what: None
         return
-    with ExitStack() as stack:
-        shown: list[Progress] = []
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Display
 
-        def tell(done: int, total: int, what: str) -> None:
-            if not shown:
-                shown.append(stack.enter_context(_display(title)))
-            shown[0](done, total, what)
+    columns = (
+        TextColumn("[bold]{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[what]}"),
+    )
+    display = Display(*columns, console=Console(stderr=True), transient=True)
 
+    def tell(done: int, total: int, what: str) -> None:
+        if not display.tasks:
+            display.start()
+            display.add_task(title, total=None, what="")
+        display.update(display.task_ids[0], completed=done, total=total, what=what)
+
+    try:
         yield tell
+    finally:
+        if display.tasks:
+            display.stop()
 
 
 def _lines(title: str, every: float) -> Progress:
@@ -249,22 +264,3 @@ def _lines(title: str, every: float) -> Progress:
             click.echo(f"{title}: {done_of} after {since}", err=True)
 
     return tell
-
-
-@contextmanager
-def _display(title: str) -> Iterator[Progress]:
-    """Show a bar."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
-    from rich.progress import Progress as Display
-
-    columns = (
-        TextColumn("[bold]{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("{task.fields[what]}"),
-    )
-    with Display(*columns, console=Console(stderr=True), transient=True) as display:
-        task = display.add_task(title, total=None, what="")
-        yield lambda done, total, what: display.update(task, completed=done, total=total, what=what)

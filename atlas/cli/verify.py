@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import Command, examples
+from atlas.cli.options import Command, examples, json_option
 from atlas.cli.present import Printout, bar, dump, show
 from atlas.paper.plain import plain
 
@@ -35,7 +35,7 @@ COLUMNS = (
 @click.option("--anew", is_flag=True, help="Try everything, also what was tried before with the same proof.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
 @click.option("--script", is_flag=True, help="Print the proof of one equation as a script of SymPy, nothing else.")
-@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+@json_option
 def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script: bool, as_json: bool) -> int:
     """Try equations and claims of the paper, all if none is named, on the form as printed.
 
