@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from atlas.cli.measured import RATE, WANTED
-from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, stack
+from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, numbers, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.errors import nearest
 
@@ -40,17 +40,17 @@ def points_option(axes: str) -> Callable[[F], F]:
 
 
 shape_options: Callable[[F], F] = stack(
-    click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
+    numbers("ratio", "I = I3/I2, in (0, 2]."),
     click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
-    click.option("--radius", type=REAL, help="Radius of the shape."),
-    click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
+    numbers("radius", "Radius of the shape."),
+    numbers("height", "Height of a cylinder or cylindrical shell."),
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
-    click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
-    click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
-    click.option("--density", type=REAL, help="Density of a solid shape, for --mass."),
+    numbers("equatorial", "Equatorial semi-axis of a spheroid."),
+    numbers("polar", "Polar semi-axis of a spheroid."),
+    numbers("density", "Density of a solid shape, for --mass."),
 )
 body_options: Callable[[F], F] = stack(
-    click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
+    numbers("inertia", "The two moments of inertia instead of I.", "I2 I3"),
     shape_options,
     points_option(""),
 )
@@ -58,24 +58,11 @@ body_options: Callable[[F], F] = stack(
 
 def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
     """Return the options that say what the field is, of so many components, along certain axes."""
-    count = len(components.split())
     return stack(
-        click.option(
-            "--field",
-            type=REAL,
-            nargs=count,
-            metavar=components,
-            help=f"Components of B' = mu B/(2c){along}, in 1/time.",
-        ),
-        click.option(
-            "--magnetic",
-            type=REAL,
-            nargs=count,
-            metavar=components,
-            help="Components of B itself; needs --mass --charge or --mu.",
-        ),
-        click.option("--mass", type=REAL, help="Mass of the body, with --charge."),
-        click.option("--charge", type=REAL, help="Charge of the body, either sign; with --magnetic."),
+        numbers("field", f"Components of B' = mu B/(2c){along}, in 1/time.", components),
+        numbers("magnetic", "Components of B itself; needs --mass --charge or --mu.", components),
+        numbers("mass", "Mass of the body, with --charge."),
+        numbers("charge", "Charge of the body, either sign; with --magnetic."),
         click.option(
             "--mu", "--charge-to-mass", type=REAL, help="Charge-to-mass ratio mu = e/m instead (no magnetic moment)."
         ),
@@ -90,36 +77,30 @@ def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
 
 field_options: Callable[[F], F] = stack(
     field_options_of("B2 B3"),
-    click.option("--angle", type=REAL, help="Angle between field and axis: --magnetic or --field is one number then."),
+    numbers("angle", "Angle between field and axis: --magnetic or --field is one number then."),
 )
 any_body_options: Callable[[F], F] = stack(
-    click.option("--inertia", type=REAL, nargs=3, metavar="I1 I2 I3", help="Principal moments of inertia."),
+    numbers("inertia", "Principal moments of inertia.", "I1 I2 I3"),
     points_option("; x, y, z are principal axes"),
     shape_options,
     field_options_of("B1 B2 B3", " along the principal axes at t = 0"),
 )
 """Body and field where the three moments may differ."""
-tensor_option: Callable[[F], F] = click.option(
-    "--tensor",
-    type=REAL,
-    nargs=6,
-    metavar="I11 I22 I33 I12 I13 I23",
-    help="Inertia tensor in any axes of the body; I12 is -sum m x y, as it stands in the matrix.",
+tensor_option: Callable[[F], F] = numbers(
+    "tensor",
+    "Inertia tensor in any axes of the body; I12 is -sum m x y, as it stands in the matrix.",
+    "I11 I22 I33 I12 I13 I23",
 )
 curve_option: Callable[[F], F] = click.option(
     "--curve", is_flag=True, help="The spectral curve of a motion on a torus, its branch points, periods and so on."
 )
-attitude_option: Callable[[F], F] = click.option(
-    "--attitude",
-    type=REAL,
-    nargs=4,
-    metavar="X Y Z W",
-    help="R(0) as a quaternion, its scalar last; the field is then along the axes of the laboratory.",
+attitude_option: Callable[[F], F] = numbers(
+    "attitude",
+    "R(0) as a quaternion, its scalar last; the field is then along the axes of the laboratory.",
+    "X Y Z W",
 )
-start_option: Callable[[F], F] = click.option(
-    "--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Angular velocity at t = 0, of any motion."
-)
-spin_option: Callable[[F], F] = click.option("--spin", type=REAL, help="Initial angular velocity about e3 alone.")
+start_option: Callable[[F], F] = numbers("omega", "Angular velocity at t = 0, of any motion.", "W1 W2 W3")
+spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about e3 alone.")
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:

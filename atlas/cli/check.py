@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import FILE, REAL, Command, Place, are_of_any_body, examples, json_option, stack
+from atlas.cli.options import FILE, Command, Place, are_of_any_body, examples, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
@@ -15,9 +15,7 @@ OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 
 file_argument: Callable[[Any], Any] = click.argument("files", type=FILE, metavar="FILE.csv...", nargs=-1, required=True)
 graded_options: Callable[[Any], Any] = stack(
-    click.option(
-        "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
-    ),
+    numbers("threshold", "Correct digits below which a column fails.", default="6", show_default=True),
     click.option(
         "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
     ),
@@ -72,14 +70,12 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @body.field_options
 @body.start_option
 @body.spin_option
-@click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion.")
-@click.option("--omega3", type=REAL, help="Third component, where (71) leaves it free.")
-@click.option(
-    "--direction", type=REAL, nargs=2, metavar="N2 N3", help="Of a top, as in atlas top, in place of a field."
-)
-@click.option("--coupling", type=REAL, nargs=2, metavar="K2 K3", help="Of a top, as in atlas top.")
-@click.option("--linear", type=REAL, help="Of a top, as in atlas top.")
-@click.option("--quadratic", type=REAL, help="Of a top, as in atlas top.")
+@numbers("omega2", "Its second component alone, of an elementary motion.")
+@numbers("omega3", "Third component, where (71) leaves it free.")
+@numbers("direction", "Of a top, as in atlas top, in place of a field.", "N2 N3")
+@numbers("coupling", "Of a top, as in atlas top.", "K2 K3")
+@numbers("linear", "Of a top, as in atlas top.")
+@numbers("quadratic", "Of a top, as in atlas top.")
 @graded_options
 def command(files: tuple[Path, ...], **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.

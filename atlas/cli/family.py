@@ -11,13 +11,13 @@ import click
 
 from atlas.cli import body
 from atlas.cli.options import (
-    REAL,
     Command,
     are_of_any_body,
     chosen_times,
     exactly,
     examples,
     given,
+    numbers,
     output_options,
     stack,
     times_options,
@@ -90,12 +90,12 @@ spectrum_options = stack(
         flag_value="axis", metavar="[OF]",
         help="Lines of the axis, or of the rotation, angular_velocity or field in the body: frequencies, amplitudes.",
     ),
-    click.option("--least", type=REAL, default="1e-3", show_default=True, help="Least amplitude, of the whole."),
+    numbers("least", "Least amplitude, of the whole.", default="1e-3", show_default=True),
 )  # fmt: skip
 
 charge_options = stack(
-    click.option("--mass", type=REAL, help="Mass, with --charge."),
-    click.option("--charge", type=REAL, help="Charge, either sign, with --mass: mu is their ratio."),
+    numbers("mass", "Mass, with --charge."),
+    numbers("charge", "Charge, either sign, with --mass: mu is their ratio."),
 )
 
 
@@ -465,14 +465,11 @@ def in_field(family: Family) -> bool:
 
 def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     """Return the option of a parameter."""
-    count = len(p.names)
-    more: dict[str, Any] = {"nargs": count, "metavar": p.metavar} if count > 1 else {}
-    if needed:
-        more["required"] = True
-    elif p.omitted is not None:
-        typed = f"{p.omitted:g}"
-        more |= {"default": (typed,) * count} if count > 1 else {"default": typed, "show_default": True}
-    return click.option(f"--{p.name}", type=REAL, help=p.says, **more)
+    more: dict[str, Any] = {"required": True} if needed else {}
+    if not needed and p.omitted is not None:
+        typed, count = f"{p.omitted:g}", len(p.names)
+        more = {"default": (typed,) * count} if count > 1 else {"default": typed, "show_default": True}
+    return numbers(p.name, p.says, p.metavar or "", **more)
 
 
 def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:

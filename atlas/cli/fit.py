@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import FILE, REAL, Command, Place, examples, json_option, stack
+from atlas.cli.options import FILE, REAL, Command, Place, examples, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
@@ -17,15 +17,15 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 fit_options: Callable[[Any], Any] = stack(
     click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions."),
     click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, of several kinds."),
-    click.option("--sigma", type=REAL, help="Standard error of each number, of attitudes and axes in radians."),
+    numbers("sigma", "Standard error of each number, of attitudes and axes in radians."),
     click.option("--fix", multiple=True, metavar="NAME=VALUE [...]", help="Parameters that are known."),
     click.option("--start", multiple=True, metavar="NAME=VALUE [...]", help="Where a parameter is sought first."),
-    click.option("--epoch", type=REAL, default="0", show_default=True, help="Time at which the parameters hold."),
+    numbers("epoch", "Time at which the parameters hold.", default="0", show_default=True),
     click.option(
         "--loss", type=click.Choice(LOSSES), default="linear", show_default=True, help="Other ones bear outliers."
     ),
     click.option("--predict", multiple=True, type=REAL, metavar="T [T ...]", help="Predict what was measured."),
-    click.option("--horizon", type=REAL, metavar="ERROR", help="Until when a prediction is that good."),
+    numbers("horizon", "Until when a prediction is that good.", "ERROR"),
 )
 
 

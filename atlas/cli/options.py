@@ -378,6 +378,12 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
     return apply
 
 
+def numbers(name: str, says: str, metavar: str = "", **more: Any) -> Callable[[F], F]:
+    """Return the option of a number, or of as many as there are words in `metavar`."""
+    several: dict[str, Any] = {"nargs": len(metavar.split()), "metavar": metavar} if metavar else {}
+    return click.option(f"--{name}", type=REAL, help=says, **several, **more)
+
+
 json_option: Callable[[F], F] = click.option(
     "--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."
 )
@@ -420,9 +426,7 @@ times_options: Callable[[F], F] = stack(
     click.option(
         "--times", multiple=True, type=REAL, metavar="T [T ...]", help="Times, or ranges START:STOP:COUNT[:log]."
     ),
-    click.option(
-        "--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="The same by a step; or START:STOP:COUNT."
-    ),
+    numbers("grid", "The same by a step; or START:STOP:COUNT.", "START STEP COUNT"),
 )
 
 

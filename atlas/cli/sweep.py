@@ -12,7 +12,7 @@ import msgspec
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
 from atlas.cli.measured import split
-from atlas.cli.options import REAL, Command, Place, are_of_any_body, examples, given, pair, stack
+from atlas.cli.options import REAL, Command, Place, are_of_any_body, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.families import FAMILIES
@@ -172,7 +172,7 @@ def of_three_moments() -> click.Command:
     body.field_options,
     body.start_option,
     body.spin_option,
-    click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion."),
+    numbers("omega2", "Its second component alone, of an elementary motion."),
 )
 def command(**options: Any) -> None:
     """Sweep over symmetric bodies."""

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, start_of, units_of
-from atlas.cli.options import FILE, REAL, Real, given, stack
+from atlas.cli.options import FILE, Real, given, numbers, stack
 from atlas.cli.points import columns_of
 
 WAYS = ("heavy", "magnetic")
@@ -20,24 +20,25 @@ top_options: Callable[[F], F] = stack(
     click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Lagrange's top: gravity, and the distance of "
                  "the centre of mass along the axis from the point at which the body is held, in SI; --inertia is "
                  "about the centre of mass. Needs --mass, but with --points."),
-    click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="A charged body in this magnetic field, which "
-                 "is the direction too. Needs --charged, --coat or --points. With --heavy, a charged heavy top, up is "
-                 "along the field, or as --direction says against it."),
-    click.option("--mass", type=REAL, help="Mass of the body: with --heavy or --shape."),
+    numbers("magnetic", "A charged body in this magnetic field, which is the direction too. Needs --charged, --coat or "
+            "--points. With --heavy, a charged heavy top, up is along the field, or as --direction says against it.",
+            "B2 B3"),
+    numbers("mass", "Mass of the body: with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="A body with dimensions for --inertia: ring, disk, ...; see atlas "
                  "list."),
-    *(click.option(f"--{name}", type=REAL, help=f"{name.capitalize()}{rest} of the shape, see atlas list.") for
-      name, rest in (("radius", ""), ("height", ""), ("equatorial", " semi-axis"), ("polar", " semi-axis"))),
+    numbers("radius", "Radius of the shape, see atlas list."),
+    numbers("height", "Height of the shape, see atlas list."),
+    numbers("equatorial", "Equatorial semi-axis of the shape, see atlas list."),
+    numbers("polar", "Polar semi-axis of the shape, see atlas list."),
     click.option("--points", type=FILE, metavar="FILE", help="Point masses and "
                  "charges instead: a CSV file with the columns x, y, z, mass, charge; the axis is z."),
-    click.option("--charged", type=REAL, nargs=2, metavar="J2 J3", help="Moments of the charges, across and along the "
-                 "axis, about the centre of mass, with --heavy about the point: charge times length squared."),
+    numbers("charged", "Moments of the charges, across and along the axis, about the centre of mass, with --heavy "
+            "about the point: charge times length squared.", "J2 J3"),
     click.option("--coat", metavar="NAME", help="The charge is spread over this shape, of the dimensions of the body; "
                  "needs --charge."),
-    click.option("--charge", type=REAL, help="Charge of the coat, either sign."),
-    click.option("--moment", type=REAL, help="Magnetic moment along the axis, with --magnetic."),
-    click.option("--polarizability", type=REAL, nargs=2, metavar="A2 A3", help="Moments that a unit field induces "
-                 "across and along the axis."),
+    numbers("charge", "Charge of the coat, either sign."),
+    numbers("moment", "Magnetic moment along the axis, with --magnetic."),
+    numbers("polarizability", "Moments that a unit field induces across and along the axis.", "A2 A3"),
     click.option("--units", type=click.Choice(["si", "gaussian"]), help="Of --magnetic and what goes with it: kg, m, "
                  "C, T (the default), or g, cm, statC, G."),
 )  # fmt: skip
