@@ -69,7 +69,8 @@ def lay_out(record: dict[str, Any]) -> None:
         figures.append([name, title])
         words = [_shown(*parameter) for parameter in record["parameters"].get(name, {}).items()]
         words += [f"(needs {record['narrowest'][name]:g} mm)"] if name in record["narrowest"] else []
-        figures += [["", line] for line in _lines(words)]
+        lines = textwrap.wrap("  ".join(words), WIDTH, break_on_hyphens=False, break_long_words=False)
+        figures += [["", line] for line in lines]
     for heading, rows in (
         (("figure", "title; parameters with defaults and [ranges]"), figures),
         (("report", "title"), list(record["reports"].items())),
@@ -94,11 +95,6 @@ def _shown(name: str, record: dict[str, Any]) -> str:
     word = name if record["default"] is None else f"{name}={typed(record['default'])}"
     ends = "[{:g},{:g}]".format(*record["range"]) if "range" in record else ""
     return f"{word}{ends}"
-
-
-def _lines(words: list[str]) -> list[str]:
-    """Set words in lines, and break none."""
-    return textwrap.wrap("  ".join(words), WIDTH, break_on_hyphens=False, break_long_words=False)
 
 
 def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:

@@ -258,7 +258,12 @@ def _plain(value: Any) -> Any:
 
 def _body(options: dict[str, Any]) -> dict[str, Any]:
     """Return the body as a report file has it."""
-    parameters = {name: _plain(value) for name, value in body.body_parameters(options).items() if _of_body(name, value)}
+    of_field = {"field", "magnetic", "mu", "units"}
+    parameters = {
+        name: _plain(value)
+        for name, value in body.body_parameters(options).items()
+        if name not in of_field and not isinstance(value, str)
+    }
     if options["points"] is not None:
         masses = points(options["points"])
         parameters |= {"inertia": [masses.I2, masses.I3]}
@@ -268,10 +273,6 @@ def _body(options: dict[str, Any]) -> dict[str, Any]:
         parameters = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | parameters
     title = options["shape"].replace("-", " ").replace("_", " ") if options["shape"] else "body"
     return {"title": title, **parameters}
-
-
-def _of_body(name: str, value: Any) -> bool:
-    return name not in {"field", "magnetic", "mu", "units"} and not isinstance(value, str)
 
 
 def _field(options: dict[str, Any]) -> dict[str, Any]:

@@ -104,12 +104,8 @@ def dump(record: dict[str, Any]) -> None:
     """
     reasons: dict[str, str] = dict(record.get("missing", {}))
     document = plain(record, "", reasons) | ({"missing": reasons} if reasons else {})
-    click.echo(json.dumps(document, ensure_ascii=not _unicode(), allow_nan=False, indent=None))
-
-
-def _unicode() -> bool:
-    """Whether all letters can be printed."""
-    return (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
+    all_letters = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
+    click.echo(json.dumps(document, ensure_ascii=not all_letters, allow_nan=False, indent=None))
 
 
 def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:

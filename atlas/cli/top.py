@@ -46,7 +46,7 @@ top_options: Callable[[F], F] = stack(
 
 def given_otherwise(options: Mapping[str, Any]) -> bool:
     """Say whether the top is given by a way of its own."""
-    return any(options[name] is not None for name in WAYS)
+    return bool(given(options, WAYS))
 
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
@@ -181,12 +181,11 @@ def _needs(options: Mapping[str, Any], name: str, other: str) -> None:
 
 def _goes_with(options: Mapping[str, Any], names: Sequence[str], others: Sequence[str]) -> None:
     """Refuse options that say nothing without one of some others."""
-    for name in names:
-        if options.get(name) is not None and all(options[other] is None for other in others):
+    if not given(options, others):
+        for name in given(options, names):
             raise click.UsageError(f"--{name} goes with {' or '.join(f'--{other}' for other in others)}.")
 
 
 def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, other: str) -> None:
-    for name in names:
-        if options[name] is not None:
-            raise click.UsageError(f"--{name} goes with {way}, not with {other}.")
+    for name in given(options, names):
+        raise click.UsageError(f"--{name} goes with {way}, not with {other}.")

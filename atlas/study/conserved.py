@@ -6,7 +6,6 @@ from itertools import islice
 from typing import Any, TypeAlias
 
 import numpy as np
-from flint import fmpq
 
 from atlas.core.inputs import FloatArray
 from atlas.exact.motions.elementary import ElementaryMotion
@@ -64,11 +63,9 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
     yield from _rigid(columns, R)
     I, B2, B3 = (long(x) for x in (motion.I, motion.B2, motion.B3))
     K = None if R is None else B2 * R[:, 1] + B3 * R[:, 2]
-    scales = _scales(motion)
-    for name, says, label, value in _integrals(I, Omega, K):
-        if name not in motion.invariants:
-            continue
-        yield name, says, label, (value - long(motion.invariants[name])) / (long(scales[name]) or 1)
+    for name, says, label, value, size in _integrals(motion, Omega, K):
+        if name in motion.invariants:
+            yield name, says, label, (value - long(motion.invariants[name])) / (long(size) or 1)
     if Omega is not None and K is not None:
         tensor = np.diag([np.longdouble(1), np.longdouble(1), I])
         spin = np.array([long(w) for w in motion.omega])
@@ -156,31 +153,21 @@ def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviat
         yield name, says, label, (value - true) / (size or 1)
 
 
-def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]]:
-    """Yield the integrals of motion that Omega and K determine."""
+def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> Iterable[Value]:
+    """Yield the integrals of motion that Omega and K determine, with their sizes at the start."""
     w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
-    E, K2, c3, c5 = formulas.integrals(I, w, k)
-    if Omega is not None:
-        yield "E'", "energy 2 E/I2", "(36)", E
-    if K is not None:
-        yield "K^2", "length of the field in the body, squared", "(37)", K2
-    if Omega is not None and K is not None:
-        yield "c3", "K3 + Omega3", "(40)", c3
-        yield "c5", "the fourth integral", "(41)", c5
-        yield "(m,B')", "momentum along the field, over I2", "(88)", formulas.along_field(I, w, k)
-
-
-def _scales(motion: ElementaryMotion | GeneralMotion) -> dict[str, fmpq]:
-    """Return the size of each integral: the sum of the absolute values of its terms."""
+    E, K2, c3, c5 = formulas.integrals(long(motion.I), w, k)
     I, B2, B3 = motion.I, abs(motion.B2), abs(motion.B3)
     w1, w2, w3 = (abs(w) for w in motion.omega)
-    return {
-        "E'": w1**2 + w2**2 + I * w3**2,
-        "K^2": B2**2 + B3**2,
-        "c3": w3 + B3,
-        "c5": w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3,
-        "(m,B')": w2 * B2 + I * w3 * B3,
-    }
+    if Omega is not None:
+        yield "E'", "energy 2 E/I2", "(36)", E, w1**2 + w2**2 + I * w3**2
+    if K is not None:
+        yield "K^2", "length of the field in the body, squared", "(37)", K2, B2**2 + B3**2
+    if Omega is not None and K is not None:
+        yield "c3", "K3 + Omega3", "(40)", c3, w3 + B3
+        yield "c5", "the fourth integral", "(41)", c5, w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3
+        along = formulas.along_field(long(I), w, k)
+        yield "(m,B')", "momentum along the field, over I2", "(88)", along, w2 * B2 + I * w3 * B3
 
 
 def _matrices(columns: Mapping[str, Any], count: int) -> Any:
