@@ -256,6 +256,13 @@ def system_of(options: Mapping[str, Any]) -> str:
     return options["units"] or ("si" if charged or typed else "natural")
 
 
+def speed_of_light(options: Mapping[str, Any]) -> float:
+    """Return the factor c of (32) and (93) in the system of units."""
+    from atlas.core.bodies.units import GAUSSIAN
+
+    return GAUSSIAN.c if system_of(options) == "gaussian" else 1.0
+
+
 def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
     """Return the numbers with a unit, which is in SI. Raises click.UsageError for one beside another system."""
     typed = measured(options)
@@ -324,9 +331,8 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
         return tuple(options["field"])
     from atlas.core.bodies.field import Field
 
-    maker = {"natural": Field, "gaussian": Field.gaussian, "si": Field.si}[system_of(options)]
     typed = options["magnetic"]
-    prime = maker(B=(0.0,) * (3 - len(typed)) + typed, mu=charge_to_mass_of(options)).prime
+    prime = Field((0.0,) * (3 - len(typed)) + typed, mu=charge_to_mass_of(options), c=speed_of_light(options)).prime
     return tuple(float(x) for x in prime[3 - len(typed) :])
 
 
@@ -337,11 +343,9 @@ def exact_field(options: dict[str, Any]) -> Any:
     field = chosen_field(options)
     if options["magnetic"] is None:
         return exactly(field, options)
-    from atlas.core.bodies.units import GAUSSIAN
     from atlas.exact.inputs import rational
 
-    c = GAUSSIAN.c if system_of(options) == "gaussian" else 1
-    factor = exact_charge_to_mass(options) / (2 * rational(c, "c"))
+    factor = exact_charge_to_mass(options) / (2 * rational(speed_of_light(options), "c"))
     return [factor * rational(B, "B") for B in options["magnetic"]]
 
 

@@ -486,19 +486,10 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
         elif p.name == "mu":
             yield (body.exact_charge_to_mass if exact else body.charge_to_mass_of)(options, "A point charge")
         elif p.name == "c":
-            yield _speed_of_light(body.system_of(options))
+            yield body.speed_of_light(options)
         else:
             value = body.start_of(options) if p.name == "omega" and "spin" in options else options[p.name]
             yield exactly(value, options) if exact else value
-
-
-def _speed_of_light(units: str) -> float:
-    """Return the factor c of (93) in a system of units."""
-    if units == "natural":
-        return 1.0
-    from atlas.core.bodies.units import system
-
-    return system(units).c
 
 
 class Best(dict[tuple[str, Any], Any]):
