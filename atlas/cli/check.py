@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import FILE, Command, Place, are_of_any_body, examples, json_option, numbers, stack
+from atlas.cli.options import FILE, Command, Place, are_of_any_body, examples, given, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
@@ -44,12 +44,9 @@ graded_options: Callable[[Any], Any] = stack(
 @graded_options
 def three_moments(files: tuple[Path, ...], **options: Any) -> int:
     """Grade against the motion of a body with three moments of inertia."""
-    field = any(options[name] is not None for name in ("field", "magnetic"))
     J = body.given_tensor(options)
     inertia = body.chosen_moments(options) if J is None else (J[0][0], J[1][1], J[2][2], J[0][1], J[0][2], J[1][2])
-    parameters = {"inertia": inertia, "omega": body.start_of(options, needed=False)}
-    parameters["attitude"] = options["attitude"]
-    return _graded(files, options, parameters | ({"field": body.chosen_field(options)} if field else {}))
+    return _graded(files, options, {"inertia": inertia, "attitude": options["attitude"]})
 
 
 @click.command(
@@ -95,21 +92,20 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.
     """
-    field = any(options[name] is not None for name in ("field", "magnetic"))
-    parameters = {name: options[name] for name in ("inertia", "omega2", "omega3", *OF_TOPS)}
-    parameters["omega"] = body.start_of(options, needed=False)
-    if options["inertia"] is None and any(options[name] is not None for name in body.BODY):
+    parameters = given(options, ("inertia", "omega2", "omega3", *OF_TOPS))
+    if options["inertia"] is None and given(options, body.BODY):
         parameters["ratio"] = body.chosen_body(options)
-    if field:
-        parameters["field"] = body.chosen_field(options)
     return _graded(files, options, parameters)
 
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
-    """Grade trajectories, show the grades, and return the status."""
+    """Grade trajectories against what has these parameters, field and start; show the grades, and return the status."""
     from atlas.study.check import check_file
     from atlas.study.order import convergence
 
+    parameters["omega"] = body.start_of(options, needed=False)
+    if given(options, ("field", "magnetic")):
+        parameters["field"] = body.chosen_field(options)
     if len(files) > 1 and not options["order"]:
         raise click.UsageError("several files are graded with --order; without it give one.")
     checks = [check_file(file, threshold=options["threshold"], **parameters) for file in files]
