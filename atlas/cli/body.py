@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from atlas.cli.measured import RATE, WANTED
-from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, numbers, stack
+from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, measured, numbers, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.errors import nearest
 
@@ -238,12 +238,6 @@ def mass_of(options: Mapping[str, Any]) -> Any:
             f"--density is of a solid --shape, {', '.join(volume)}, with its sizes and without --mass."
         )
     return options["density"] * volume[shape]
-
-
-def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
-    """Return the numbers that were typed with a unit, each with the name of its option."""
-    values = ((name, value if isinstance(value, tuple) else (value,)) for name, value in options.items())
-    return [(name, x) for name, several in values for x in several if isinstance(x, Typed) and x.unit]
 
 
 def system_of(options: Mapping[str, Any]) -> str:

@@ -17,8 +17,10 @@ from atlas.cli.options import (
     exactly,
     examples,
     given,
+    measured,
     numbers,
     output_options,
+    parts_of,
     stack,
     times_options,
 )
@@ -327,10 +329,9 @@ def in_principal_axes(motion: Any, unit: str = "") -> Principal:
             words += ["--inertia", repr(float(value.I2)), repr(float(value.I3))]
             value = value.ratio
         elif value is not None:
-            parts = value if isinstance(value, tuple) else (value,)
-            words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts)]
+            words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts_of(value))]
         if value is not None:
-            values[p.name] = tuple(float(x) for x in (value if isinstance(value, tuple) else (value,)))
+            values[p.name] = tuple(map(float, parts_of(value)))
     axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in motion.axes)
     return Principal(family, words, values, axes)
 
@@ -570,7 +571,7 @@ def _printout(
         for head in s.heading
     ]
     worth = worth.replace("printed", "printed, but of rounded lines,") if units else worth
-    turns = [f"{x.text} is {x:.10g} rad/s." for _, x in body.measured(options) if "Hz" in x.text]
+    turns = [f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text]
     notes = [*turns, *dict.fromkeys(texts.get("missing", {}).values()), worth]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")

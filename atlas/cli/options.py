@@ -435,6 +435,16 @@ def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
     return {name: options[name] for name in names if options.get(name) is not None}
 
 
+def parts_of(value: Any) -> tuple[Any, ...]:
+    """Return what was typed for an option: one value, or several."""
+    return value if isinstance(value, tuple) else (value,)
+
+
+def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
+    """Return the numbers that were typed with a unit, each with the name of its option."""
+    return [(name, x) for name, value in options.items() for x in parts_of(value) if isinstance(x, Typed) and x.unit]
+
+
 def exactly(value: Any, options: dict[str, Any]) -> Any:
     """Return a typed number, or several, as the certified floor takes them: doubles, or decimals with --decimal."""
     if isinstance(value, tuple | list):

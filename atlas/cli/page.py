@@ -22,7 +22,7 @@ from atlas.cli.family import (
     values_of,
 )
 from atlas.cli.fit import ahead, arguments, fit_options, fitted
-from atlas.cli.options import FILE, Command, examples, jobs_option, out_option, stack
+from atlas.cli.options import FILE, Command, examples, jobs_option, out_option, parts_of, stack
 from atlas.cli.points import points
 from atlas.cli.present import bar
 from atlas.cli.report import status_of
@@ -249,7 +249,7 @@ def _called(options: dict[str, Any]) -> str:
 
 
 def _texts(value: Any) -> tuple[str, ...]:
-    return tuple(getattr(x, "text", str(x)) for x in (value if isinstance(value, tuple) else (value,)))
+    return tuple(getattr(x, "text", str(x)) for x in parts_of(value))
 
 
 def _plain(value: Any) -> Any:

@@ -169,15 +169,12 @@ def certificate(options: dict[str, Any]) -> str:
 
 def _inputs(options: dict[str, Any]) -> str:
     """Return what digits are proven of: the numbers as typed, and those that are computed from them in doubles."""
-    from atlas.cli.options import Inclined, Typed
+    from atlas.cli.options import Inclined, measured
 
-    several = [x for value in options.values() for x in (value if isinstance(value, tuple) else (value,))]
     found = {name for name, value in options.items() if value is not None}
     rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in found))
     rounded += ["a field at an angle"] * any(isinstance(x, Inclined) for x in options.values())
-    rounded += ["numbers in turns or degrees"] * any(
-        isinstance(x, Typed) and x.unit and x.exact is None for x in several
-    )
+    rounded += ["numbers in turns or degrees"] * any(x.exact is None for _, x in measured(options))
     taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
     return taken + (f", and, rounded to doubles, {', '.join(rounded)}" if rounded else "")
 

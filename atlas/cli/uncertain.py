@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from atlas.cli.options import Typed
+from atlas.cli.options import Typed, parts_of
 from atlas.errors import DomainError
 
 STEP = 1 / 8
@@ -59,7 +59,7 @@ def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
 
 def _parts(value: Any) -> tuple[Any, ...]:
     """Return the numbers that were typed for an option."""
-    return getattr(value, "parts", value if isinstance(value, tuple) else (value,))
+    return getattr(value, "parts", parts_of(value))
 
 
 def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> Spread:
