@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import click
-import msgspec
 
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
@@ -179,19 +178,6 @@ def command(**options: Any) -> None:
     swept(**options)
 
 
-class Recipe(msgspec.Struct, forbid_unknown_fields=True):
-    """A sweep as it stands in a TOML file."""
-
-    family: str
-    quantities: list[str]
-    parameters: dict[str, float | int | str | list[float | int]] = {}
-    # not called list itself, which from Python 3.14 on would be what the annotations above mean
-    listing: str | None = msgspec.field(default=None, name="list")
-    out: str | None = None
-    digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None
-    rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
-
-
 def _meant(family: str, names: set[str]) -> str:
     """Return the family of motions that `motion` means, by the names of parameters."""
     if family != "motion":
@@ -225,8 +211,22 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
     return found | {name: float(x) for name, x in given(options, ["omega2"]).items()}
 
 
-def read(path: Path) -> Recipe:
+def read(path: Path) -> Any:
     """Return the sweep in a TOML file; click.UsageError says what is wrong with it."""
+    import msgspec
+
+    class Recipe(msgspec.Struct, forbid_unknown_fields=True):
+        """A sweep as it stands in a TOML file."""
+
+        family: str
+        quantities: list[str]
+        parameters: dict[str, float | int | str | list[float | int]] = {}
+        # not called list itself, which from Python 3.14 on would be what the annotations above mean
+        listing: str | None = msgspec.field(default=None, name="list")
+        out: str | None = None
+        digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None
+        rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
+
     try:
         recipe = msgspec.toml.decode(path.read_bytes(), type=Recipe)
     except OSError as error:
