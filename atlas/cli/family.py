@@ -165,7 +165,9 @@ def _command_of(family: Family, described: Described) -> click.Command:
         sampled = [s for s in family.sampled if s.printed]
 
         def floats() -> dict[str, Any]:
-            return named | _answers(family, _kernel(family, options), times, sampled, options)
+            motion = _kernel(family, options)
+            lines = _recorded(_spectrum(motion, options))
+            return named | _answers(family, motion, times, sampled) | lines
 
         @cache
         def near() -> list[Any]:
@@ -256,7 +258,7 @@ def _with_sigma(
         answers = {"family": answering.name} if described.name == "motion" else {}
         if values is not options:  # a proof that is a sentence is said once
             answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
-        answers |= _answers(answering, motion, times, [s for s in sampled if hasattr(motion, s.method)], values)
+        answers |= _answers(answering, motion, times, [s for s in sampled if hasattr(motion, s.method)])
         larmor = in_field(family) and values["magnetic"] is not None
         return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
 
@@ -348,7 +350,8 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
         )
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-    record = {"family": family.name} | _answers(family, motion, times, sampled, options)
+    record = {"family": family.name} | _answers(family, motion, times, sampled)
+    record |= _recorded(_spectrum(motion, options))
     if options["as_json"]:
         known = body_of(motion.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
@@ -370,10 +373,8 @@ def _kernel(family: Family, options: dict[str, Any]) -> Any:
     return family.kernels()(*values_of(family, options, exact=False))
 
 
-def _answers(
-    family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled], options: dict[str, Any]
-) -> dict[str, Any]:
-    """Return what there is of a motion in doubles: quantities, what it has at the times, lines that are asked for.
+def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:
+    """Return what there is of a motion in doubles: quantities, and what it has at the times.
 
     In given axes m is that of the body, not over I2 as in tables.
     """
@@ -381,7 +382,7 @@ def _answers(
     own = getattr(motion, "own", None)
     I2 = getattr(own.arguments.get("ratio"), "I2", 1.0) if own else 1.0
     columns |= {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}
-    return _quantities(family, motion, times, columns, exact=False) | _recorded(_spectrum(motion, options))
+    return _quantities(family, motion, times, columns, exact=False)
 
 
 def _check_spectrum(options: dict[str, Any]) -> None:
