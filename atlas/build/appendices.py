@@ -54,9 +54,8 @@ def _findings() -> dict[str, Finding]:
     from atlas.proof import recorded
 
     modules, scripts = _modules(), recorded.scripts()
-    findings = {}
-    for name, verdict in recorded.load().items():
-        findings[name] = Finding(
+    return {
+        name: Finding(
             verdict.verdict,
             verdict.method,
             verdict.follows,
@@ -71,7 +70,8 @@ def _findings() -> dict[str, Finding]:
             scripts.get(name, ""),
             verdict.said,
         )
-    return findings
+        for name, verdict in recorded.load().items()
+    }
 
 
 def _modules() -> dict[str, tuple[str, ...]]:

@@ -258,7 +258,7 @@ def test_an_entry_without_a_verdict_is_undecided(toml: Path) -> None:
     """What the record does not hold is not passed off as proved."""
     document = compose(load(toml), {}, _with(Finding("supported", "1000 samples", "(71)")))
     shown = [entry for page in document.pages for block in page.blocks for entry in getattr(block, "entries", ())]
-    assert {entry.name: entry.verdict for entry in shown} == dict.fromkeys(EQUATIONS, "undecided") | {
+    assert {entry.name: entry.finding.verdict for entry in shown} == dict.fromkeys(EQUATIONS, "undecided") | {
         "(72)": "supported"
     }
 

@@ -17,31 +17,34 @@ GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint
 
 @dataclass(frozen=True)
 class EntryView:
-    """An entry of the ledger with its verdict; texts are places in the manuscript.
+    """An entry of the ledger, what the trial found on it, and the numbers of its texts, None of what it does not have.
 
     `uses` fills while the report is gone through.
     """
 
-    name: str
-    number: str
-    kind: str
-    verdict: str
+    equation: Equation
+    finding: Finding
+    uses: list[Use]
     says: int
     formula: int
     assumptions: int | None
     how: int
     corrected: int | None
-    corrected_verdict: str
     note: int | None
     counterexample: int | None
-    modules: tuple[str, ...]
-    uses: list[Use]
-    grade: str = ""
-    slip: str = ""
-    quote: int | None = None
-    false: int | None = None
-    script: str = ""
-    said: int | None = None
+    quote: int | None
+    false: int | None
+    said: int | None
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.equation.name
+
+    @property
+    def number(self) -> str:
+        """Its number in print, or nothing."""
+        return self.name if self.equation.number is not None else ""
 
     @property
     def slug(self) -> str:
@@ -51,58 +54,37 @@ class EntryView:
     @property
     def same(self) -> str:
         """The entry that shares the slip, in links."""
-        return slug(self.slip)
-
-    @property
-    def texts(self) -> list[int]:
-        """The places in the manuscript of all its texts."""
-        every = (
-            *(self.says, self.quote, self.formula, self.assumptions),
-            *(self.how, self.corrected, self.note, self.false, self.said, self.counterexample),
-        )
-        return [number for number in every if number is not None]
+        return slug(self.finding.slip)
 
 
-def entries(
-    wanted: Callable[[Equation, Finding], bool],
-    findings: Mapping[str, Finding],
-    keep: Callable[..., int],
-    uses: Mapping[str, list[Use]],
-) -> tuple[EntryView, ...]:
-    """Return the entries that are wanted, in the paper's order; `keep` takes a text into the manuscript.
+def entries(composer: Composer, wanted: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
+    """Return the entries that are wanted, in the paper's order, their texts taken in.
 
     An entry that the trial has no finding on is undecided.
     """
     nothing = Finding("undecided", "not tried", "")
-    pairs = ((entry, findings.get(name, nothing)) for name, entry in EQUATIONS.items())
-    return tuple(_entry(entry, finding, keep, uses[entry.name]) for entry, finding in pairs if wanted(entry, finding))
+    pairs = ((entry, composer.recorded.findings.get(name, nothing)) for name, entry in EQUATIONS.items())
+    return tuple(_entry(entry, finding, composer) for entry, finding in pairs if wanted(entry, finding))
 
 
-def _entry(entry: Equation, finding: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
+def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
     def words(markdown: str) -> int | None:
-        return keep(markdown, inline=True) if markdown else None
+        return composer.text(markdown, inline=True) if markdown else None
 
     how = finding.method if not finding.follows else f"{finding.method}, from {finding.follows}"
     return EntryView(
-        name=entry.name,
-        number=entry.name if entry.number is not None else "",
-        kind=entry.kind,
-        verdict=finding.verdict,
-        says=keep(entry.says, inline=True),
-        formula=keep(_display(entry.tex)),
+        entry,
+        finding,
+        composer.uses[entry.name],
+        says=composer.text(entry.says, inline=True),
+        formula=composer.text(_display(entry.tex)),
         assumptions=words("; ".join(entry.assumptions)),
-        how=keep(how, inline=True),
-        corrected=keep(_display(finding.corrected)) if finding.corrected else None,
-        corrected_verdict=finding.corrected_verdict,
+        how=composer.text(how, inline=True),
+        corrected=composer.text(_display(finding.corrected)) if finding.corrected else None,
         note=words(finding.note),
         counterexample=words(written(finding.counterexample, entry.section) if finding.counterexample else ""),
-        modules=finding.modules,
-        uses=uses,
-        grade=finding.grade,
-        slip=finding.slip,
-        quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
-        false=keep(f"“{finding.false}.”", inline=True) if finding.false else None,
-        script=finding.script,
+        quote=words(f"“{entry.quote}”" if entry.quote else ""),
+        false=words(f"“{finding.false}.”" if finding.false else ""),
         said=words("; ".join(_reading(*pair) for pair in finding.said.items())),
     )
 
@@ -116,8 +98,8 @@ def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
     place = {entry.name: number for number, entry in enumerate(entries)}
 
     def order(entry: EntryView) -> tuple[int, int, bool, int]:
-        own = place[entry.name]
-        return GRADES.index(entry.grade), place.get(entry.slip, own), bool(entry.slip), own
+        own, found = place[entry.name], entry.finding
+        return GRADES.index(found.grade), place.get(found.slip, own), bool(found.slip), own
 
     return tuple(sorted(entries, key=order))
 
@@ -156,18 +138,13 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
     for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
             composer.number(name)
-    return LedgerView(
-        entries(
-            lambda entry, _: entry.section == block.section, composer.recorded.findings, composer.text, composer.uses
-        )
-    )
+    return LedgerView(entries(composer, lambda entry, _: entry.section == block.section))
 
 
 def view_errata(_block: Errata, composer: Composer) -> ErrataView:
     """Set out the entries with a slip, the grave ones first; a note that several share is said once."""
     composer.document.errata = composer.slug
-    findings = composer.recorded.findings
-    ordered = by_grade(entries(lambda _, finding: bool(finding.grade), findings, composer.text, composer.uses))
-    first = {findings[entry.name].note: entry.name for entry in reversed(ordered)}
-    once = (entry if first[findings[entry.name].note] == entry.name else replace(entry, note=None) for entry in ordered)
+    ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))
+    first = {entry.finding.note: entry.name for entry in reversed(ordered)}
+    once = (entry if first[entry.finding.note] == entry.name else replace(entry, note=None) for entry in ordered)
     return ErrataView(tuple(once), composer.ledger)

@@ -49,11 +49,6 @@ class ReferenceView:
 
     entries: tuple[DescribedView, ...]
 
-    @property
-    def texts(self) -> list[int]:
-        """The numbers of all texts."""
-        return [member.text for entry in self.entries for member in (entry, *entry.members)]
-
 
 def view_reference(block: Reference, composer: Composer) -> ReferenceView:
     """Take in the docstrings of the names that a block lists."""
