@@ -7,6 +7,7 @@ import sys
 from functools import cache
 from importlib import import_module, invalidate_caches
 from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 
@@ -43,6 +44,13 @@ def release(library: str) -> str | None:
         return version(library)
     except PackageNotFoundError:
         return None
+
+
+def carried(package: str, pattern: str) -> Path | None:
+    """Return a file that a package carries, None without it; the package itself, which takes longer, is not loaded."""
+    spec = find_spec(package)
+    folders = (spec.submodule_search_locations or ()) if spec else ()
+    return next((file for folder in folders for file in Path(folder).glob(pattern)), None)
 
 
 def versions() -> dict[str, str]:

@@ -9,13 +9,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from html import unescape
-from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
 
 from atlas.errors import AtlasError
-from atlas.libraries import release
+from atlas.libraries import carried, release
 
 ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "\u00a0\u2009\u202f\u2212\u2013\u2014\u2018\u2019\u201c\u201d\u2026"
 GROWING = "\u221a()[]{}|\u2016\u27e8\u27e9\u02c6\u02dc\u02d9\u00a8\u00af\u2032\u2033\u2044/"
@@ -47,10 +46,8 @@ FACES: Mapping[str, Face] = MappingProxyType(
 
 def source(face: Face) -> Path:
     """Return the file of a face, found without importing the package that carries it."""
-    spec = find_spec(face.package)
-    folder = next(iter(spec.submodule_search_locations or ()), None) if spec else None
-    path = Path(folder or "") / face.file
-    if folder is None or not path.is_file():
+    path = carried(face.package, face.file)
+    if path is None:
         raise AtlasError(f"the package {face.package} has no font {face.file}: install the locked dependencies.")
     return path
 

@@ -11,7 +11,6 @@ import re
 import subprocess
 from collections.abc import Sequence
 from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal, TypeAlias
@@ -111,11 +110,9 @@ def run(arguments: Sequence[str], source: str) -> str:
 
 @cache
 def _program() -> str:
-    """Return the path of the program that its package carries, without loading the package, which takes longer."""
-    spec = find_spec("pypandoc")
-    place = next(iter(spec.submodule_search_locations or ()), None) if spec else None
-    program = next(Path(place or "").glob("files/pandoc*"), None)
-    if place is None or program is None:
+    """Return the path of the program that its package carries."""
+    program = libraries.carried("pypandoc", "files/pandoc*")
+    if program is None:
         raise AtlasError("the package pypandoc_binary with its pandoc is not there: install the locked dependencies.")
     return str(program)
 
