@@ -61,10 +61,14 @@ class Text:
 
 @dataclass
 class Texts:
-    """The texts of one report, set together; `memory` holds what was made of a source before, by that source."""
+    """The texts of one report, set together.
+
+    `memory` holds what was made of a source before, by that source; `used` is what of it was asked for.
+    """
 
     texts: list[Text] = field(default_factory=list)
     memory: dict[str, str] = field(default_factory=dict)
+    used: dict[str, str] = field(default_factory=dict)
     _trees: list[Tree] = field(default_factory=list)
 
     def add(self, markdown: str, where: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
@@ -90,7 +94,7 @@ class Texts:
             trees = pandoc.read([(_braced(text.markdown), text.inline) for text in new.values()])
             for key, tree in zip(new, trees, strict=True):
                 self.memory[key] = json.dumps(tree)
-        self._trees = [json.loads(self.memory[key]) for key in keys]
+        self._trees = [json.loads(tree) for tree in self._recalled(keys)]
 
     def set(self, target: Target, cite: Callable[[str, str], Link]) -> list[str]:
         """Set all texts for a target, in their order.
@@ -115,7 +119,12 @@ class Texts:
             raise AtlasError(f"{self.texts[number].where}: {error}") from error
         for number, piece in zip(new, pieces, strict=True):
             self.memory[keys[number]] = _finished(piece, target, self.texts[number])
-        return [self.memory[key] for key in keys]
+        return self._recalled(keys)
+
+    def _recalled(self, keys: Sequence[str]) -> list[str]:
+        """Return what was made of some sources."""
+        self.used |= {key: self.memory[key] for key in keys}
+        return [self.used[key] for key in keys]
 
 
 def deepest(markdown: str) -> int:
