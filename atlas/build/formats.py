@@ -11,9 +11,9 @@ from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
+    from atlas.report.blocks.figure import Picture
     from atlas.report.document import Document
     from atlas.report.pandoc import Target
-    from atlas.report.picture import Picture
 
 
 MANIFEST = "manifest.json"
@@ -22,31 +22,19 @@ LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst", "single": "
 """In which language the texts of each format are set; `single` is one page as one file, if it is asked for."""
 
 
-class _Texts(dict[str, str]):
-    """Texts that were set before, by their source; those that are asked for are noted."""
-
-    def __init__(self, known: dict[str, str]) -> None:
-        super().__init__(known)
-        self.used: dict[str, str] = {}
-
-    def __getitem__(self, source: str) -> str:
-        self.used[source] = super().__getitem__(source)
-        return self.used[source]
-
-
 def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
     """Set the texts of a document; those that were set before are in the cache."""
     # pages of one object have most of their texts in common
     which = "a page" if len(document.pages) == 1 else document.report.name
     name = f"texts of {which} by {sources.closure([PACKAGE / 'report' / 'texts.py'])}"
-    document.texts.memory = texts = _Texts(cache.load(name))
+    document.texts.memory = cache.load(name)
     document.set(*dict.fromkeys(LANGUAGES[form] for form in formats))
-    cache.save(name, texts.used)
+    cache.save(name, document.texts.used)
 
 
 def manifest_of(document: "Document") -> bytes:
     """Return the manifest of a report as JSON; it depends on the report and on the versions alone."""
-    from atlas.report.versions import versions
+    from atlas.report.templates import versions
 
     report = document.report
     manifest = {"report": report.name, "title": report.title, "versions": versions()}
@@ -65,7 +53,6 @@ def _pages(
         name: figure.contents[kind]
         for figure, picture in figures.items()
         for kind, name in (*picture.files.items(), *picture.beside.items())
-        if name
     }
     files = {name: page.encode() for name, page in pages.items()} | drawn
     cutting = sources.closure([PACKAGE / "report" / "html.py"])

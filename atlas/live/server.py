@@ -133,7 +133,7 @@ def _page(name: str) -> bytes:
     from atlas.report.templates import templates
 
     if name == "style.css":
-        return templates().get_template(name).render(faces={}).encode()
+        return templates("html").get_template(name).render(faces={}).encode()
     return (folder("templates") / "html" / name).read_bytes()
 
 

@@ -1,4 +1,4 @@
-"""The bodies and fields of a report: the form in which they are given, and what the kernels take of them."""
+"""The bodies and fields of a report: the form in which they are given, what the kernels take of them, and in print."""
 
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -11,6 +11,7 @@ from atlas.core.bodies.field import Field as PhysicalField
 from atlas.core.bodies.field import LaboratoryFrame
 from atlas.core.bodies.units import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
+from atlas.report.digits import shown
 from atlas.report.schema import Pair, StrictStruct, Vector
 
 
@@ -158,3 +159,37 @@ def _charge_to_mass(body_record: Body | None, field_record: Field) -> float:
     if body_record is None or body_record.charge is None or body_record.mass is None:
         raise AtlasError(f"the field {field_record.title!r} needs charge_to_mass, or a body with a charge and a mass.")
     return charge_to_mass(body_record.charge, body_record.mass)
+
+
+def parameters(known: BodiesAndFields) -> list[str]:
+    """Return each body and field in a line of Markdown."""
+    records: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
+    return [f"{record.title}: {_written_out(record)}" for record in records]
+
+
+_UNITS = {
+    "SI": {
+        "mass": "kg",
+        "charge": "C",
+        "B": "T",
+        "E": "V/m",
+        "charge_to_mass": "C/kg",
+        **dict.fromkeys(("radius", "height", "length", "equatorial", "polar"), "m"),
+    },
+    "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g"},
+}
+_NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": "(I2, I3)"}
+
+
+def _written_out(record: Body | Field) -> str:
+    """Write out what a record was given, with units."""
+    units = _UNITS[getattr(record, "system", "SI")]
+    parts = []
+    for key in record.__struct_fields__:
+        value, omitted = getattr(record, key), getattr(type(record)(title=""), key)
+        if key in {"title", "system"} or value is None or (key in {"E", "axis"} and value == omitted):
+            continue
+        written = value.replace("_", " ") if isinstance(value, str) else shown(value)
+        unit = f"\u202f{units[key]}" if key in units else ""
+        parts.append(written if key == "shape" else f"{_NAMES.get(key, key)} = {written}{unit}")
+    return ", ".join(parts)

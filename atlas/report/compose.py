@@ -12,12 +12,12 @@ from atlas.report.appendices import Appendices
 from atlas.report.bibliography import Bibliography
 from atlas.report.blocks import KINDS, kind_of
 from atlas.report.blocks.composer import Composer
+from atlas.report.blocks.figure import Picture
 from atlas.report.blocks.ledger import SECTIONS, Ledger
+from atlas.report.body_and_field import parameters
 from atlas.report.definition import Page, Report
 from atlas.report.document import THEOREMS, Document, PageView
-from atlas.report.picture import Picture
 from atlas.report.texts import citations
-from atlas.report.versions import parameters
 
 
 def compose(

@@ -22,8 +22,8 @@ from atlas.paper.plain import words
 from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.digits import MINUS, THIN
 from atlas.report.document import Document
+from atlas.report.templates import versions
 from atlas.report.texts import citations
-from atlas.report.versions import versions
 
 if TYPE_CHECKING:
     from atlas.report.blocks.figure import FigureView

@@ -25,7 +25,6 @@ from atlas.report.definition import Thumbnail
 from atlas.report.document import Document, PageView
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
 from atlas.report.templates import templates
-from atlas.report.versions import versions
 
 SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
@@ -49,13 +48,12 @@ class Card(NamedTuple):
 
 def pages(document: Document) -> dict[str, str]:
     """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
-    environment = templates(plain=plain)
+    environment = templates("html", plain=plain)
     texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
     common: dict[str, Any] = {
         "document": document,
         "texts": texts,
-        "versions": versions(),
         "report": document.report,
         "cover": _cover(document),
         "cards": cards(document),

@@ -22,8 +22,7 @@ from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.data_package import ascii_name, digits, unique, value
 from atlas.report.digits import MINUS
 from atlas.report.document import Document
-from atlas.report.templates import typesetting
-from atlas.report.versions import versions
+from atlas.report.templates import templates
 from atlas.targets import TARGETS
 
 ANY = 99
@@ -51,8 +50,8 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
     `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
     """
     markdown = [text.markdown for text in document.texts.texts]
-    environment = typesetting("latex")
-    common = {"report": document.report, "versions": versions()}
+    environment = templates("latex")
+    common = {"report": document.report}
     computed = [table for table in document.listed("table") if table.name]
     numbers = [number for table in computed for number in _numbers(table, markdown)]
     keys = {number.cell: number.key for number in numbers}

@@ -9,8 +9,7 @@ from atlas.errors import AtlasError
 from atlas.report import fonts
 from atlas.report.blocks.table import Cell
 from atlas.report.document import Document
-from atlas.report.templates import typesetting
-from atlas.report.versions import versions
+from atlas.report.templates import templates
 
 TEXT_FONT = "STIXGeneral"
 MATH_FONT = "STIX Two Math"
@@ -19,14 +18,13 @@ MATH_FONT = "STIX Two Math"
 
 def source(document: Document) -> str:
     """Write the Typst source of a document whose texts are set."""
-    environment = typesetting(
+    environment = templates(
         "typst", string=_string, content=_content, bool=lambda value: str(bool(value)).lower(), number=_number
     )
     return environment.get_template("report.typ").render(
         document=document,
         report=document.report,
         texts=document.written["typst"],
-        versions=versions(),
         family=TEXT_FONT,
         math=MATH_FONT,
     )

@@ -1,40 +1,38 @@
 """The templates of pages and of what is typeset, opened where nothing of a report is loaded."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Literal
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+import atlas
+from atlas import libraries
 from atlas.places import folder
 
-
-def templates(**filters: Callable[..., Any]) -> Environment:
-    """Return the templates of pages, with filters of their own."""
-    environment = Environment(
-        loader=FileSystemLoader(folder("templates") / "html"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= filters
-    return environment
+_TYPESET: dict[str, Any] = {
+    f"{part}_{end}_string": sign
+    for part, signs in {"variable": ("<$", "$>"), "block": ("<%", "%>"), "comment": ("<#", "#>")}.items()
+    for end, sign in zip(("start", "end"), signs, strict=True)
+}
+"""What surrounds a part that is filled in, in Typst and LaTeX: there braces and percent signs have a meaning."""
 
 
-def typesetting(kind: str, **filters: Callable[..., Any]) -> Environment:
-    """Return the templates for Typst or LaTeX, in which braces and percent signs have a meaning of their own."""
+def versions() -> dict[str, str]:
+    """Return the versions of the atlas and of the libraries that it runs on."""
+    return {"atlas": atlas.__version__} | libraries.versions()
+
+
+def templates(kind: Literal["html", "typst", "latex"], **filters: Callable[..., Any]) -> Environment:
+    """Return the templates for a language, with filters of their own; `versions` is known in all of them."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / kind),
-        autoescape=False,  # noqa: S701  what is filled in is escaped for its language
+        autoescape=kind == "html",  # noqa: S701  what else is filled in is escaped for its language
         undefined=StrictUndefined,
         trim_blocks=True,
+        lstrip_blocks=kind == "html",
         keep_trailing_newline=kind == "latex",
-        variable_start_string="<$",
-        variable_end_string="$>",
-        block_start_string="<%",
-        block_end_string="%>",
-        comment_start_string="<#",
-        comment_end_string="#>",
+        **({} if kind == "html" else _TYPESET),
     )
     environment.filters |= filters
+    environment.globals["versions"] = versions()
     return environment
