@@ -53,16 +53,13 @@ def unfinished(path: Path) -> Iterator[Path]:
     """
     part = _unfinished(path, os.getpid())
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        for left in path.parent.glob(f".unfinished-*-{escape(path.name)}"):
-            pid = left.name.split("-")[1]
-            if left == _unfinished(path, pid) and pid.isdecimal() and not alive(int(pid)):
-                left.unlink(missing_ok=True)
-        yield part
-    except OSError as error:
-        if error.errno is None or Path(error.filename or part) != part:
-            raise
-        raise OSError(error.errno, error.strerror, str(path)) from error
+        with named(path, part):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            for left in path.parent.glob(f".unfinished-*-{escape(path.name)}"):
+                pid = left.name.split("-")[1]
+                if left == _unfinished(path, pid) and pid.isdecimal() and not alive(int(pid)):
+                    left.unlink(missing_ok=True)
+            yield part
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
@@ -101,12 +98,12 @@ def exchange(new: Path, old: Path) -> bool:
 
 
 @contextmanager
-def named(path: Path) -> Iterator[None]:
-    """Give an OSError the file's name that has none: one of writing, as on a full disk."""
+def named(path: Path, part: Path | None = None) -> Iterator[None]:
+    """Give an OSError the file's name that has none, one of writing, as on a full disk, or that of a part of it."""
     try:
         yield
     except OSError as error:
-        if error.filename or error.errno is None:
+        if error.errno is None or (error.filename and (part is None or Path(error.filename) != part)):
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
 
