@@ -28,7 +28,7 @@ def load(path: Path) -> Report:
     except ValueError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
     try:
-        report = _filled(_consistent(_located(convert(raw, Report), path.absolute().parent)))
+        report = _filled(_consistent(convert(raw, Report)), path.absolute().parent)
     except SchemaError as error:
         raise AtlasError(f"{path}{_line(text, error.key)}: {error}.") from error
     except AtlasError as error:
@@ -36,22 +36,6 @@ def load(path: Path) -> Report:
     if report.bibliography and not (path.parent / report.bibliography).is_file():
         raise AtlasError(f"{path}{_line(text, 'bibliography')}: there is no file {path.parent / report.bibliography}.")
     return report
-
-
-def _located(report: Report, folder: Path) -> Report:
-    """Return the report with the places of the recipes and the style that lie beside it; AtlasError for no recipe."""
-
-    def place(block: Block) -> Block:
-        if not isinstance(block, Figure) or not block.recipe.endswith(".py"):
-            return block
-        file = folder / Path(block.recipe).name
-        if Path(block.recipe).name != block.recipe.removeprefix("./") or not file.is_file():
-            raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
-        return replace(block, recipe=str(file))
-
-    pages = tuple(replace(page, blocks=tuple(map(place, page.blocks))) for page in report.pages)
-    beside = folder / report.style
-    return replace(report, pages=pages, style=str(beside) if beside.is_file() else report.style)
 
 
 def _consistent(report: Report) -> Report:
@@ -71,16 +55,26 @@ def _consistent(report: Report) -> Report:
     return report
 
 
-def _filled(report: Report) -> Report:
-    """Return the report with the named sets of parameters in its blocks; the last holds, above all the block's own."""
+def _filled(report: Report, folder: Path) -> Report:
+    """Return the report with the places of the recipes and the style that lie beside it, and its sets in its blocks.
+
+    Of the sets of parameters the last holds, above all the block's own. AtlasError for a recipe that is not there.
+    """
 
     def fill(block: Block) -> Block:
+        if isinstance(block, Figure) and block.recipe.endswith(".py"):
+            file = folder / Path(block.recipe).name
+            if Path(block.recipe).name != block.recipe.removeprefix("./") or not file.is_file():
+                raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
+            block = replace(block, recipe=str(file))
         if not isinstance(block, Figure | Table) or not block.sets:
             return block
         sets = [report.parameters.sets[name] for name in block.sets]
         return replace(block, sets=(), parameters=reduce(or_, [*sets, block.parameters]))
 
-    return replace(report, pages=tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages))
+    pages = tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages)
+    beside = folder / report.style
+    return replace(report, pages=pages, style=str(beside) if beside.is_file() else report.style)
 
 
 def _called(block: Block, report: Report, where: str) -> None:
