@@ -1,16 +1,19 @@
-"""Objects as a pandas data frame: a row an object, or a row a time."""
+"""Objects as arrays: a pandas data frame, a row an object or a row a time, and the curve of a third axis."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import real
+from atlas.core.inputs import FloatArray, positive, real
 from atlas.core.quantities import TIME
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.libraries import of_sweeps
+from atlas.scene.any_motion import pieces, turns
+from atlas.scene.sample import knots
 from atlas.study.sweep.families import FAMILIES, Swept
 
 
@@ -65,3 +68,20 @@ def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) 
     yield "t", t
     for name in wanted:
         yield name, columns[known[name].name][:, [*known[name].columns].index(name)]
+
+
+def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> tuple[FloatArray, FloatArray]:
+    """Return times and points, see `Motion.trace`."""
+    name = type(motion).__name__
+    if motion.shape:
+        raise AtlasError(f"A trace is of one {name}, not of several: make one with numbers in place of arrays.")
+    quantities = FAMILIES[motion.family].family.quantities
+    period = next((float(q.value(motion)) for q in quantities if q.name == "period"), 0.0)
+    if stop is None:
+        if not isfinite(period) or not period:
+            raise AtlasError(f"This {name} has no period: say stop=..., the time up to which its axis is followed.")
+        stop = positive(periods, "periods") * period
+    stop = positive(stop, "stop", TIME)
+    rate = turns(motion, min(stop, period) if period else stop)
+    times = knots(motion.third_axis, 0.0, stop, positive(tolerance, "tolerance"), pieces(rate * stop))
+    return times, motion.third_axis(times)

@@ -232,7 +232,7 @@ class Motion(Shown, Generic[Single]):
         keeps all chords within `tolerance` of the curve. Raises AtlasError where there is no finite period, for several
         motions, and times as `rotation` does.
         """
-        return notebook("curves").trace(self, periods, stop, tolerance)
+        return notebook("frames").trace(self, periods, stop, tolerance)
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices on the uniform grid start + i step, i = 0 .. count - 1, shape (..., count, 3, 3).
