@@ -44,15 +44,11 @@ class OfFamily:
 
     def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
         """Return the parameters of the class, in its order."""
-        return dict(self._arguments(values))
-
-    def _arguments(self, values: Mapping[str, float]) -> Iterator[tuple[str, Any]]:
+        known: dict[str, Any] = {}
         for p in self.family.parameters:
-            if not p.default:
-                yield p.name, (p.omitted,) * len(p.names) if p.columns else p.omitted
-            else:
-                components = tuple(values[name] for name in p.names)
-                yield p.name, components if p.columns else components[0]
+            parts = tuple(values[name] if p.default else p.omitted for name in p.names)
+            known[p.name] = parts if p.columns else parts[0]
+        return known
 
     def kernels(self, values: Mapping[str, float]) -> Any:
         """Return what the kernels make of it, for picture and numbers, and for the next time t."""
