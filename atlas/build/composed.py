@@ -15,9 +15,8 @@ from atlas.report.toml import find
 from atlas.sources import Sources
 
 if TYPE_CHECKING:
-    from atlas.report.blocks.figure import FigureView
+    from atlas.report.blocks.figure import FigureView, Picture
     from atlas.report.document import Document
-    from atlas.report.picture import Picture
 
 Progress = Callable[[int, int, str], None]
 

@@ -25,9 +25,9 @@ from atlas.sources import DISTURBED, PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
+    from atlas.report.blocks.figure import Picture
     from atlas.report.definition import Report
     from atlas.report.document import Document
-    from atlas.report.picture import Picture
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")
@@ -273,15 +273,11 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.tables = tuple(facts["commands"])
         picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
-        kind = "svg" if "pdf" in figure.kinds else "png"
-        picture.file = f"figures/{picture.stem}.{kind}"
-        files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds}
-        picture.narrow = f"figures/{picture.stem}-narrow.{kind}" if files.pop("narrow", "") and facts["narrow"] else ""
-        picture.scene = f"figures/{picture.stem}.js" if files.pop("scene", "") and figure.contents["scene"] else ""
-        picture.moves = (
-            f"figures/{picture.stem}-moves.js" if files.pop("moves", "") and figure.contents["moves"] else ""
-        )
-        picture.files = files
+        kind, place = "svg" if "pdf" in figure.kinds else "png", f"figures/{picture.stem}"
+        picture.file = f"{place}.{kind}"
+        beside = {"narrow": f"{place}-narrow.{kind}", "scene": f"{place}.js", "moves": f"{place}-moves.js"}
+        picture.beside = {name: file for name, file in beside.items() if figure.contents.get(name)}
+        picture.files = {name: f"{place}.{name}" for name in figure.kinds if name not in beside}
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 
 

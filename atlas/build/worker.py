@@ -88,7 +88,6 @@ def _draw(task: Task) -> None:
         "commands": list(scene.commands),
         "alt": scene.alt,
         "size": arranged(scene, target).size if target else scene.size,
-        "narrow": bool(small),
         "parameters": scene.parameters,
         "renderer": renderer,
         "note": note,

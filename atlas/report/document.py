@@ -13,11 +13,10 @@ from atlas.paper.equation import slug
 from atlas.paper.plain import plain
 from atlas.report.bibliography import Bibliography
 from atlas.report.blocks.composer import Use
-from atlas.report.blocks.figure import Figure
+from atlas.report.blocks.figure import Figure, Picture
 from atlas.report.blocks.ledger import Errata, Ledger
 from atlas.report.definition import Report
 from atlas.report.pandoc import Target
-from atlas.report.picture import Picture
 from atlas.report.pictures import keys
 from atlas.report.texts import Link, Texts, citations
 

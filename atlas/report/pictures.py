@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from atlas.errors import AtlasError, unknown
-from atlas.report.blocks.figure import Figure
+from atlas.report.blocks.figure import Figure, Picture
 from atlas.report.body_and_field import chosen
 from atlas.report.definition import Report
-from atlas.report.picture import Picture
 
 
 def pictures(report: Report) -> dict[str, Picture]:

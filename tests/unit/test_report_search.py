@@ -12,10 +12,10 @@ from atlas.cli.app import atlas as command_line
 from atlas.cli.figure import setting
 from atlas.errors import AtlasError
 from atlas.report import html
+from atlas.report.blocks.figure import Picture
 from atlas.report.compose import compose
 from atlas.report.html import sections as rows_of
 from atlas.report.load import load
-from atlas.report.picture import Picture
 from atlas.report.pictures import pictures
 
 REPORT = """

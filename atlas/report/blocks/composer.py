@@ -8,7 +8,6 @@ from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
 from atlas.report.appendices import Appendices
-from atlas.report.picture import Picture
 from atlas.report.texts import citations
 
 
@@ -97,18 +96,6 @@ class Composer:
         name = own or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"
-
-    def number(self, name: str) -> str:
-        """Return the number of an equation; one that has none in the paper gets the next of our own."""
-        return str(self.document.numbered(name))
-
-    def entry(self, name: str) -> str:
-        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
-        return str(self.document.entry(name))
-
-    def pictures(self, block: Any) -> tuple[Picture, ...]:
-        """Return the pictures of a figure block."""
-        return tuple(self.document.pictures_of(block))
 
     def list_works(self) -> None:
         """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""

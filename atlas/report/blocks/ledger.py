@@ -137,7 +137,7 @@ def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
     """Set out the entries of one section, each theorem with a number."""
     for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
-            composer.number(name)
+            composer.document.numbered(name)
     return LedgerView(entries(composer, lambda entry, _: entry.section == block.section))
 
 
