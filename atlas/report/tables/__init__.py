@@ -1,15 +1,18 @@
 """The computed tables of a report, each by the name of its function."""
 
 from collections.abc import Mapping
+from inspect import get_annotations
+from typing import Any
 
 from atlas.errors import unknown
+from atlas.report.schema import StrictStruct, convert
 from atlas.report.tables.bodies import charges, coats, diamagnetism, radiation, sizes, swings
 from atlas.report.tables.closed import closed, companions
 from atlas.report.tables.elementary import motion, points, quadric, samples, sheet
 from atlas.report.tables.families import blocks, layers, quantities, report_keys, roles, targets
 from atlas.report.tables.laboratory import beyond_larmor, fits, inferred, levitated, lines
 from atlas.report.tables.particle import ball, flight, particle
-from atlas.report.tables.properties import body_and_field, properties
+from atlas.report.tables.properties import Thing, body_and_field, properties
 from atlas.report.tables.table import Data, Maker, Request
 from atlas.report.tables.tops import asymmetric, elliptic, monodromy, periods, tops
 
@@ -28,4 +31,14 @@ def compute(name: str, request: Request) -> Data:
     """Compute a table. Raises AtlasError for a table that there is not, and for a parameter that does not fit it."""
     if name not in TABLES:
         raise unknown("table", name, TABLES)
-    return TABLES[name](request)
+    wanted = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
+    if not wanted.keys() - {"request"}:
+        _given(StrictStruct, request)  # no further parameters
+    return TABLES[name](**{argument: _given(kind, request) for argument, kind in wanted.items()})
+
+
+def _given(kind: type, request: Request) -> Any:
+    """Return a request, or its further parameters as an object of the register or as another record."""
+    if kind is Request:
+        return request
+    return Thing.of(request) if kind is Thing else convert(dict(request.parameters), kind, "parameters")

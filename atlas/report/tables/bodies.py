@@ -34,9 +34,9 @@ class SizeParameters(StrictStruct, frozen=True):
     magnet: float
 
 
-def sizes(request: Request) -> Data:
+def sizes(asked: SizeParameters) -> Data:
     """Return charge, charge-to-mass ratio and Larmor's frequency of balls that hold all that their surface bears."""
-    asked = taken(request)
+    _check(asked)
     rows = []
     for r in asked.radii:
         e, mu = greatest_charge(r, asked.surface_field), greatest_ratio(r, asked.density, asked.surface_field)
@@ -65,9 +65,9 @@ def sizes(request: Request) -> Data:
     )
 
 
-def radiation(request: Request) -> Data:
+def radiation(asked: SizeParameters) -> Data:
     """Return how long such bodies take to radiate their energy away, by their flight and by their rotation."""
-    asked = taken(request)
+    _check(asked)
     rows = []
     for r in asked.radii:
         mu = greatest_ratio(r, asked.density, asked.surface_field)
@@ -111,12 +111,10 @@ def off_the_field(b: float) -> float:
     return abs(atan2(omega2 * B3 - third * B2, omega2 * B2 + third * B3))
 
 
-def taken(request: Request) -> SizeParameters:
-    """Return the parameters, which are all positive."""
-    asked = request.take(SizeParameters)
+def _check(asked: SizeParameters) -> None:
+    """Refuse parameters that are not all positive."""
     if not (asked.radii and min(*asked.radii, asked.density, asked.surface_field, asked.magnet) > 0):
         raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
-    return asked
 
 
 def two(value: float) -> Number:
@@ -126,7 +124,6 @@ def two(value: float) -> Number:
 
 def charges(request: Request) -> Data:
     """Mass m0, radius r, charge e = mu m0 and the field e/(4 pi eps0 r^2) of several bodies with mass and radius."""
-    request.take(StrictStruct)
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
         body = case.body_record
@@ -166,9 +163,8 @@ def magnetised(case: BodyAndField, asked: DiamagnetismParameters) -> tuple[str, 
     return record.title, body, diamagnetic_energy(asked.susceptibility, volume, field, record.shape)
 
 
-def diamagnetism(request: Request) -> Data:
+def diamagnetism(request: Request, asked: DiamagnetismParameters) -> Data:
     """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
-    asked = request.take(DiamagnetismParameters)
     if asked.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []
@@ -206,10 +202,10 @@ class CoatParameters(StrictStruct, frozen=True):
     coats: tuple[Coat, ...]
 
 
-def coats(request: Request) -> Data:
+def coats(asked: CoatParameters) -> Data:
     """Return what it changes that the charge is spread otherwise than the mass, in units of the body's e/m."""
     rows: list[tuple[str | Number, ...]] = []
-    for coat in request.take(CoatParameters).coats:
+    for coat in asked.coats:
         body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
         charges = ChargeMoments.shape(coat.charge, 1.0, **(coat.charge_dimensions or coat.dimensions))
         across, along = charges.J2 / body.I2, charges.J3 / body.I3
@@ -226,11 +222,10 @@ def coats(request: Request) -> Data:
     )
 
 
-def swings(request: Request) -> Data:
+def swings(request: Request, asked: DiamagnetismParameters) -> Data:
     """Return how bodies at rest in Larmor's frame swing there: by their charge alone, and magnetised too."""
     from atlas.core.motions.top import TopMotion
 
-    asked = request.take(DiamagnetismParameters)
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
         title, body, own = magnetised(case, asked)

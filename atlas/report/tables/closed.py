@@ -16,21 +16,25 @@ PRINTED = 12
 """Digits that a double has for certain, and some to spare."""
 
 
-def closed(request: Request) -> Data:
+def closed(request: Request, thing: Thing) -> Data:
     """Give the best fractions p/q of phi/k and the closed motion of each, or of the turns in one nutation.
 
     Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
     """
-    thing = Thing.of(request)
+    from flint import arb, fmpq
+
     elementary = thing.family is FAMILIES["elementary"]
     exact = thing.balls()
     if elementary and exact.k == 0:
         raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
-    value = certified(lambda: _turns(exact, elementary=elementary), request.digits)
+    value = certified(
+        lambda: arb(exact.phi) / arb(exact.k) if elementary else exact.precession_per_period / (2 * arb.pi()),
+        request.digits,
+    )
     fractions = list(convergents(value))
     if not fractions:
         raise DomainError("The turns in one nutation are a whole number, as far as can be told: each one closes.")
-    misses = [quantity(value - _ratio(p, q), 2) for p, q in fractions]
+    misses = [quantity(value - fmpq(p, q), 2) for p, q in fractions]
     if elementary:
         return _elementary(thing, value, fractions, misses, request.digits)
     period = certified(lambda: exact.period, request.digits)
@@ -77,12 +81,6 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
     )  # fmt: skip
 
 
-def _turns(motion: Any, *, elementary: bool) -> Any:
-    from flint import arb
-
-    return arb(motion.phi) / arb(motion.k) if elementary else motion.precession_per_period / (2 * arb.pi())
-
-
 def convergents(value: Any) -> Iterator[tuple[int, int]]:
     """Yield the first convergents of the continued fraction of a ball, as far as its radius tells them.
 
@@ -103,12 +101,6 @@ def convergents(value: Any) -> Iterator[tuple[int, int]]:
         value = 1 / value
 
 
-def _ratio(p: int, q: int) -> Any:
-    from flint import fmpq
-
-    return fmpq(p, q)
-
-
 class CompanionParameters(StrictStruct, frozen=True):
     """I3/I2 below 1, and (B2, B3, omega2) of some elementary motions, in 1/s."""
 
@@ -116,9 +108,8 @@ class CompanionParameters(StrictStruct, frozen=True):
     motions: tuple[tuple[float, float, float], ...]
 
 
-def companions(request: Request) -> Data:
+def companions(request: Request, asked: CompanionParameters) -> Data:
     """Return the angles between axis and field of the steady precessions and where their companions turn back."""
-    asked = request.take(CompanionParameters)
     angles_of_each = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
     columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
     given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in asked.motions]

@@ -53,7 +53,6 @@ def titled(request: Request) -> str:
 
 def quadric(request: Request) -> Data:
     """Ratio I, kind, angle beta, coefficients a2, a3, semi-axes and centre of the quadric, (51) to (57)."""
-    request.take(StrictStruct)
     columns, rows = side_by_side(request, [of_quadric(case, request.digits) for case in request.cases])
     return Data(columns, rows, f"The quadric of initial data of {titled(request)}, @(51), in canonical form.")
 
@@ -91,34 +90,33 @@ class PointsParameters(StrictStruct, frozen=True):
     omega2: tuple[float, ...] = ()
 
 
-def points(request: Request) -> Data:
+def points(request: Request, asked: PointsParameters) -> Data:
     """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
+    from atlas.exact.inputs import rational
     from atlas.exact.surfaces.hyperbola import Hyperbola
 
-    more = request.take(PointsParameters).omega2
     h = Hyperbola(request.case.exact, request.case.components)
     B2 = Fraction(request.case.components[0])
     I = Fraction(int(h.I.p), int(h.I.q))
     chosen: dict[Any, list[str]] = {}
-    left_out = [f"$\\omega_2={plain(value)}$" for value in more if value == -B2]
+    left_out = [f"$\\omega_2={plain(value)}$" for value in asked.omega2 if value == -B2]
     for name, omega2 in (
         ("at rest", Fraction(0)),
         (r"$\phi=0$", -2 * B2),
         (r"$\omega_3=0$", -(2 - I) * B2),
-        *(("", Fraction(value)) for value in more),
+        *(("", Fraction(value)) for value in asked.omega2),
     ):
         if omega2 + B2 != 0:
             chosen.setdefault(Fraction(omega2), []).append(name)
     if not chosen:
         raise AtlasError("with B2 = 0 the hyperbola is the line omega2 = 0, and omega3 is free: it has no such points.")
     order = sorted(chosen)
-    values = certified(
-        lambda: [(_exact(x), h.omega3(_exact(x)), *h.frequencies(_exact(x)), h.stability(_exact(x))) for x in order],
-        request.digits,
-    )
+    exact = [rational(x, "omega2") for x in order]
+    values = certified(lambda: [(x, h.omega3(x), *h.frequencies(x), h.stability(x)) for x in exact], request.digits)
     columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     columns[0] = column(
-        [Number.as_given(float(x)) if Fraction(float(x)) == x else _exact(x) for x in order], request.digits
+        [Number.as_given(float(x)) if Fraction(float(x)) == x else one for x, one in zip(order, exact, strict=True)],
+        request.digits,
     )
     rows = tuple(
         (
@@ -147,13 +145,6 @@ def points(request: Request) -> Data:
     )
 
 
-def _exact(x: Fraction) -> Any:
-    """Return a fraction as the certified floor has it."""
-    from atlas.exact.inputs import rational
-
-    return rational(x, "omega2")
-
-
 class Motion(StrictStruct, frozen=True):
     """The motion by its omega2, in 1/s; `omega3` where the hyperbola leaves it free."""
 
@@ -169,9 +160,8 @@ class Samples(StrictStruct, frozen=True):
     omega3: float | None = None
 
 
-def motion(request: Request) -> Data:
+def motion(request: Request, asked: Motion) -> Data:
     """List initial data, frequencies, stability and integrals of the motion that starts with `omega2`."""
-    asked = request.take(Motion)
     columns, rows = side_by_side(request, [of_motion(case, asked, request.digits) for case in request.cases])
     return Data(
         columns,
@@ -208,11 +198,10 @@ def of_motion(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
     ]
 
 
-def samples(request: Request) -> Data:
+def samples(request: Request, asked: Samples) -> Data:
     """Omega(t), (73), and the third axis of the body R_3(t), (84), at some `times`."""
     from atlas.exact.motions.elementary import ElementaryMotion
 
-    asked = request.take(Samples)
     motion = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
     values = certified(
         lambda: [(*motion.angular_velocity(t), *motion.third_axis(t)) for t in asked.times], request.digits
@@ -228,9 +217,8 @@ def samples(request: Request) -> Data:
     )
 
 
-def sheet(request: Request) -> Data:
+def sheet(request: Request, asked: Motion) -> Data:
     """List what the tables `quadric` and `motion` have, for the motion that starts with `omega2`."""
-    asked = request.take(Motion)
     columns, rows = side_by_side(
         request,
         [[*of_quadric(case, request.digits), *of_motion(case, asked, request.digits)] for case in request.cases],

@@ -11,17 +11,15 @@ import msgspec
 from atlas.families import FAMILIES, Family
 from atlas.report import toml
 from atlas.report.digits import Number
-from atlas.report.schema import StrictStruct
 from atlas.report.tables.properties import cited
-from atlas.report.tables.table import Data, Request, heads
+from atlas.report.tables.table import Data, heads
 from atlas.targets import ANY, TARGETS, Target
 
 Row = tuple[str, str, str, str, str | Number]
 
 
-def quantities(request: Request) -> Data:
+def quantities() -> Data:
     """List parameters and quantities of all families, with their units, equations and promised errors."""
-    request.take(StrictStruct)
     rows = []
     for family in FAMILIES.values():
         for place, row in enumerate(_rows(family)):
@@ -59,9 +57,8 @@ def _promise(family: Family, checked: str) -> str | Number:
     return Number(f"{family.promises[checked]:g}") if checked in family.promises else ""
 
 
-def targets(request: Request) -> Data:
+def targets() -> Data:
     """List the targets of figures with width and height, type, lines, resolution, what is asked, and the source."""
-    request.take(StrictStruct)
     firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         heads("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi"),
@@ -79,11 +76,10 @@ def _sizes(target: Target) -> tuple[str, ...]:
     return f"{target.width:g}", f"{target.height:g}", f"{target.type:g}", lines, f"{target.dpi:g}"
 
 
-def roles(request: Request) -> Data:
+def roles() -> Data:
     """List the roles of layers, each with its look and what sets it."""
     from atlas.scene.style import LINES, STYLES
 
-    request.take(StrictStruct)
     looks: dict[tuple[str, ...], list[str]] = {}
     for name, style in STYLES.items():
         if name in LINES:
@@ -102,11 +98,10 @@ def roles(request: Request) -> Data:
     )
 
 
-def blocks(request: Request) -> Data:
+def blocks() -> Data:
     """List the kinds of blocks that a page of a report has, with their keys, from their records."""
     from atlas.report.blocks import KINDS
 
-    request.take(StrictStruct)
     kinds = {f"`{name}`": kind.record for name, kind in KINDS.items()}
     says = (
         'The kinds of blocks, `kind = "NAME"`, with their keys; those in bold are needed, of others the value is what '
@@ -115,12 +110,11 @@ def blocks(request: Request) -> Data:
     return _explained("Kind", kinds, "Keys", says)
 
 
-def report_keys(request: Request) -> Data:
+def report_keys() -> Data:
     """List the keys of a report file, of its pages, bodies and fields, from their records."""
     from atlas.report.body_and_field import Body, Field
     from atlas.report.definition import Index, Page, Report, Thumbnail
 
-    request.take(StrictStruct)
     where = {
         "at the top": Report, "`[[pages]]`": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
         "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
@@ -132,11 +126,10 @@ def report_keys(request: Request) -> Data:
     return _explained("Where", where, "Keys", says)
 
 
-def layers(request: Request) -> Data:
+def layers() -> Data:
     """List what a recipe returns, a scene, and what it is made of."""
     from atlas.scene import layers as made
 
-    request.take(StrictStruct)
     kinds = {f"`{kind.__name__}`": kind for kind in (made.Scene, made.Plane, made.Space, *get_args(made.Layer))}
     says = "What a recipe may return: a `Scene` of panels `Plane` and `Space`, with layers. Fields in bold are needed."
     return _explained("Name in `atlas.scene`", kinds, "Fields", says)

@@ -13,7 +13,7 @@ from atlas.core.motions.top import TopMotion
 from atlas.places import folder
 from atlas.report.digits import MINUS, Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.table import Data, Request, heads
+from atlas.report.tables.table import Data, heads
 
 GRAVITY, MOLECULE, WARM = 9.81, 4.65e-26, 300.0
 """In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
@@ -53,9 +53,8 @@ class Dipole(StrictStruct, frozen=True):
         return self.dipole * 1e-6 * ELEMENTARY_CHARGE * self.field
 
 
-def levitated(request: Request) -> Data:
+def levitated(asked: Dipole) -> Data:
     """Return nutation and precession of a ball with a dipole, beside what is expected of small and of fast turns."""
-    asked = request.take(Dipole)
     rows: list[tuple[str | Number, ...]] = []
     for spin in asked.spins:
         motion = asked.motion(spin)
@@ -87,9 +86,8 @@ class Lines(Dipole, frozen=True):
     least: float = 1e-3
 
 
-def lines(request: Request) -> Data:
+def lines(asked: Lines) -> Data:
     """Return the lines of the axis for each spin, those at positive frequencies, with the numbers they are made of."""
-    asked = request.take(Lines)
     rows: list[tuple[str | Number, ...]] = []
     for spin in asked.spins:
         spectrum = asked.motion(spin).spectrum("axis", least=asked.least)
@@ -124,9 +122,8 @@ class Watch(Dipole, frozen=True):
     noise: float
 
 
-def inferred(request: Request) -> Data:
+def inferred(asked: Watch) -> Data:
     """Return how well the axis alone tells what the ball and its field are, by the derivatives of the motion."""
-    asked = request.take(Watch)
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []
     for spin in asked.spins:
@@ -177,9 +174,8 @@ class Design(StrictStruct, frozen=True):
     inclination: float
 
 
-def beyond_larmor(request: Request) -> Data:
+def beyond_larmor(asked: Design) -> Data:
     """Return the precession beyond Larmor's turn, by the charge and by magnetisation, and what would spoil it."""
-    asked = request.take(Design)
     along = demagnetization(asked.aspect)
     rows: list[tuple[str | Number, ...]] = []
     for r in asked.radii:
@@ -236,9 +232,8 @@ def _three(value: float) -> str | Number:
     return Number(f"{value:.0f}" if 1e3 <= size < 1e5 else f"{value:.3g}" if 1e-3 <= size < 1e3 else f"{value:.2e}")
 
 
-def fits(request: Request) -> Data:
+def fits() -> Data:
     """Return how often fits find made-up motions without a start, how right their errors are, and their time."""
-    request.take(StrictStruct)
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     return Data(
         heads("Family", "Measured", ("Found", "%"), ("Within one error", "%"), ("CPU time, median", "s")),

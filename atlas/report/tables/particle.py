@@ -31,9 +31,9 @@ class ParticleParameters(StrictStruct, frozen=True):
     velocity: Vector = (0.0, 0.0, 0.0)
 
 
-def particle(request: Request) -> Data:
+def particle(request: Request, asked: ParticleParameters) -> Data:
     """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
-    asked, case = request.take(ParticleParameters), request.case
+    case = request.case
     motion = exact_particle(case, asked.position, asked.velocity)
     unit = speed = case.units.length_unit if case.units else ""
     values = certified(lambda: [motion.position(t) for t in asked.times], request.digits)
@@ -62,11 +62,10 @@ class BallParameters(StrictStruct, frozen=True):
     larmor: float
 
 
-def ball(request: Request) -> Data:
+def ball(request: Request, asked: BallParameters) -> Data:
     """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
     from atlas.exact.motions.ball import BallMotion
 
-    asked = request.take(BallParameters)
     if asked.larmor == 0:
         raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
     motion = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
@@ -96,12 +95,12 @@ class FlightParameters(StrictStruct, frozen=True):
     velocity: Vector = (0.0, 0.0, 0.0)
 
 
-def flight(request: Request) -> Data:
+def flight(request: Request, asked: FlightParameters) -> Data:
     """Positions y_0(t) and y_N(t) = y_0(t) + R(t) x_N(0) at some `times`, in the laboratory frame of figure Lssc."""
     from atlas.exact.motions.elementary import ElementaryMotion
     from atlas.exact.motions.particle import Flight
 
-    asked, case = request.take(FlightParameters), request.case
+    case = request.case
     motion = exact_particle(case, asked.position, asked.velocity)
     turning = ElementaryMotion(case.exact, case.components, asked.omega2)
     whole = Flight(motion, turning, asked.point)

@@ -2,16 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, Literal, TypeAlias
 
 from atlas.formulas.numbers import workprec
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number
-from atlas.report.schema import StrictStruct, convert
 
 RATE = r"s$^{-1}$"
-
-T = TypeVar("T", bound=StrictStruct)
 
 
 @dataclass(frozen=True)
@@ -50,12 +47,9 @@ class Request:
         """The one body and field."""
         return self.cases[0]
 
-    def take(self, kind: type[T]) -> T:
-        """Return the further parameters. Raises AtlasError for one that is unknown, missing or of another type."""
-        return convert(dict(self.parameters), kind, "parameters")
 
-
-Maker: TypeAlias = Callable[[Request], Data]
+Maker: TypeAlias = Callable[..., Data]
+"""What makes a table: of the `request`, and of its further parameters as a record; of either only if it needs it."""
 
 
 def bits(digits: int) -> int:

@@ -44,10 +44,17 @@ class MonodromyParameters(StrictStruct, frozen=True):
     points: int = 64
 
 
-def tops(request: Request) -> Data:
+def tops(request: Request, asked: TopsParameters) -> Data:
     """Return the period of nutation and the angles in it of several tops."""
-    asked = request.take(TopsParameters).tops
-    nutations = certified(lambda: [_nutation(top) for top in asked], request.digits)
+    from atlas.exact.motions.top import TopMotion
+
+    motions = [
+        TopMotion((1.0, one.ratio), one.coupling, one.direction, one.omega, one.linear, one.quadratic)
+        for one in asked.tops
+    ]
+    nutations = certified(
+        lambda: [(top.period, top.precession_per_period, top.spin_per_period) for top in motions], request.digits
+    )
     columns = [column(values, request.digits) for values in zip(*nutations, strict=True)]
     given: list[tuple[str | Number, ...]] = [
         (
@@ -55,7 +62,7 @@ def tops(request: Request) -> Data:
             Number.as_given(top.ratio),
             *(_of_top(x) for x in (top.coupling, (top.linear, top.quadratic), top.direction, top.omega)),
         )
-        for top in asked
+        for top in asked.tops
     ]
     return Data(
         heads(
@@ -77,20 +84,11 @@ def _of_top(numbers: tuple[float, ...]) -> str:
     return "$" + ",".join(map(plain, numbers)) + "$"
 
 
-def _nutation(one: Top) -> tuple[Any, Any, Any]:
-    """Return the period and both angles as balls."""
-    from atlas.exact.motions.top import TopMotion
-
-    top = TopMotion((1.0, one.ratio), one.coupling, one.direction, one.omega, one.linear, one.quadratic)
-    return top.period, top.precession_per_period, top.spin_per_period
-
-
-def monodromy(request: Request) -> Data:
+def monodromy(asked: MonodromyParameters) -> Data:
     """Return what becomes of the basis of periods on loops round unstable spins, theorem-residue."""
     from atlas.core.maps.monodromy import around, on_loop
     from atlas.core.maps.wells import Wells
 
-    asked = request.take(MonodromyParameters)
     rows: list[tuple[str | Number, ...]] = []
     for loop_asked in asked.loops:
         wells = Wells.at(loop_asked.M3, loop_asked.ratio, loop_asked.coupling, loop_asked.linear, loop_asked.quadratic)
@@ -145,11 +143,10 @@ class Samples(Motion, frozen=True):
     times: tuple[float, ...]
 
 
-def elliptic(request: Request) -> Data:
+def elliptic(request: Request, asked: Family) -> Data:
     """List elliptic motions of one body in one field, a row each, theorem-elliptic."""
     from atlas.exact.motions.elliptic import EllipticMotion
 
-    asked = request.take(Family)
     motions = [EllipticMotion(asked.inertia, asked.field, z, branch) for z, branch in asked.places]
     values = certified(
         lambda: [(m.v, *m.omega, m.splitting, m.period, m.precession_per_period) for m in motions], request.digits
@@ -167,14 +164,13 @@ def elliptic(request: Request) -> Data:
     )
 
 
-def periods(request: Request) -> Data:
+def periods(request: Request, asked: Motion) -> Data:
     """List two pairs of times after which M and K are back, and the turn about the field, with proven digits."""
     from flint import fmpq
 
     from atlas.exact.motions.torus import Torus
     from atlas.report.tables.table import bits
 
-    asked = request.take(Motion)
     inertia, K, omega = (
         [fmpq(*x.as_integer_ratio()) for x in row] for row in (asked.inertia, asked.field, asked.omega)
     )
@@ -191,11 +187,10 @@ def periods(request: Request) -> Data:
     )
 
 
-def asymmetric(request: Request) -> Data:
+def asymmetric(request: Request, asked: Samples) -> Data:
     """List the third axis of the body and its spin about it at some times, whatever the motion."""
     from atlas.exact.motions.asymmetric import AsymmetricMotion
 
-    asked = request.take(Samples)
     motion = AsymmetricMotion(asked.inertia, asked.field, asked.omega)
     values: list[Any] = certified(
         lambda: [(*motion.column(3, t), motion.angular_velocity(t)[2]) for t in asked.times], request.digits
