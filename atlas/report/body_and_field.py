@@ -14,6 +14,17 @@ from atlas.errors import AtlasError, unknown
 from atlas.report.digits import shown
 from atlas.report.schema import Pair, StrictStruct, Vector
 
+DIMENSIONS = {
+    "mass": ("mass", "$m_0$", "kg"),
+    "radius": ("radius", "$r$", "m"),
+    "height": ("height", "$h$", "m"),
+    "length": ("length", "$l$", "m"),
+    "equatorial": ("equatorial semi-axis", "$a$", "m"),
+    "polar": ("polar semi-axis", "$c$", "m"),
+    "charge": ("charge", "$e$", "C"),
+}
+"""What a body may be given beside its ratio: in words, its letter, its unit in SI."""
+
 
 class Body(StrictStruct, frozen=True):
     """A body: its ratio I = I3/I2, or both moments, or a shape with its dimensions (metres and kilograms in SI)."""
@@ -121,8 +132,8 @@ def body(record: Body) -> SymmetricBody:
 
 def dimensions(record: Body) -> dict[str, float]:
     """Return the dimensions that a body was given, and its mass."""
-    keys = ("mass", "radius", "height", "length", "equatorial", "polar")
-    return {key: getattr(record, key) for key in keys if getattr(record, key) is not None}
+    given = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
+    return {key: value for key, value in given.items() if value is not None}
 
 
 def chosen(block: Any, known: BodiesAndFields) -> tuple[BodyAndField, ...]:
@@ -169,12 +180,10 @@ def parameters(known: BodiesAndFields) -> list[str]:
 
 _UNITS = {
     "SI": {
-        "mass": "kg",
-        "charge": "C",
         "B": "T",
         "E": "V/m",
         "charge_to_mass": "C/kg",
-        **dict.fromkeys(("radius", "height", "length", "equatorial", "polar"), "m"),
+        **{key: unit for key, (_, _, unit) in DIMENSIONS.items()},
     },
     "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g"},
 }

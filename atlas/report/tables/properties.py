@@ -9,9 +9,8 @@ from typing import Any
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
-from atlas.report.body_and_field import BodyAndField
+from atlas.report.body_and_field import DIMENSIONS, BodyAndField
 from atlas.report.digits import MINUS, Number, plain
-from atlas.report.schema import StrictStruct
 from atlas.report.tables.elementary import NONE
 from atlas.report.tables.table import RATE, Data, Request, certified, heads, quantity
 
@@ -103,12 +102,11 @@ def _units(name: Any) -> dict[str, str]:
     }  # fmt: skip
 
 
-def properties(request: Request) -> Data:
+def properties(request: Request, thing: Thing) -> Data:
     """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
 
     With ``given = false`` what is given is left out. Why a quantity has no value stands below the table.
     """
-    thing = Thing.of(request)
     rows = [*_rows_given(thing)] if thing.described else []
     rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
     reasons = [f"{name}: {reason}." for _, name, value, _, _, reason in rows if value is NONE]
@@ -235,20 +233,8 @@ def cited(equations: str) -> str:
     return ", ".join(f"@{name}" for name in equations.split(", ") if name in EQUATIONS)
 
 
-_DIMENSIONS = {
-    "mass": ("mass", "$m_0$", "kg"),
-    "radius": ("radius", "$r$", "m"),
-    "height": ("height", "$h$", "m"),
-    "length": ("length", "$l$", "m"),
-    "equatorial": ("equatorial semi-axis", "$a$", "m"),
-    "polar": ("polar semi-axis", "$c$", "m"),
-    "charge": ("charge", "$e$", "C"),
-}
-
-
 def body_and_field(request: Request) -> Data:
     """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', (32) and (33)."""
-    request.take(StrictStruct)
     case = request.case
     body, field = case.body_record, case.field_record
     if body is None or field is None:
@@ -272,7 +258,7 @@ def body_and_field(request: Request) -> Data:
 
 def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
     """Go through what the user gave."""
-    for key, (words, symbol, unit) in _DIMENSIONS.items():
+    for key, (words, symbol, unit) in DIMENSIONS.items():
         value = getattr(case.body_record, key)
         if value is not None:
             yield words, symbol, value, unit
