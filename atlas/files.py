@@ -131,7 +131,7 @@ def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> d
     What is there and is not as it was written, by the folder's list or by ``known`` lines of one, stays: the new file
     is beside it. Return the names of those, and under which the new ones are.
     """
-    made = {name: _digest(part) or "" for name, part in parts.items()}
+    made = {name: digest_of(part) or "" for name, part in parts.items()}
     there = lines(out)
     before = there | {line for line in known if line[66:] in made}
     places = free(made, out, before)
@@ -144,7 +144,7 @@ def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> d
     if after != there:
         write(out / WRITTEN, listed(after))
     for name, part in parts.items():
-        if _digest(out / places[name]) != made[name]:
+        if digest_of(out / places[name]) != made[name]:
             part.replace(out / places[name])
     return {name: place for name, place in places.items() if place != name}
 
@@ -176,7 +176,7 @@ def edited(folder: Path, name: str, lines: set[str]) -> bool:
     path = folder / name
     if path.is_symlink():
         return True
-    return path.exists() and not path.is_dir() and f"{_digest(path)}  {name}" not in lines
+    return path.exists() and not path.is_dir() and f"{digest_of(path)}  {name}" not in lines
 
 
 def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
@@ -184,13 +184,13 @@ def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, st
     places = {}
     for name, digest in made.items():
         place = name
-        while edited(folder, place, lines) and ((folder / place).is_symlink() or _digest(folder / place) != digest):
+        while edited(folder, place, lines) and ((folder / place).is_symlink() or digest_of(folder / place) != digest):
             place = str(Path(place).with_suffix(f".new{Path(place).suffix}"))
         places[name] = place
     return places
 
 
-def _digest(path: Path) -> str | None:
+def digest_of(path: Path) -> str | None:
     """Return the digest of a file, None for what is none."""
     if not path.is_file():
         return None

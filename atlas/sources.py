@@ -10,6 +10,7 @@ import hashlib
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from threading import Lock
@@ -94,7 +95,9 @@ class Sources:
 
 
 def _read(path: Path, content: bytes) -> dict[str, Any]:
-    tree = _tree(content) if path.suffix == ".py" else None
+    tree = None
+    with suppress(SyntaxError, ValueError):  # it is no Python: who loads it will say so
+        tree = syntax_tree(content) if path.suffix == ".py" else None
     if tree is None:
         return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}
     said, imports = _facts_of(tree)
@@ -108,14 +111,6 @@ def syntax_tree(content: bytes, file: str = "<unknown>") -> ast.Module:
     """
     with _PARSING:
         return ast.parse(content, file)
-
-
-def _tree(content: bytes) -> ast.AST | None:
-    """Return the syntax tree of a module, or None if it is no Python: who loads it will say so."""
-    try:
-        return syntax_tree(content)
-    except (SyntaxError, ValueError):
-        return None
 
 
 def _facts_of(tree: ast.AST) -> tuple[str, set[str]]:

@@ -18,6 +18,7 @@ from atlas.build.cache import Cache
 from atlas.build.formats import LANGUAGES, MAKERS, set_texts
 from atlas.build.publish import publish
 from atlas.errors import AtlasError
+from atlas.files import digest_of
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder
 from atlas.report.toml import find, related_to
@@ -110,7 +111,7 @@ def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: 
     last = cache.load(_noted(name, out))
     for form in formats:
         record = last.get(form, {"key": None})
-        if record["key"] != key or any(_hash(out / file) != there for file, there in record["files"].items()):
+        if record["key"] != key or any(digest_of(out / file) != there for file, there in record["files"].items()):
             return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
     return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
@@ -279,11 +280,3 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.beside = {name: file for name, file in beside.items() if figure.contents.get(name)}
         picture.files = {name: f"{place}.{name}" for name in figure.kinds if name not in beside}
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
-
-
-def _hash(path: Path) -> str | None:
-    """Return the digest of a file, None if it can't be read."""
-    try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    except OSError:
-        return None

@@ -92,8 +92,7 @@ def _draw(task: Task) -> None:
         "renderer": renderer,
         "note": note,
         "cost": {
-            "points": points(scene),
-            "faces": faces(scene),
+            **counted(scene),
             "compute_s": computed - start,
             "draw_s": time.process_time() - computed,
             "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
@@ -130,26 +129,18 @@ def _compressed(content: bytes) -> bytes:
     return buffer.getvalue()
 
 
-def points(scene: Scene) -> int:
-    """Return how many points of curves, regions and marks a scene holds."""
-    count = 0
+def counted(scene: Scene) -> dict[str, int]:
+    """Return how many points of curves, regions and marks a scene holds, and faces of surfaces and cells of maps."""
+    points = faces = 0
     for layer in (layer for panel in scene.panels for layer in panel.layers):
         if isinstance(layer, Curve | Points | Region):
-            count += len(layer.points)
+            points += len(layer.points)
         elif isinstance(layer, Surface):
-            count += sum(map(len, (*layer.wires, *layer.rims)))
-    return count
-
-
-def faces(scene: Scene) -> int:
-    """Return how many faces of surfaces and cells of maps a scene holds."""
-    count = 0
-    for layer in (layer for panel in scene.panels for layer in panel.layers):
-        if isinstance(layer, Surface):
-            count += sum((grid.shape[0] - 1) * (grid.shape[1] - 1) for grid in layer.grids)
+            points += sum(map(len, (*layer.wires, *layer.rims)))
+            faces += sum((grid.shape[0] - 1) * (grid.shape[1] - 1) for grid in layer.grids)
         elif isinstance(layer, Image):
-            count += int(layer.values.size)
-    return count
+            faces += int(layer.values.size)
+    return {"points": points, "faces": faces}
 
 
 def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
