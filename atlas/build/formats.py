@@ -45,7 +45,7 @@ def _pages(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
     """Return the pages of a report with what belongs to them, by their places."""
-    from atlas.report import html
+    from atlas.report import fonts, html
 
     code = sources.closure([PACKAGE / "report" / "fonts.py"])
     pages = html.pages(document)
@@ -62,7 +62,8 @@ def _pages(
             files[card.file] = cache.recall(
                 digest("card", cutting, png, card.cut), partial(html.thumbnail, png, card.cut)
             )
-    files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
+    texts = (text for name, text in pages.items() if name.endswith(".html"))
+    files |= fonts.all_subsets(texts, lambda parts, make: cache.recall(digest("font", code, parts), make))
     files[MANIFEST] = manifest_of(document)
     return {f"{document.report.name}/{name}": content for name, content in files.items()}
 

@@ -93,13 +93,8 @@ def subset(face: Face, wanted: str) -> bytes:
 Recall: TypeAlias = Callable[[Sequence[str], Callable[[], bytes]], bytes]
 
 
-def anew(_parts: Sequence[str], make: Callable[[], bytes]) -> bytes:
-    """Recall nothing."""
-    return make()
-
-
-def all_subsets(pages: Iterable[str], recall: Recall = anew) -> dict[str, bytes]:
-    """Cut every face for some pages; the keys are file names.
+def all_subsets(pages: Iterable[str], recall: Recall) -> dict[str, bytes]:
+    """Cut every face for the letters of some pages; the keys are file names.
 
     `recall` may return what was made from the same parts before: the face, its package and the characters.
     """
@@ -108,5 +103,5 @@ def all_subsets(pages: Iterable[str], recall: Recall = anew) -> dict[str, bytes]
     for name, face in FACES.items():
         wanted = ALWAYS + (formulas + GROWING + ITALIC if name == "math" else text)
         parts = ["font", face.file, *map(str, map(release, (face.package, "fonttools"))), wanted]
-        subsets[f"{name}.woff"] = recall(parts, partial(subset, face, wanted))
+        subsets[f"fonts/{name}.woff"] = recall(parts, partial(subset, face, wanted))
     return subsets

@@ -23,7 +23,7 @@ from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.ledger import LedgerView
 from atlas.report.definition import Thumbnail
 from atlas.report.document import Document, PageView
-from atlas.report.fonts import FACES, Recall, all_subsets, anew
+from atlas.report.fonts import FACES
 from atlas.report.templates import templates
 
 SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
@@ -58,21 +58,16 @@ def pages(document: Document) -> dict[str, str]:
         "cover": _cover(document),
         "cards": cards(document),
     }
+    there = document.pages
     set_pages = {
         page.file: anchored(template.render(page=page, before=before, after=after, **common))
-        for before, page, after in _neighbours(document.pages)
+        for before, page, after in zip([None, *there], there, [*there[1:], None], strict=False)
     }
     if len(set_pages) == 1:
         set_pages = {name: _with_sections(page) for name, page in set_pages.items()}
     style = environment.get_template("style.css").render(faces=FACES)
     scripts = {name: (folder("templates") / "html" / name).read_text(encoding="utf-8") for name in SCRIPTS}
     return {"style.css": style, **scripts, "index.js": index(document, set_pages, texts), **set_pages}
-
-
-def fonts(set_pages: Mapping[str, str], recall: Recall = anew) -> dict[str, bytes]:
-    """Cut the fonts for the letters of some pages; the keys are file names."""
-    texts = (text for name, text in set_pages.items() if name.endswith(".html"))
-    return {f"fonts/{name}": content for name, content in all_subsets(texts, recall).items()}
 
 
 def whole(text: str) -> str:
@@ -153,11 +148,6 @@ def _cover(document: Document) -> Card | None:
         raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
     drawn = (card for card in _figures(document) if card.figure.id == anchor and not card.figure.failure)
     return next(drawn, None)
-
-
-def _neighbours(pages: Sequence[Any]) -> list[tuple[Any, Any, Any]]:
-    """Pair each page with the one before and the one after it."""
-    return list(zip([None, *pages[:-1]], pages, [*pages[1:], None], strict=True))
 
 
 _START = re.compile(
