@@ -61,7 +61,7 @@ def compose(
         document.pages.append(
             PageView(
                 next(appendices if page.appendix else chapters),
-                *(page.slug, page.title, page.summary, blocks, templates, page.part, page.appendix),
+                *(page.slug, page.title, blocks, templates, page.part, page.appendix),
             )
         )
     _cite_formulas(composer)

@@ -37,7 +37,6 @@ class PageView:
     number: str
     slug: str
     title: str
-    summary: str
     blocks: tuple[Any, ...]
     templates: tuple[str, ...]
     part: str = ""
@@ -114,11 +113,8 @@ class Document:
 
         def link(name: str, where: str) -> Link:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
-            if name in self.ledger:
-                page = f"{self.ledger[name]}.html" if target == "html" else ""
-                return Link(self.number(name), page, f"ledger-{slug(name)}", says)
-            if name in self.targets:
-                file, anchor, words = self.targets[name]
+            if here := self.place(name):
+                file, anchor, words = here
                 return Link(words, file if target == "html" else "", anchor, says)
             beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
             if beside:
@@ -139,13 +135,18 @@ class Document:
         folder, title = f"../{self.report.name}", self.report.title
         if name == f"report:{self.report.name}":
             return Link(title, f"{folder}/index.html", "page-index")
+        here = self.place(name)
+        if here is None:
+            return None
+        file, anchor, words = here
+        counted = name.startswith(("fig:", "tab:"))
+        return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
+
+    def place(self, name: str) -> tuple[str, str, str] | None:
+        """Return the page, the anchor and the words of a name in this report: in its ledger, else where it is shown."""
         if name in self.ledger:
-            return Link(self.number(name), f"{folder}/{self.ledger[name]}.html", f"ledger-{slug(name)}")
-        if name in self.targets:
-            file, anchor, words = self.targets[name]
-            counted = name.startswith(("fig:", "tab:"))
-            return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
-        return None
+            return f"{self.ledger[name]}.html", f"ledger-{slug(name)}", self.number(name)
+        return self.targets.get(name)
 
     def entry(self, name: str) -> str:
         """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
@@ -183,12 +184,7 @@ class Document:
 
     def listed(self, template: str) -> list[Any]:
         """Return the figures or the tables, by the name of their template, in their order."""
-        return [
-            block
-            for page in self.pages
-            for name, block in zip(page.templates, page.blocks, strict=True)
-            if name == template
-        ]
+        return [block for page in self.pages for name, block in page.placed if name == template]
 
     def flows_after(self, table: Any) -> bool:
         """Whether the table after one stands in its place in the text."""

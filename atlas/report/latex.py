@@ -147,8 +147,7 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
     for page in document.pages:
         text = rf"\section{{{_escaped(page.title)}}}" + "\n"
         displayed = False
-        pairs = zip(page.templates, page.blocks, strict=True)
-        for equations, run in groupby(pairs, lambda pair: isinstance(pair[1], EquationView)):
+        for equations, run in groupby(page.placed, lambda pair: isinstance(pair[1], EquationView)):
             parts = [_block(name, block, texts) for name, block in run]
             floats = groupby(parts, lambda piece: piece.startswith(r"\input{"))
             parts = [
