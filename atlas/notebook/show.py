@@ -17,7 +17,7 @@ from atlas.notebook.pictures import plot
 from atlas.paper.plain import plain
 from atlas.report.digits import Number
 from atlas.report.tables.elementary import NONE
-from atlas.report.tables.properties import SPACE, Thing, rows_of
+from atlas.report.tables.properties import SPACE, Row, Thing, rows_of
 
 DIGITS = 10
 WIDTH, COLOURS = 300, 40
@@ -26,7 +26,6 @@ them stays light."""
 SIDES = dict.fromkeys(("Quantity", "Name", "Value", "Unit", "Equation", "Proven"), "left") | {"Value": "right"}
 """Where the text of a column stands; JupyterLab puts all to the right where nothing is said."""
 FLOW = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">'
-Row = tuple[str, str, str | Number, str, str, str]
 
 
 def html(shown: Shown) -> str:

@@ -40,13 +40,9 @@ def read(path: Path) -> Bibliography:
     if not keys:
         raise AtlasError(f"the bibliography {path} has no entry.")
     cited = [{"t": "Cite", "c": [[_citation(key, mode)], []]} for mode in _MODES for key in keys]
-    document = {
-        "pandoc-api-version": pandoc.api(),
-        "meta": {},
-        "blocks": [{"t": "Plain", "c": [citation]} for citation in cited],
-    }
+    document = pandoc.document([{"t": "Plain", "c": [citation]} for citation in cited])
     arguments = ["-f", "json", "-t", "json", "--citeproc", f"--bibliography={path}"]
-    *plain, listed = json.loads(pandoc.run(arguments, json.dumps(document)))["blocks"]
+    *plain, listed = json.loads(pandoc.run(arguments, document))["blocks"]
     words = [_words(citation["c"][0]["c"][1]) for citation in plain]
     entries = {citation["c"][0][0].removeprefix("ref-"): citation["c"][1] for citation in listed["c"][1]}
     html = pandoc.write([(tree, False) for tree in entries.values()], "html")

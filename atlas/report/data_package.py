@@ -55,7 +55,9 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
     Raises AtlasError where pyarrow, which writes Parquet, is wanted and missing.
     """
     files, resources = dict[str, bytes](), []
-    for resource in (*_tables(document), *_figures(document, drawn)):
+    texts = [text.markdown for text in document.texts.texts]
+    tables = (_table(table, texts) for table in document.listed("table"))
+    for resource in (*tables, *_figures(document, texts, drawn)):
         for kind, write in {"csv": _csv, **({"parquet": _parquet} if parquet else {})}.items():
             content = write(resource)
             path = f"{resource.name}.{kind}"
@@ -85,13 +87,6 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
     }
     files[DESCRIPTION] = msgspec.json.format(msgspec.json.encode(described), indent=1) + b"\n"
     return files
-
-
-def _tables(document: Document) -> Iterator[Resource]:
-    """Yield the tables of a report, each with a column for each of its columns."""
-    texts = [text.markdown for text in document.texts.texts]
-    for table in document.listed("table"):
-        yield _table(table, texts)
 
 
 def _table(table: TableView, texts: Sequence[str]) -> Resource:
@@ -134,9 +129,8 @@ def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence
     return field
 
 
-def _figures(document: Document, drawn: Mapping[str, str]) -> Iterator[Resource]:
+def _figures(document: Document, texts: Sequence[str], drawn: Mapping[str, str]) -> Iterator[Resource]:
     """Yield what the figures of a report draw, point by point; see `atlas.scene.data`."""
-    texts = [text.markdown for text in document.texts.texts]
     views: list[FigureView] = document.listed("figure")
     for figure in views:
         if figure.id not in drawn:
@@ -170,20 +164,19 @@ def _csv(resource: Resource) -> bytes:
 def _parquet(resource: Resource) -> bytes:
     """Write a table as Parquet, numbers as the doubles nearest to what is printed."""
     pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
-    convert: dict[str, Callable[[str], Any]] = {
-        "number": float,
-        "integer": int,
-        "boolean": "true".__eq__,
-        "string": str,
+    kinds: dict[str, tuple[Callable[[str], Any], Any]] = {
+        "number": (float, pa.float64()),
+        "integer": (int, pa.int64()),
+        "boolean": ("true".__eq__, pa.bool_()),
+        "string": (str, pa.string()),
     }
-    types = {"number": pa.float64(), "integer": pa.int64(), "boolean": pa.bool_(), "string": pa.string()}
     arrays, fields = [], []
     for place, field in enumerate(resource.fields):
         cells = [row[place] for row in resource.rows]
-        kind, text = field["type"], field["type"] == "string"
-        arrays.append(pa.array([convert[kind](x) if x or text else None for x in cells], types[kind]))
+        (convert, kind), text = kinds[field["type"]], field["type"] == "string"
+        arrays.append(pa.array([convert(x) if x or text else None for x in cells], kind))
         more = {key: str(value) for key, value in field.items() if key in {"title", "unit"}}
-        fields.append(pa.field(field["name"], types[kind], metadata=more))
+        fields.append(pa.field(field["name"], kind, metadata=more))
     out = BytesIO()
     parquet.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), out)
     return out.getvalue()

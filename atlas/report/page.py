@@ -243,16 +243,10 @@ def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
 
 def _neighbours(asked: Asked, there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
     """Yield the table of objects near by, each with the command that makes its page, or a link to it."""
-    rows = []
-    for words, neighbour in near(asked):
-        rows.append(
-            [
-                words,
-                f"[`{neighbour.command}`]({neighbour.name}.html)"
-                if there(neighbour.name)
-                else f"`{neighbour.command}`",
-            ]
-        )
+    rows = [
+        [words, f"[`{one.command}`]({one.name}.html)" if there(one.name) else f"`{one.command}`"]
+        for words, one in near(asked)
+    ]
     if rows:
         yield {"kind": "prose", "text": "## Neighbours"}
         yield {

@@ -75,9 +75,13 @@ def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
     blocks: list[Any] = []
     for tree, inline in trees:
         blocks += [{"t": "RawBlock", "c": [target, mark]}, *([{"t": "Plain", "c": tree}] if inline else tree)]
-    document = {"pandoc-api-version": api(), "meta": {}, "blocks": blocks}
-    output = run(["-f", "json", *_WRITE[target], "--wrap=none"], json.dumps(document))
+    output = run(["-f", "json", *_WRITE[target], "--wrap=none"], document(blocks))
     return [piece.strip() for piece in output.split(mark)[1:]]
+
+
+def document(blocks: Tree) -> str:
+    """Return a document of some blocks as pandoc reads it."""
+    return json.dumps({"pandoc-api-version": api(), "meta": {}, "blocks": blocks})
 
 
 @cache
