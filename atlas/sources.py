@@ -14,7 +14,7 @@ from contextlib import suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from threading import Lock
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 from atlas import _HOMES
 from atlas.places import folder
@@ -35,23 +35,14 @@ def digest(*parts: Any) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-class Memory(Protocol):
-    """Where values that JSON can write are remembered by name."""
-
-    def load(self, name: str) -> dict[str, Any]:
-        """Return what is remembered, nothing if there is none."""
-
-    def save(self, name: str, values: dict[str, Any]) -> None:
-        """Remember."""
-
-
 class Sources:
     """Digests of files and of all that they reach.
 
-    Every file is read; what its syntax tree says is remembered in the cache under the digest of its bytes.
+    Every file is read; what its syntax tree says is remembered under the digest of its bytes in the cache, which loads
+    and saves values that JSON can write, by name.
     """
 
-    def __init__(self, cache: Memory | None = None) -> None:
+    def __init__(self, cache: Any = None) -> None:
         self._cache = cache
         self._known: dict[str, Any] = cache.load("sources") if cache else {}
         self._used: dict[str, Any] = {}

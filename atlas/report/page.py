@@ -90,6 +90,7 @@ SEEN = 1e-3
 """Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
 
 FIGURES = "## Figures"
+SETTING = {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
     "# Change it as you like, and build it by `atlas report {name}.toml --format single pdf`.\n\n"
@@ -129,7 +130,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     blocks = [
         _table(asked, "properties", family.name, asked.values),
         *figures[:1],
-        *([_setting()] if asked.field and "B" in asked.field else []),
+        *([SETTING] if asked.field and "B" in asked.field else []),
         *(_table(asked, "properties", other.name, {"given": False}) for other in beside),
         *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
         *_closed(asked, left_out),
@@ -193,10 +194,6 @@ def _too_slow(motion: Any, time: str) -> Iterator[str]:
             f"The precession about the field: in a period of nutation, {period:.3g} {unit}, the axis turns by "
             f"{angle:.3g} rad, so that figures of some periods show none of it; {turn}."
         )
-
-
-def _setting() -> dict[str, Any]:
-    return {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 
 
 def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:

@@ -19,6 +19,7 @@ from lxml import html as reader
 from pypdf import PdfReader
 
 from atlas import processes
+from atlas.build.formats import single
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
@@ -28,7 +29,6 @@ from atlas.families import FAMILIES
 from atlas.report import toml
 from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.page import Asked
-from atlas.report.single import single
 from atlas.report.tables import compute
 from atlas.report.tables.closed import convergents
 from atlas.report.tables.properties import lettered

@@ -1,30 +1,17 @@
 """The kinds of blocks that a page may have: what a user writes, what the templates see of it, and their names.
 
-A new kind is a file here with its record and its view, a line in each list below, and a template in `templates/html`
+A new kind is a file here with its record and its view, a line in the table below, and a template in `templates/html`
 and in `templates/typst`.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from atlas.report.blocks import equation, explorer, figure, ledger, prose, reference, table
-
-Block: TypeAlias = (
-    prose.Prose
-    | prose.Note
-    | prose.Notebook
-    | equation.Equation
-    | explorer.Explorer
-    | figure.Figure
-    | table.Table
-    | table.Listing
-    | table.Recorded
-    | ledger.Ledger
-    | ledger.Errata
-    | reference.Reference
-    | reference.Bibliography
-)
+from atlas.report.schema import StrictStruct
 
 
 @dataclass(frozen=True)
@@ -34,7 +21,7 @@ class Kind:
     `outline` takes the place of the view where only numbers and places are wanted, if the view computes or reads more.
     """
 
-    record: type
+    record: type[StrictStruct]
     view: Callable[[Any, Any], Any]
     template: str
     outline: Callable[[Any, Any], None] | None = None
@@ -55,6 +42,12 @@ KINDS: Mapping[str, Kind] = {
     "reference": Kind(reference.Reference, reference.view_reference, "reference", reference.outline),
     "bibliography": Kind(reference.Bibliography, reference.view_bibliography, "bibliography"),
 }
+
+
+if TYPE_CHECKING:
+    Block: TypeAlias = StrictStruct
+else:
+    Block = reduce(or_, (kind.record for kind in KINDS.values()))
 
 
 def kind_of(block: Block) -> str:

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
 from atlas.report.appendices import Appendices
@@ -96,11 +95,3 @@ class Composer:
         name = own or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"
-
-    def list_works(self) -> None:
-        """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
-        if not self.document.report.bibliography:
-            raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
-        if self.document.listed_on:
-            raise AtlasError("the works are listed already: a report has one list.")
-        self.document.listed_on = self.slug

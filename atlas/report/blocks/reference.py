@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from atlas.errors import unknown
+from atlas.errors import AtlasError, unknown
 from atlas.report.appendices import Described
 from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
@@ -14,8 +14,13 @@ class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliograph
 
 
 def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
-    """Let citations of works lead to this page; the works are those of the document."""
-    composer.list_works()
+    """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
+    document = composer.document
+    if not document.report.bibliography:
+        raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
+    if document.listed_on:
+        raise AtlasError("the works are listed already: a report has one list.")
+    document.listed_on = composer.slug
     return block
 
 
