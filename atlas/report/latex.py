@@ -166,7 +166,7 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
 
 def _block(name: str, block: Any, texts: Sequence[str]) -> str:
     match block:
-        case ProseView():
+        case ProseView(title=None):
             return texts[block.text]
         case EquationView():
             tex = texts[block.text].strip().removeprefix(r"\[").removesuffix(r"\]")

@@ -1,6 +1,6 @@
 """The ledger of one section of the paper, and the errata: entries with what the trial found."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from atlas.paper import EQUATIONS
@@ -127,10 +127,9 @@ class LedgerView:
 
 @dataclass(frozen=True)
 class ErrataView:
-    """The entries with a slip, the grave ones first, and the page of each in the ledger."""
+    """The entries with a slip, the grave ones first."""
 
     entries: tuple[EntryView, ...]
-    ledger: Mapping[str, str]
 
 
 def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
@@ -147,4 +146,4 @@ def view_errata(_block: Errata, composer: Composer) -> ErrataView:
     ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))
     first = {entry.finding.note: entry.name for entry in reversed(ordered)}
     once = (entry if first[entry.finding.note] == entry.name else replace(entry, note=None) for entry in ordered)
-    return ErrataView(tuple(once), composer.ledger)
+    return ErrataView(tuple(once))

@@ -36,17 +36,10 @@ class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
 
 @dataclass(frozen=True)
 class ProseView:
-    """The number of its text."""
+    """The number of its text, and of its heading if it has one."""
 
     text: int
-
-
-@dataclass(frozen=True)
-class NoteView:
-    """The numbers of its heading and its text."""
-
-    title: int
-    text: int
+    title: int | None = None
 
 
 def view_prose(block: Prose, composer: Composer) -> ProseView:
@@ -63,6 +56,6 @@ def view_notebook(block: Notebook, composer: Composer) -> ProseView:
     return ProseView(composer.paragraphs(text.replace(CELL, "```python")))
 
 
-def view_note(block: Note, composer: Composer) -> NoteView:
+def view_note(block: Note, composer: Composer) -> ProseView:
     """Take in the heading and the text."""
-    return NoteView(composer.text(block.title, inline=True), composer.paragraphs(block.text))
+    return ProseView(title=composer.text(block.title, inline=True), text=composer.paragraphs(block.text))
