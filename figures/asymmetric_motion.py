@@ -15,7 +15,7 @@ from atlas.core.inputs import FloatArray, positive
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
-from atlas.scene.captions import plain_vector, tex_vector, title
+from atlas.scene.captions import plain_vector, tex_vector
 from atlas.study.simulate import simulate
 
 RANGES = {"turns": (1e-3, 50.0)}
@@ -64,6 +64,5 @@ def scene(
         f"The motion of a body with the moments {plain_vector(inertia)} from {words}",
     )
     return any_motion.picture(
-        title(__doc__), drawn, setting, period, turns, upright=Upright.of(motion), word="", elevation=elevation,
-        unit=unit,
-    )  # fmt: skip
+        drawn, setting, period, turns, upright=Upright.of(motion), word="", elevation=elevation, unit=unit
+    )

@@ -9,7 +9,7 @@ import numpy as np
 from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain, tex, title
+from atlas.scene.captions import plain, tex
 from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 
 
@@ -47,14 +47,13 @@ def scene(
             layers.append(Arrow(tips[0], tips[1], "precession", r"$\mathbf{m}(t)$"))
     m2, m3 = momentum
     return Scene(
-        title(__doc__),
-        rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and $\mathbf{{m}}(0)=(0, "
-        rf"{tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and $\mathbf{{m}}(0)$ lies in the "
-        r"plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. The tip of $\mathbf{m}(t)$ goes round $\mathbf{B}$ on the "
-        r"circle, and the ball turns about $\hat{\mathbf{k}}$. Lengths are not to scale.",
-        f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point up, "
-        f"the angular momentum (0, {plain(m2)}, {plain(m3)}) in the plane e2, e3 precesses round B on a horizontal "
+        caption=rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
+        rf"$\mathbf{{m}}(0)=(0, {tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and "
+        r"$\mathbf{m}(0)$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. The tip of $\mathbf{m}(t)$ goes "
+        r"round $\mathbf{B}$ on the circle, and the ball turns about $\hat{\mathbf{k}}$. Lengths are not to scale.",
+        alt=f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point "
+        f"up, the angular momentum (0, {plain(m2)}, {plain(m3)}) in the plane e2, e3 precesses round B on a horizontal "
         "circle.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 95.0),
     )

@@ -8,7 +8,7 @@ from math import pi
 
 from atlas.core.motions.ball import BallMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.captions import tex, title
+from atlas.scene.captions import tex
 
 
 def scene(
@@ -27,6 +27,5 @@ def scene(
     values = rf"$\alpha={tex(larmor)}$, $\mathbf{{m}}=(0,{tex(m2)},{tex(m3)})$, $\gamma={tex(motion.gamma)}$"
     setting = f"A ball with {values}", f"The motion of a ball with the momentum (0, {m2:g}, {m3:g})"
     return any_motion.picture(
-        title(__doc__), motion, setting, period, periods, word=r"turn about $\hat{\mathbf{k}}$",
-        elevation=elevation, unit=unit,
-    )  # fmt: skip
+        motion, setting, period, periods, word=r"turn about $\hat{\mathbf{k}}$", elevation=elevation, unit=unit
+    )

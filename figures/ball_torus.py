@@ -11,7 +11,7 @@ from atlas.core.inputs import positive
 from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
-from atlas.scene.captions import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex
 from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 from atlas.scene.sample import curve
 from atlas.scene.torus import VIEW, net, on_torus, seen
@@ -56,7 +56,6 @@ def scene(
         ]
     shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Left, a ball's attitude on the torus of its two angles, $\alpha t$ the long way round and $\gamma t$ the "
             r"short way, dashed behind it where there are few turns; right, the way of its point $\mathbf{R}_1$. From "

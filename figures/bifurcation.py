@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.maps.bifurcation import Bifurcation, Stretch
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import listed, plain, tex, tex_vector, title
+from atlas.scene.captions import listed, plain, tex, tex_vector
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
@@ -40,7 +40,6 @@ def scene(
     )
     there = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
             r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the "

@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadrics, solids
 from atlas.scene.bodies import proportions, row, solenoid
-from atlas.scene.captions import body_role, tex_vector, title
+from atlas.scene.captions import body_role, tex_vector
 from atlas.scene.layers import frame
 from atlas.scene.quadric_panel import E3, in_plane, tolerance
 
@@ -38,7 +38,6 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     prime = drawn(field, azimuth)
     view = {"azimuth": azimuth, "elevation": elevation}
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Seven bodies on the scale of $I=I_3/I_2$, in true proportions: the needle has $I=0.02$, the rod 0.2. "
             r"Above each is the surface (51) of its initial data for $\mathbf{B}'$ along "

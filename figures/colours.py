@@ -7,7 +7,6 @@ import numpy as np
 
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, solids
 from atlas.scene.arrange import stacked
-from atlas.scene.captions import title
 from atlas.scene.quadric_panel import E2, E3, in_plane
 
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
@@ -63,15 +62,15 @@ def scene() -> Scene:
         area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
         columns[column] += [area, beside(ends[1], name)]
     return Scene(
-        title(__doc__),
-        "The colours of the figures: in each of them a colour means one thing. They differ in lightness too, so that "
-        "they stay apart in grey print. The colours of bodies are for figures in which they are compared. "
+        caption="The colours of the figures: in each of them a colour means one thing. They differ in lightness too, "
+        "so that they stay apart in grey print. The colours of bodies are for figures in which they are compared. "
         "Elementary motions are initial angular velocities, and have their hue.",
-        "Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
-        "the inverse inertia tensor pink, E blue, m green, the direction n of a top gold, angular velocities plum, the "
-        "elementary motions violet, the body's axis and its path navy, the path of a point teal, the unstable motions "
-        "vermilion, a loop magenta, a short solenoid petrol, a ball olive, a long solenoid dark brown.",
-        stacked(columns, 1, 0.0, 0.0),
+        alt="Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image "
+        "under the inverse inertia tensor pink, E blue, m green, the direction n of a top gold, angular velocities "
+        "plum, the elementary motions violet, the body's axis and its path navy, the path of a point teal, the "
+        "unstable motions vermilion, a loop magenta, a short solenoid petrol, a ball olive, a long solenoid dark "
+        "brown.",
+        panels=stacked(columns, 1, 0.0, 0.0),
         size=(178.0, 52.0),
         narrow=stacked(columns, 2, 0.0, 0.0),
     )

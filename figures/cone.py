@@ -5,8 +5,8 @@ The quadric (51) for I = 1, (56): both sheets of the hyperboloid have met in its
 
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.captions import plain_setting, tex_setting, title
+from atlas.scene import Scene, quadric_panel
+from atlas.scene.captions import plain_setting, tex_setting
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
@@ -16,15 +16,13 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
             f"figure cone takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."
         )
     layers = quadric_panel.quadric_layers(1.0, field)
-    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
-    return Scene(
-        title(__doc__),
-        f"Cone of initial angular velocities with constant $\\Omega_3$ for {tex_setting(1.0, field)}; "
+    return quadric_panel.picture(
+        layers,
+        (azimuth, elevation),
+        caption=f"Cone of initial angular velocities with constant $\\Omega_3$ for {tex_setting(1.0, field)}; "
         rf"for a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself. The plane of $\mathbf{{e}}_2$ and "
         r"$\mathbf{e}_3$ cuts it in two straight lines (heavy), of which one goes through the origin.",
-        f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two straight "
-        "lines, one of which passes through the origin.",
-        (panel,),
+        alt=f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two "
+        "straight lines, one of which passes through the origin.",
         named={"heavy": "hyperbola"},
-        size=quadric_panel.figure_size(panel),
     )

@@ -5,7 +5,7 @@ Drawn from the stored record of the benchmark, which `make bench` renews.
 
 from dataclasses import replace
 
-from atlas.scene.captions import listed, title
+from atlas.scene.captions import listed
 from atlas.scene.layers import Layer, Plane, Scene
 from atlas.study import benchmark
 
@@ -19,7 +19,6 @@ def scene(*, columns: int = 1) -> Scene:
     """Draw nanoseconds a matrix for all methods, and the multiples of filling the memory for large numbers."""
     record = benchmark.read()
     return Scene(
-        title=title(__doc__),
         caption=(
             "(a) Time for one rotation matrix of the elementary motion among $N$, on one core. (b) The same over "
             "the time in which one core fills that memory with a constant, on one core and on two, with open dots. "

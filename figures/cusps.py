@@ -12,7 +12,7 @@ from atlas.core.maps.wells import Wells
 from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
-from atlas.scene.captions import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex
 
 SIZE, LEAST = 62.0, 5.0
 """A panel in mm, and the least swing of the axis in degrees that is seen in it."""
@@ -57,7 +57,6 @@ def scene(
     ]  # fmt: skip
     panels = (*spheres, plane("abcd"[len(tops)], tops, unit))
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) in the plane of "

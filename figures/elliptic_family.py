@@ -15,7 +15,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.elliptic import splitting
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector
 from atlas.scene.hyperbola_plane import Window, branches, components, seen, window
 from atlas.scene.sample import curve, quarter_pixel
 
@@ -45,7 +45,6 @@ def scene(
         for letter, I1 in zip("abc", first, strict=False)
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Initial angular velocities of the elliptic motions in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for bodies with $I_2=1$, $I_3={tex(ratio)}$: the "

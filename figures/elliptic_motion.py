@@ -6,7 +6,7 @@ velocity is a constant matrix times it.
 
 from atlas.core.motions.elliptic import EllipticMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector
 
 
 def scene(
@@ -27,6 +27,5 @@ def scene(
         f"The motion of a body with the moments {plain_vector(inertia)} with z = {plain(z)}",
     )
     return any_motion.picture(
-        title(__doc__), motion, setting, motion.period, periods, word="field in the body",
-        elevation=elevation, unit=unit,
-    )  # fmt: skip
+        motion, setting, motion.period, periods, word="field in the body", elevation=elevation, unit=unit
+    )

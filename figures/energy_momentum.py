@@ -13,7 +13,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.maps.wells import Branch, Wells
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex
 
 WIDTH, HEIGHT = 88.0, 62.0
 
@@ -42,7 +42,6 @@ def scene(
     kinds = {"start": "stable (dots)", "unstable_point": "of focus-focus type (crosses)"}
     spins = " or ".join(words for role, words in kinds.items() if role in there)
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Energies $2H$ and momenta $p$ that motions can have (shaded), and the critical ones: steady precessions "
             r"with their rate $w$ in Larmor's frame, "

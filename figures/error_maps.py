@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from atlas.scene import Image, Label, Plane, Scene
-from atlas.scene.captions import tex, tex_setting, title
+from atlas.scene.captions import tex, tex_setting
 from atlas.study.maps import ErrorMap, over_omega2, over_ratio
 
 LIMITS = (1e-17, 1.0)
@@ -24,7 +24,6 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
     worst, sign = np.nanmax(measured), float(np.sign(field[0]))
     empty = " A cell without colour has a phase beyond $2^{50}$." if np.isnan(measured).any() else ""
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Largest error in any entry of $R(t)$ by (84) in double precision, as anyone would write it, for "
             rf"{tex_setting(ratio, field)}: (a) over $\omega_2$, (b) over $I$ at $\omega_2={tex(omega2)}$. At the same "

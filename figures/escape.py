@@ -14,7 +14,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting
 from atlas.scene.movement import along
 from atlas.scene.sample import flat
 
@@ -44,7 +44,6 @@ def scene(
     growth = float(np.sqrt(-squared))
     motions = [GeneralMotion(ratio, field, (push, omega2, omega3)) for push in pushes]
     return Scene(
-        title=title(__doc__),
         caption=(
             r"The smaller the push $\omega_1$ beside an unstable motion, the later it is left. Above: $\Omega_3$ "
             rf"leaves with the rate $\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "

@@ -15,7 +15,7 @@ from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, solids
 from atlas.scene.arrange import stacked
 from atlas.scene.bodies import drawn_body, row
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting
 from atlas.scene.movement import about, riding
 from atlas.scene.quadric_panel import E3, in_plane, tolerance
 
@@ -60,7 +60,6 @@ def scene(
             ]
         )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"One turn of the precession in {count} moments: the axis $\mathbf{{R}}_3$ keeps its angle with "
             rf"$\mathbf{{B}}$; the dark seam has made $\phi/k={tex(motion.phi / motion.k)}$ turns about it at the end. "

@@ -10,7 +10,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector
 from atlas.study.simulate import simulate
 
 SIZE, COLUMNS = 56.0, 3
@@ -50,7 +50,6 @@ def scene(
     )
     columns = min(COLUMNS, len(panels))
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ above them, all launched "
             rf"with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "

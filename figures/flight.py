@@ -12,7 +12,7 @@ from atlas.core.motions.flight import Flight
 from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene
-from atlas.scene.captions import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
+from atlas.scene.captions import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
 from atlas.scene.flight import picture
 from atlas.scene.hyperbola_plane import components
 
@@ -46,4 +46,4 @@ def scene(
         f"{plain_setting(ratio, field)} in the electric field {plain_vector(E)}",
     )
     rate = (abs(motion.k) + abs(motion.phi)) / (2 * np.pi)
-    return picture(title(__doc__), Flight(particle, motion, point), point, setting, rate, turns, stop, unit)
+    return picture(Flight(particle, motion, point), point, setting, rate, turns, stop, unit)

@@ -12,7 +12,7 @@ from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space
 from atlas.scene.bodies import proportions, solenoid
-from atlas.scene.captions import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector, title
+from atlas.scene.captions import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector
 from atlas.scene.layers import frame
 from atlas.scene.quadric_panel import E3, in_plane
 from atlas.scene.sample import curve, quarter_pixel
@@ -76,7 +76,6 @@ def scene(
         layers.append(Arrow(centre + end * R[:, 2], centre + AXIS * size * R[:, 2], "body_axis"))
     layers += fields(B, np.asarray(E, dtype=float), centres, size, (azimuth, elevation))
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The flight of {tex_setting(ratio, field)}, $\mu={tex(mu)}$, $c={tex(c)}$, through "
             rf"$\mathbf{{E}}={tex_vector(E)}$, launched with the velocity ${tex_vector(velocity)}$ and "

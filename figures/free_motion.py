@@ -9,7 +9,7 @@ from typing import Any
 
 from atlas.core.motions.elementary import FreeMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain, quotient, tex, tex_equals, title
+from atlas.scene.captions import plain, quotient, tex, tex_equals
 
 
 def scene(
@@ -29,6 +29,4 @@ def scene(
         f"The motion of a free body with I = {plain(quotient(ratio))} from {words}",
     )
     period = 2 * pi / motion.k if motion.k else 0.0
-    return any_motion.picture(
-        title(__doc__), motion, setting, period, periods, word="precession", elevation=elevation, unit=unit
-    )
+    return any_motion.picture(motion, setting, period, periods, word="precession", elevation=elevation, unit=unit)

@@ -14,7 +14,7 @@ from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex, tex_equals, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, tex, tex_equals, tex_setting
 from atlas.scene.hyperbola_plane import Window, components, graph
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
@@ -58,7 +58,6 @@ def scene(
         rf"the other, $\omega_2=-B'_2={tex(-B2)}$, drawn upright: there $\phi=\omega_3+B'_3$. (b) Their quotient, (86)."
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"Frequencies of the elementary motions of {tex_setting(ratio, field)}. (a) The precession "
             rf"$k=\omega_2/\hat B_2$ about the field and {proper}"

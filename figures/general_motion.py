@@ -8,7 +8,7 @@ from typing import Any
 
 from atlas.core.motions.general import GeneralMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain_setting, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting
 
 
 def scene(
@@ -27,4 +27,4 @@ def scene(
         f"{tex_setting(ratio, field, first='A')} from {moment}: {motion.kind}",
         f"The motion of {plain_setting(ratio, field)} from {words}",
     )
-    return any_motion.picture(title(__doc__), motion, setting, motion.period, periods, elevation=elevation, unit=unit)
+    return any_motion.picture(motion, setting, motion.period, periods, elevation=elevation, unit=unit)

@@ -13,7 +13,7 @@ from atlas.core.inputs import FloatArray, vector
 from atlas.core.motions.elliptic import EllipticMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, solids
-from atlas.scene.captions import plain, tex, tex_vector, title
+from atlas.scene.captions import plain, tex, tex_vector
 from atlas.scene.quadric_panel import O, tolerance
 
 WIDTH, HEIGHT = 178.0, 76.0
@@ -43,7 +43,6 @@ def scene(
     one = EllipticMotion(inertia, field, shown, branch)
     turn, dynamic, area = (share / (2 * np.pi) for share in parts(one))
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"(a) $\hat{{\mathbf{{K}}}}$ in a body with $I_i={tex_vector(inertia)}$, "
             rf"$\mathbf{{B}}'={tex_vector(field)}$, goes once round the hatched area $S$ in one period of the elliptic "

@@ -7,7 +7,7 @@ tolerance that came through in time.
 from collections.abc import Iterator
 from dataclasses import replace
 
-from atlas.scene.captions import listed, tex, title
+from atlas.scene.captions import listed, tex
 from atlas.scene.layers import Curve, Layer, Plane, Scene
 from atlas.study import benchmark
 
@@ -30,7 +30,6 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
     )
     shown = listed([f"the {benchmark.case_title(case)}" for case in cases])
     return Scene(
-        title=title(__doc__),
         caption=(
             f"Largest error up to a time $T$, for {shown}. The largest of the atlas is "
             f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Of an integrator each dot is the best tolerance "

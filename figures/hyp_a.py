@@ -7,8 +7,8 @@ from typing import Any
 
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.captions import plain_setting, quotient, tex_setting, title
+from atlas.scene import Scene, quadric_panel
+from atlas.scene.captions import plain_setting, quotient, tex_setting
 
 
 def scene(
@@ -21,13 +21,12 @@ def scene(
             f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
         )
     layers = quadric_panel.quadric_layers(ratio, field, "origin")
-    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
-    return Scene(
-        title(__doc__),
-        f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
+    return quadric_panel.picture(
+        layers,
+        (azimuth, elevation),
+        caption=f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
         f"{tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
-        f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the origin O, "
-        "from which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it at −B'.",
-        (panel,),
-        size=quadric_panel.figure_size(panel),
+        alt=f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the "
+        "origin O, from which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it "
+        "at −B'.",
     )

@@ -7,8 +7,8 @@ from typing import Any
 
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.captions import plain_setting, quotient, tex_setting, title
+from atlas.scene import Scene, quadric_panel
+from atlas.scene.captions import plain_setting, quotient, tex_setting
 
 
 def scene(
@@ -21,15 +21,13 @@ def scene(
             f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
         )
     layers = quadric_panel.quadric_layers(ratio, field)
-    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
-    return Scene(
-        title(__doc__),
-        f"Hyperboloid of initial angular velocities with constant $\\Omega_3$ for {tex_setting(ratio, field)}: "
+    return quadric_panel.picture(
+        layers,
+        (azimuth, elevation),
+        caption=f"Hyperboloid of initial angular velocities with constant $\\Omega_3$ for {tex_setting(ratio, field)}: "
         r"one tube about its inclined canonical axis, on which both branches of the hyperbola $\omega_1=0$ (heavy "
         r"lines) run along opposite sides.",
-        f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
+        alt=f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
         "−B'; both branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
-        (panel,),
         named={"heavy": "hyperbola"},
-        size=quadric_panel.figure_size(panel),
     )

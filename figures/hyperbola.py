@@ -9,7 +9,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.integrals import shape_factors
 from atlas.scene import Curve, Label, Layer, Points, Region, Scene
-from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
+from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting
 from atlas.scene.hyperbola_plane import asymptote, branches, components, places, unstable, window
 
 WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
@@ -53,7 +53,6 @@ def scene(
         for interval in bands[-1:]
     ]
     return Scene(
-        title=title(__doc__),
         caption=caption(ratio, field, bands),
         alt=alt(ratio, field, bands),
         panels=(view.panel(layers, unit, equal=True),),

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Label, Layer, Points, Scene
-from atlas.scene.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
+from atlas.scene.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector
 from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, places, window
 from atlas.scene.style import LINES
 
@@ -32,7 +32,6 @@ def scene(
     ball = any(quotient(ratio) == 1.0 for ratio in ratios)
     pole = r"asymptote $\omega_2=-B'_2$, a line of the ball" if ball else "dotted asymptote"
     return Scene(
-        title=title(__doc__),
         caption=(
             r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "

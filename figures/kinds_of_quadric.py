@@ -12,7 +12,7 @@ from atlas.core.inputs import FloatArray, whole
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
-from atlas.scene.captions import listed, title
+from atlas.scene.captions import listed
 
 WIDTH, HEIGHT = 178.0, 72.0
 LEAST, MOST = 60, 2000
@@ -74,7 +74,6 @@ def scene(
         y_label = r"$\beta$ (degrees)" if k == 0 else ""
         panels.append(Plane(tuple(layers), r"$I=I_3/I_2$", y_label, (0.0, 2.0), (0.0, RIGHT), title=name))
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Every quadric (51) once, up to its size: over $I$ and the angle $\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ "
             r"to $\mathbf{e}_2$. The body alone decides on the kind. At the lower edge it is a pair of planes, "

@@ -14,7 +14,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
 from atlas.scene.any_motion import slow_turn
-from atlas.scene.captions import plain_setting, spelt, tex, tex_setting, title
+from atlas.scene.captions import plain_setting, spelt, tex, tex_setting
 from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve
 
@@ -56,7 +56,6 @@ def scene(
 
     frames = (("(a) laboratory", in_laboratory), (r"(b) Larmor's frame", in_larmor_frame))
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
             rf"$\boldsymbol{{\omega}}=({', '.join(map(tex, omega))})$ (heavy) and "

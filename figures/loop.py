@@ -5,8 +5,8 @@ For I = 2 the sheets of the quadric (51) touch the planes omega_3 = 0, at the or
 
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain_setting, tex_setting, title
+from atlas.scene import Points, Scene, quadric_panel, solids
+from atlas.scene.captions import plain_setting, tex_setting
 from atlas.scene.quadric_panel import E1, E2, O, in_plane
 
 
@@ -25,13 +25,11 @@ def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, ele
     ]
     touching = Points(touch[None], "special", r"$-2\mathbf{B}'$")
     layers = [*quadric_panel.quadric_layers(2.0, field), *planes, touching]
-    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
-    return Scene(
-        title(__doc__),
-        f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
+    return quadric_panel.picture(
+        layers,
+        (azimuth, elevation),
+        caption=f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
         rf"$\omega_3=-2B'_3$ that they touch at $O$ and at $-2\mathbf{{B}}'$.",
-        f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
+        alt=f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
         "plane at the origin, the lower hangs from another one at −2B'.",
-        (panel,),
-        size=quadric_panel.figure_size(panel),
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
 from atlas.scene.bodies import proportions
-from atlas.scene.captions import plain_setting, quotient, tex_setting, title
+from atlas.scene.captions import plain_setting, quotient, tex_setting
 from atlas.scene.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 
 SIZE, WINDINGS = 1.5, 7.0
@@ -54,12 +54,11 @@ def scene(
     if field[1]:
         layers.append(Label(third, r"$B'_3$", offset=(-5.0, 0.0)))
     return Scene(
-        title(__doc__),
-        f"Laboratory system for {tex_setting(ratio, field)}: $\\mathbf{{e}}_3$ is the third inertia axis "
+        caption=f"Laboratory system for {tex_setting(ratio, field)}: $\\mathbf{{e}}_3$ is the third inertia axis "
         r"$\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the field, lies in the plane of $\mathbf{e}_2$ and "
         r"$\mathbf{e}_3$. The cylindrical shell drawn has this ratio of its moments.",
-        f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "
+        alt=f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "
         f"{plain_setting(ratio, field)}; the field leans from e3 towards e2.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 92.0),
     )

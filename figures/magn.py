@@ -9,7 +9,7 @@ import numpy as np
 from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector
 from atlas.scene.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 from atlas.scene.sample import curve
 
@@ -67,13 +67,12 @@ def scene(
     drift = rf" and drifts along $[\mathbf{{E}}, \mathbf{{B}}]$, {side} the axis $x$" if E[0] else ""
     vector = tex_vector((0.0, *E))
     return Scene(
-        title(__doc__),
-        rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and $\mathbf{{B}}=(0, 0, "
-        rf"{tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in the plane of $y$ and "
-        rf"$z$. The path begins at the origin{drift}. The arrows of the fields are not to scale.",
-        f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, E = {plain_vector((0.0, *E))} in "
-        f"the plane of y and z{' with its two components' if all(E) else ''}, and the spiral path of a particle"
-        f"{f' that drifts {side} x' if E[0] else ''}.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        caption=rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and "
+        rf"$\mathbf{{B}}=(0, 0, {tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in "
+        rf"the plane of $y$ and $z$. The path begins at the origin{drift}. The arrows of the fields are not to scale.",
+        alt=f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, "
+        f"E = {plain_vector((0.0, *E))} in the plane of y and z{' with its two components' if all(E) else ''}, and the "
+        f"spiral path of a particle{f' that drifts {side} x' if E[0] else ''}.",
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 88.0),
     )

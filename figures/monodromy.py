@@ -14,7 +14,7 @@ from atlas.core.maps.monodromy import Monodromy, around, on_loop
 from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, tex, title
+from atlas.scene.captions import plain, tex
 
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
@@ -45,7 +45,6 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     lattices = [lattice(f"({'def'[k]}) {words(loops[k])}", loops[k], k == 0) for k in range(3)]
     error = max(loop.step for loop in loops)
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"Above: least energies (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round unstable "
             rf"spins (crosses); $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the periods of one nutation, "

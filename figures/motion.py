@@ -11,7 +11,7 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.any_motion import course
 from atlas.scene.bodies import drawn_body
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 178.0, 62.0
@@ -43,7 +43,6 @@ def scene(
     along = "" if free else r"; dashed: its projection on the field"
     turning = rf"The body at the start, and the way of its axis round {axis} in {SPOKES} steps."
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The elementary motion of {tex_setting(ratio, field)} from "
             rf"$\boldsymbol{{\omega}}=(0,\omega_2,\omega_3)$ with $\omega_2={tex(motion.omega2)}$, "

@@ -16,7 +16,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.maps.trace_map import trace_map
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import body_name, listed, tex, tex_vector, title
+from atlas.scene.captions import body_name, listed, tex, tex_vector
 from atlas.scene.hyperbola_plane import Window, branches, places
 from atlas.study.sweep.plan import Range, Tabulation
 
@@ -58,7 +58,6 @@ def scene(
         for letter, I, swing, *ends in zip("abcd", ratios, swings, least, largest, strict=False)
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             r"The amplitude of the nutation over the initial angular velocity $(0,\omega_2,\omega_3)$, "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$: zero on the hyperbola (white) alone. Open dot: rest; "

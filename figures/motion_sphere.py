@@ -12,7 +12,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain, plain_setting, spelt, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, spelt, tex, tex_setting
 from atlas.scene.layers import frame
 from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
 from atlas.scene.sample import curve
@@ -65,8 +65,7 @@ def scene(
     ]
     name = r"\mathbf{B}" if any(field) else r"\mathbf{m}"
     return Scene(
-        title(__doc__),
-        rf"The third inertia axis $\mathbf{{R}}_3(t)$ goes round ${name}$ on the unit sphere (heavy line) for "
+        caption=rf"The third inertia axis $\mathbf{{R}}_3(t)$ goes round ${name}$ on the unit sphere (heavy line) for "
         rf"{tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$: $k={tex(motion.k)}$, $\phi={tex(motion.phi)}$. "
         + (
             rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of the precession; "
@@ -75,10 +74,10 @@ def scene(
             else rf"Arrowheads show which way it runs. The trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of "
             r"the precession would fill a band of the sphere, and is not drawn."
         ),
-        f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the body "
-        f"precesses on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
+        alt=f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the "
+        f"body precesses on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
         + ("; the first axis traces a rosette." if drawn else "."),
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         named={"heavy line": "trace", "thin line": "second_trace"},
         size=(100.0, 100.0),
     )

@@ -10,7 +10,7 @@ from atlas.core.maps.trace_map import trace_map
 from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting
 
 SIZE = 58.0
 
@@ -37,7 +37,6 @@ def scene(
         for letter, start, motion in zip("abcdef", omega2, motions, strict=False)
     )  # fmt: skip
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} with $\omega_3={tex(omega3)}$ over {plain(nutations)} "
             r"periods of the nutation, $\mathbf{B}$ upright. At the start (dot) it moves along the parallel with "

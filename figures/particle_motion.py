@@ -10,7 +10,7 @@ from atlas.core.inputs import FloatArray, positive
 from atlas.core.motions.particle import ParticleMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
 from atlas.scene.any_motion import course
-from atlas.scene.captions import plain, plain_vector, tex, tex_equals, tex_vector, title
+from atlas.scene.captions import plain, plain_vector, tex, tex_equals, tex_vector
 from atlas.scene.quadric_panel import tolerance
 from atlas.scene.sample import curve
 
@@ -50,7 +50,6 @@ def scene(
     fields = rf"$\mathbf{{E}}={tex_vector(electric)}$, $\mathbf{{B}}={tex_vector(magnetic)}$"
     until = tex_equals(float(f"{stop:.3g}"))
     return Scene(
-        title=title(__doc__),
         caption=rf"(a) The path of a particle ({particle.kind}) up to $t{until}$; the arrows are not to scale. (b) Its "
         rf"velocity, at the dot ${tex_vector(velocity)}$. {particle.case.capitalize()}: $\mu={tex(mu)}$, {fields}.",
         alt=f"The path in space of a particle with mu = {plain(mu)} in E = {plain_vector(electric)} and B = "

@@ -17,7 +17,7 @@ from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting
 from atlas.scene.sample import flat
 
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
@@ -60,7 +60,6 @@ def scene(
         else "Here there is one, and it is stable. "
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the momenta "
             rf"of the elementary one $\omega_2={tex(omega2)}$: each line is one energy. Dots are equilibria, the "

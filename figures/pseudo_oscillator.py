@@ -14,7 +14,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
+from atlas.scene.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
@@ -63,7 +63,6 @@ def scene(
 
     start = np.array([oscillator.omega3 - zero, (oscillator.omega1 * oscillator.B2) ** 2])
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The third component $\Omega_3$ of the angular velocity of {tex_setting(ratio, field)}, from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ of the first integral "

@@ -7,8 +7,8 @@ canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on 
 from typing import Any
 
 from atlas.core.surfaces.quadric import Quadric
-from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.captions import plain_setting, tex_setting, title
+from atlas.scene import Scene, quadric_panel
+from atlas.scene.captions import plain_setting, tex_setting
 
 
 def scene(
@@ -24,14 +24,12 @@ def scene(
         else "the canonical axes through −B' and the hyperbola in the plane e2, e3"
     )
     layers = quadric_panel.quadric_layers(ratio, field)
-    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
-    return Scene(
-        title(__doc__),
-        f"The quadric of initial angular velocities with constant $\\Omega_3$ is {what} for "
+    return quadric_panel.picture(
+        layers,
+        (azimuth, elevation),
+        caption=f"The quadric of initial angular velocities with constant $\\Omega_3$ is {what} for "
         f"{tex_setting(ratio, field)}. "
         f"{legend}",
-        f"{what.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
+        alt=f"{what.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
         "laboratory axes" + (f", B', its image under the inverse inertia tensor, {shown}." if any(field) else "."),
-        (panel,),
-        size=quadric_panel.figure_size(panel),
     )

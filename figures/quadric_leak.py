@@ -16,7 +16,7 @@ from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting
 from atlas.scene.sample import curve, flat, quarter_pixel
 from atlas.scene.style import LINES
 
@@ -51,7 +51,6 @@ def scene(
         else r"it does not shrink with $\omega_1$, for the point of the hyperbola with this $\omega_2$ is unstable."
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"Points of the quadric (51) of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$. "
             rf"(a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "

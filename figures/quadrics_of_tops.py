@@ -11,7 +11,7 @@ from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadrics
 from atlas.scene.arrange import lettered, stacked
-from atlas.scene.captions import tex, title
+from atlas.scene.captions import tex
 from atlas.scene.quadric_panel import Member, tolerance
 
 WIDTH, HEIGHT = 178.0, 134.0
@@ -67,7 +67,6 @@ def scene(
     cells = quadric_panel.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)
     plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"Initial angular velocities with $\ddot\nu=0$ of tops, $I={tex(ratio)}$, "
             rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$, whose points "

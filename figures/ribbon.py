@@ -15,7 +15,7 @@ from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics, solids
 from atlas.scene.bodies import drawn_body
-from atlas.scene.captions import plain_setting, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting
 from atlas.scene.hyperbola_plane import places
 from atlas.scene.layers import frame
 from atlas.scene.quadric_panel import in_plane, tolerance
@@ -56,7 +56,6 @@ def scene(
     unstable = any(isinstance(layer, Curve) and layer.role == "unstable" for layer in layers)
     band = " Vermilion: the unstable motions." if unstable else ""
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The surface (51) for {tex_setting(ratio, field)}, tinted by the rate $\lvert\omega_1B'_2\rvert$ at "
             rf"which $\Omega_3$ departs there. From the heavy line, the hyperbola, it does not depart.{band} "

@@ -15,7 +15,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting
 from atlas.scene.layers import frame
 from atlas.scene.movement import about, riding
 from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
@@ -41,7 +41,6 @@ def scene(
     both = {"(a) in the field": motion, "(b) free": free}
     panels = tuple(cones(name, one, axis, (azimuth, elevation)) for name, one in both.items())
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The body cone (amber) rolls on the space cone (green): (a) in the field, about $\mathbf{{B}}$, "
             rf"$\phi={tex(motion.phi)}$; (b) free, (87), about $\mathbf{{m}}$, $\phi={tex(free.phi)}$. It "

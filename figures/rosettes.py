@@ -15,7 +15,7 @@ from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Points, Scene, Space, solids
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting
 from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.sample import curve
 
@@ -47,7 +47,6 @@ def scene(
     named = listed([f"${p}/{q}$" for p, q in fractions])
     spoken = listed([f"{p}/{q}" for p, q in fractions])
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Seen along $\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
             rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "

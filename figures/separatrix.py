@@ -14,7 +14,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, solids
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting
 from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve, flat
 
@@ -43,7 +43,6 @@ def scene(
     growth = float(np.sqrt(-stability))
     motions, last = excursions(ratio, field, omega2), decay / growth
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"One excursion from an unstable precession and back, $\omega_2={tex(omega2)}$ of "
             rf"{tex_setting(ratio, field)}. (a) The trace of the axis in one of the two, $\mathbf{{B}}$ "

@@ -11,7 +11,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.spectrum import Spectrum
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector, title
+from atlas.scene.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
 
 WIDTH, HEIGHT = 120.0, 110.0
 BESIDE = 0.02
@@ -39,7 +39,6 @@ def scene(
     symbols = {"nutation": "M", "precession": "p", "spin": "s"}
     told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"Lines of the motion of {tex_setting(ratio, field)} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "

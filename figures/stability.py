@@ -17,7 +17,7 @@ from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting
 from atlas.scene.hyperbola_plane import Window, components, graph, seen, unstable
 from atlas.scene.sample import flat
 
@@ -47,7 +47,6 @@ def scene(
     tau = abs(B3 / B2)
     near = tau <= FAR
     return Scene(
-        title=title(__doc__),
         caption=(
             f"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
             r"squared, $\nu_n^2=-Q''(\omega_3)/2$, theorem-quartic, along the hyperbola (67). "

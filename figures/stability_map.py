@@ -13,7 +13,6 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Label, Layer, Plane, Scene
-from atlas.scene.captions import title
 from atlas.scene.sample import flat
 from atlas.study.sweep.plan import Range, Tabulation
 
@@ -49,7 +48,6 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     views = ((0.0, 1.0), (0.0, EDGE)), ((0.0, 2.0), (0.0, TOP))
     names = "(a) greatest rate of growth", "(b) least nutation frequency"
     return Scene(
-        title=title(__doc__),
         caption=(
             r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. (a) Where some are "
             r"unstable: the greatest rate of growth, "

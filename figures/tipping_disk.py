@@ -20,7 +20,7 @@ from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.arrange import lettered, stacked
 from atlas.scene.bodies import drawn_body, row
-from atlas.scene.captions import plain, quotient, tex, title
+from atlas.scene.captions import plain, quotient, tex
 from atlas.scene.movement import about, along, riding
 from atlas.scene.quadric_panel import E3, tolerance
 from atlas.scene.sample import flat
@@ -56,7 +56,6 @@ def scene(
     places = row(count, STEP, azimuth)
     far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
     return Scene(
-        title=title(__doc__),
         caption=(
             "A disk that spins along the field tips over: "
             + (

@@ -6,7 +6,7 @@ the components of Omega(t) are elliptic functions of time.
 
 from atlas.core.motions.top import TopMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain, tex, title
+from atlas.scene.captions import plain, tex
 
 
 def scene(
@@ -38,4 +38,4 @@ def scene(
         f"A top with {', '.join([rf'$I={tex(ratio)}$', *has])} from {moment}: {motion.kind}",
         f"The motion of a top with I = {plain(ratio)} from {words}",
     )
-    return any_motion.picture(title(__doc__), motion, setting, motion.period, periods, elevation=elevation, unit=unit)
+    return any_motion.picture(motion, setting, motion.period, periods, elevation=elevation, unit=unit)

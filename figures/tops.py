@@ -9,7 +9,7 @@ from typing import Any
 from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import plain, spelt, tex, title
+from atlas.scene.captions import plain, spelt, tex
 
 SIZE = 44.0
 
@@ -45,7 +45,6 @@ def scene(
     )  # fmt: skip
     start = ", ".join(tex(x) for x in omega)
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega=({start})$, over "
             rf"{spelt(nutations)} of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "

@@ -10,7 +10,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray, positive, vector
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, solids
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector
 from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.torus import VIEW, net, on_torus, seen
 from atlas.study.simulate import flow
@@ -52,7 +52,6 @@ def scene(
         first[0] * rates[0] + there[:, None] * first[1] * rates[1],
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The motion of a body with $I_i={tex_vector(inertia)}$ from $\boldsymbol{{\omega}}={tex_vector(omega)}$ "
             rf"in $\mathbf{{B}}'={tex_vector(field)}$ up to $t={tex(stop)}$ (thin line), in (a) on its torus, the "

@@ -12,7 +12,7 @@ from atlas.core.inputs import positive
 from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
-from atlas.scene.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector, title
+from atlas.scene.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, MARGIN = 86.0, 15.0
@@ -67,7 +67,6 @@ def scene(
         for row, (speed, points, whole) in enumerate(paths)
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
             rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "

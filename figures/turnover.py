@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Plane, Scene
-from atlas.scene.captions import plain, tex, tex_vector, title
+from atlas.scene.captions import plain, tex, tex_vector
 
 WIDTH, HEIGHT = 88.0, 62.0
 POINTS = 600
@@ -44,7 +44,6 @@ def scene(
         *(Curve(points, role, rf"$s={tex(push)}$") for role, (push, points) in zip(ROLES, curves, strict=False)),
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             rf"How far the field in the body is from where it was, for a body with $I_i={tex_vector(inertia)}$ at rest "
             rf"in $\mathbf{{B}}'={tex_vector(field)}$ that is pushed about $\mathbf{{e}}_2$ with the angular "

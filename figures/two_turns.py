@@ -14,7 +14,7 @@ from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, solids
 from atlas.scene.arrange import stacked
 from atlas.scene.bodies import drawn_body, row
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting
 from atlas.scene.quadric_panel import E1, E3, in_plane, tolerance
 
 STEP = 3.0
@@ -69,7 +69,6 @@ def scene(
             )
         cells.append(layers)
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Two turns lead from the first attitude to that at any time, $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85): "
             rf"one by $\phi t={tex(round(proper, 3))}$ about the axis, and one, from the dashed line, by "

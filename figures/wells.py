@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.maps.wells import border, rest
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
-from atlas.scene.captions import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex
 
 WIDTH, HEIGHT = 178.0, 78.0
 RANGES = {"reach": (0.5, 50.0)}
@@ -35,7 +35,6 @@ def scene(
         panel("abc"[k], k == 0, k == len(momenta) - 1, momentum, cosines, reach) for k, momentum in enumerate(momenta)
     )
     return Scene(
-        title=title(__doc__),
         caption=(
             r"Tops with two wells (shaded) and with one, each a point $(a,A)$, at the momenta $p$ and $M_3$. On a thin "
             r"line the axis can rest at the cosine $\nu_0$ that the line bears: with two wells on three such lines. "

@@ -7,7 +7,7 @@ the lower left. An integrator is a line with one dot a tolerance, from 1e-3 to 1
 from collections.abc import Iterator
 
 from atlas.errors import AtlasError
-from atlas.scene.captions import listed, plain, title
+from atlas.scene.captions import listed, plain
 from atlas.scene.layers import Layer, Plane, Points, Scene
 from atlas.study import benchmark
 
@@ -21,7 +21,6 @@ def scene(
     """Draw one panel for each of the cases, with all runs up to the time ``horizon``."""
     record = benchmark.read()
     return Scene(
-        title=title(__doc__),
         caption=(
             f"Largest error up to $t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
             f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. A line is an integrator, one "

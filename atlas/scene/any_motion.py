@@ -92,7 +92,6 @@ class Upright:
 
 
 def picture(
-    heading: str,
     motion: Any,
     setting: tuple[str, str],
     period: float,
@@ -138,7 +137,6 @@ def picture(
         ),
     )  # fmt: skip
     return Scene(
-        title=heading,
         caption=rf"(a) The way of the third axis $\mathbf{{R}}_3(t)$ {span}, ${upright.letter}$ upright, from the dot "
         rf"on, and the parallels that it touches. (b) The angular velocity in the body. {setting[0]}.",
         alt=f"{setting[1]}: a unit sphere with the trace of the third axis {span}, {upright.plain} upright; and "

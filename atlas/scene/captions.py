@@ -9,11 +9,6 @@ DIGITS = 6
 MINUS = "\N{MINUS SIGN}"
 
 
-def title(docstring: str | None) -> str:
-    """Return the title of a recipe: the first line of its docstring."""
-    return (docstring or "").partition("\n")[0].rstrip(".")
-
-
 def tex(value: float) -> str:
     r"""Return a number for a formula, six digits at most: -0.5, 1.5 \times 10^{-7}."""
     mantissa, _, exponent = f"{value + 0.0:.{DIGITS}g}".partition("e")

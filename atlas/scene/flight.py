@@ -39,11 +39,10 @@ def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit
         f"a body in the electric field {plain_vector(E)}",
     )
     rate = turns_of(flight.motion, particle.period) if particle.cyclotron_frequency else 0.0
-    return picture("Flight", flight, point, setting, rate, turns, stop, unit)
+    return replace(picture(flight, point, setting, rate, turns, stop, unit), title="Flight")
 
 
 def picture(
-    heading: str,
     flight: Flight,
     point: Sequence[float],
     setting: tuple[str, str],
@@ -70,7 +69,6 @@ def picture(
     axes, view = across(flight, B), beside(flight, stop)
     drawn = paths(flight, axes, view, stop)
     return Scene(
-        title=heading,
         caption=(
             rf"The flight of a point $\mathbf{{x}}_N={tex_vector(point)}$ of {setting[0]}; the centre of mass "
             rf"circles with $2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. "

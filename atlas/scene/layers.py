@@ -157,7 +157,8 @@ Panel: TypeAlias = Plane | Space
 class Scene:
     """One figure: its panels row by row, its size in millimetres, and the words that go with it.
 
-    ``caption`` and ``alt`` are complete sentences; ``alt`` has no TeX. ``parameters`` are those that the figure was
+    ``title`` is that of the recipe, the first line of its docstring, where there is none; ``caption`` and ``alt`` are
+    complete sentences, ``alt`` without TeX. ``parameters`` are those that the figure was
     made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
     {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
     ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
@@ -167,10 +168,10 @@ class Scene:
     heights of the rows, of which all have one if it is empty.
     """
 
-    title: str
-    caption: str
-    alt: str
-    panels: tuple[Panel, ...]
+    title: str = ""
+    caption: str = ""
+    alt: str = ""
+    panels: tuple[Panel, ...] = ()
     columns: int = 1
     size: tuple[float, float] = (120.0, 100.0)
     parameters: Mapping[str, Any] = field(default_factory=dict)

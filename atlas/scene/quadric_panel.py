@@ -13,7 +13,7 @@ import numpy as np
 from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import quadrics, solids
 from atlas.scene.captions import quotient
-from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface, frame, points_of
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Scene, Space, Surface, frame, points_of
 from atlas.scene.sample import quarter_pixel
 
 E1, E2, E3 = np.eye(3)
@@ -44,17 +44,18 @@ def in_plane(second: float, third: float) -> FloatArray:
     return np.array([0.0, second, third])
 
 
-def figure_size(panel: Space) -> tuple[float, float]:
-    """Return the size (width, height) in millimetres of a figure that one panel fills, with room for names around it.
+def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) -> Scene:
+    """Return the figure that one panel fills, seen from azimuth and elevation, with room for names around it.
 
-    It is at most 120 x 98, and no side is below 50; the panel's projection decides the ratio of the sides.
+    It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
+    panel = Space(tuple(layers), *view)
     seen = np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
     flat = seen / np.abs(seen).max() @ frame(panel)[:2].T
     span = np.ptp(flat, axis=0)
     filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
     width, height = np.maximum(np.round(filled), _LEAST)
-    return float(width), float(height)
+    return Scene(panels=(panel,), size=(float(width), float(height)), **words)
 
 
 def tolerance(reach: float) -> float:

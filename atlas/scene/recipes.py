@@ -56,7 +56,7 @@ class Recipe:
             raise _broken(self.source, error) from error
         if not isinstance(scene, Scene):
             raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
-        return replace(scene, parameters=used, narrowest=self.narrowest)
+        return replace(scene, title=scene.title or self.title, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:
         """Return what its parameters are annotated with; its file is run for it."""
