@@ -2,19 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import Stroke
 from numpy.typing import NDArray
 
 from atlas.draw.style import ground, zoom
 from atlas.draw.text import line, typeset
 from atlas.scene.layers import FloatArray
 from atlas.scene.style import WHITE, readable
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 _TURNS = np.radians([0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180])
 _STEPS = (0.0, 3.0, 7.0, 12.0)
@@ -161,13 +158,11 @@ def along(points: FloatArray, step: float = 2.0) -> FloatArray:
     return np.stack([np.interp(s, length, finite[:, k]) for k in range(2)], axis=1)
 
 
-def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
+def write(axes: Axes, tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
     """Write the texts about their centres (points from the lower left corner), as annotations of their anchors.
 
     Below each lies its outline in the colour of the ground, which is no text, or a white box on a coloured image.
     """
-    from matplotlib.patheffects import Stroke
-
     corner = axes.get_window_extent().p0
     face = WHITE if boxed else ground(axes.get_facecolor() if axes.axison else axes.figure.get_facecolor())
     scale = zoom() * axes.figure.dpi / 72.0

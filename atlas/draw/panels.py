@@ -171,7 +171,7 @@ _FRAME = 1.5
 """Names keep so far off the frame, clear of its ticks."""
 
 
-def write_names(axes: "Axes", panel: Plane) -> None:
+def write_names(axes: Axes, panel: Plane) -> None:
     """Write the names of a panel where they cover nothing; the axes must have their place in the figure."""
     axes.apply_aspect()
     box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import count, cycle
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
@@ -183,8 +184,6 @@ def silhouette(surface: Surface, view: View) -> list[FloatArray]:
 
 def draw_shaded(axes: Axes, panel: Space) -> None:
     """Draw a panel as a picture by VTK, of the resolution in which the figure is saved, with its names over it."""
-    import matplotlib as mpl
-
     from atlas.draw.shaded import still
 
     view = fit(panel, window(axes))

@@ -11,7 +11,9 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.colors import to_hex, to_rgba
 
 from atlas.errors import AtlasError
 from atlas.scene.layers import FloatArray
@@ -55,8 +57,6 @@ def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
     commas between them; the names of SciencePlots are known where it is installed. Raises AtlasError for a style that
     cannot be read, or that needs a LaTeX that is not there.
     """
-    import matplotlib as mpl
-
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(_sheet())
@@ -85,8 +85,6 @@ def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
 
 def _asked(target: Target) -> dict[str, Any]:
     """Return the settings that a target asks for, from those that are."""
-    import matplotlib as mpl
-
     now = mpl.rcParams
     return {
         **dict.fromkeys(_TEXTS, target.type),
@@ -134,17 +132,14 @@ def _complaints() -> Iterator[list[str]]:
 @cache
 def _sheet() -> Any:
     """Read the package's sheet."""
-    import matplotlib as mpl
-
     return mpl.rc_params_from_file(SHEET, use_default_template=False)
 
 
 def _apply(style: Any) -> None:
     """Apply one style of a user."""
-    import matplotlib as mpl
-    import matplotlib.style
+    from matplotlib import style as sheets  # it reads all of Matplotlib's
 
-    if isinstance(style, str) and style not in mpl.style.library:
+    if isinstance(style, str) and style not in sheets.library:
         with suppress(ImportError):
             import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
     cannot, unknown = f"the style {str(style)!r} cannot be used", "it is no file, nor a name of Matplotlib's"
@@ -152,7 +147,7 @@ def _apply(style: Any) -> None:
         raise AtlasError(f"{cannot}: {unknown}.")
     try:
         with _complaints() as messages:
-            mpl.style.use(style)
+            sheets.use(style)
     except OSError as error:
         raise AtlasError(f"{cannot}: {unknown}.") from error
     except UnicodeDecodeError as error:
@@ -165,8 +160,6 @@ def _apply(style: Any) -> None:
 
 def _use(styles: Sequence[Any]) -> None:
     """Apply a user's styles one after the other."""
-    import matplotlib as mpl
-
     for own in styles:
         _apply(own)
     for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend
@@ -178,9 +171,6 @@ def _use(styles: Sequence[Any]) -> None:
 
 def ground(face: Any = None) -> str:
     """Return the colour that panels are drawn upon, or that of this ``face`` if it is not transparent."""
-    import matplotlib as mpl
-    from matplotlib.colors import to_hex, to_rgba
-
     faces = mpl.rcParams["axes.facecolor"] if face is None else face, mpl.rcParams["figure.facecolor"]
     return next((to_hex(one) for one in faces if to_rgba(one)[3]), WHITE)
 
@@ -190,9 +180,6 @@ def style_of(role: str) -> Style:
 
     On a dark ground lines and marks are as light as a text is there.
     """
-    import matplotlib as mpl
-    from matplotlib.colors import to_hex
-
     look = style(role)
     if role not in LINES:
         bare = not look.fill and look.colour != WHITE and is_dark(ground())

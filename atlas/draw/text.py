@@ -3,6 +3,10 @@
 import re
 from functools import cache
 
+import matplotlib as mpl
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
+
 from atlas.draw.style import zoom
 
 _SET = re.compile(r"\$[^$]*\$|'")
@@ -20,16 +24,11 @@ def typeset(text: str) -> str:
 
 def points(setting: str) -> float:
     """Return a font size of the style sheet, such as ``axes.labelsize``, in points before the target enlarges them."""
-    import matplotlib as mpl
-    from matplotlib.font_manager import FontProperties
-
     return float(FontProperties(size=mpl.rcParams[setting]).get_size_in_points()) / zoom()
 
 
 def line(text: str, size: float) -> tuple[float, float, float]:
     """Return width, ascent and descent of a text in points; no line is lower than its font asks for."""
-    import matplotlib as mpl
-
     width, ascent, descent = _line(text, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
     return size * width, size * ascent, size * descent
 
@@ -43,9 +42,6 @@ def extent(text: str, size: float) -> tuple[float, float]:
 @cache
 def _line(text: str, family: tuple[str, ...], fontset: str) -> tuple[float, float, float]:
     """Measure a text at size 1; the settings of fonts are part of the key."""
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import text_to_path
-
     size = text_to_path.FONT_SCALE
     font = FontProperties(family=list(family), size=size, math_fontfamily=fontset)
 

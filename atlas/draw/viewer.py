@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
@@ -183,8 +184,6 @@ def _short(number: float) -> float:
 
 def _outline(text: str, size: float) -> str:
     """Return the outline of a text about its middle as the data of an SVG path, in points over `GRID`; y goes down."""
-    import matplotlib as mpl
-
     return _outlined(text, size, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
 
 
