@@ -18,7 +18,7 @@ from atlas.draw.style import context
 from atlas.draw.view import Held, hold, named
 from atlas.errors import AtlasError
 from atlas.scene import any_motion, movement, recipes
-from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space, frame, points_of
+from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space, frame, seen
 
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
@@ -100,9 +100,9 @@ def _extents(scene: Scene) -> Iterator[Extent]:
 def _reduced(panel: Space) -> Space:
     """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
     eye = frame(panel)
-    seen = np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
-    along = seen @ np.concatenate([np.eye(3), eye[:2]]).T
-    far = seen[np.unique(np.concatenate([along.argmin(axis=0), along.argmax(axis=0)]))]
+    points = seen(panel)
+    along = points @ np.concatenate([np.eye(3), eye[:2]]).T
+    far = points[np.unique(np.concatenate([along.argmin(axis=0), along.argmax(axis=0)]))]
     names = filter(None, (named(layer, eye) for layer in panel.layers))
     labels = (Label(place, text, role, offset) for text, place, offset, role in names)
     return replace(panel, layers=(Points(far, "origin"), *labels))

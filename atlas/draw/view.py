@@ -8,22 +8,7 @@ import numpy as np
 from atlas.draw.labels import Tag, stand
 from atlas.draw.style import style_of
 from atlas.draw.text import extent, points
-from atlas.errors import AtlasError
-from atlas.scene.layers import (
-    Arrow,
-    Curve,
-    FloatArray,
-    Image,
-    Label,
-    Layer,
-    Points,
-    Region,
-    Space,
-    Surface,
-    frame,
-    moved,
-    points_of,
-)
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface, frame, moved, seen
 from atlas.scene.style import Style, readable
 
 
@@ -90,14 +75,14 @@ class Held:
 
 def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
     """Fit panels into one window (width, height) in points: the largest scale at which each stays inside, names too."""
-    ends = np.array([_ends(panel) for panel in panels])
-    low, high = ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)
+    low = np.min([seen(panel).min(axis=0) for panel in panels], axis=0)
+    high = np.max([seen(panel).max(axis=0) for panel in panels], axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
     flats, tags = [], []
     for one in panels:
         panel = scaled(one, centre, size)
         eye = frame(panel)
-        flat = _seen(panel) @ eye[:2].T
+        flat = seen(panel) @ eye[:2].T
         wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
         middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
         flats += [flat, np.stack([middle - wide, middle + wide])]
@@ -123,25 +108,6 @@ def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> 
     tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
     placed = (replace(tag, anchor=on_paper(tag.anchor), elsewhere=tuple(map(on_paper, tag.elsewhere))) for tag in tags)
     return View(panel, eye, held.scale, held.shift, window, tuple(placed), held.centre, held.size)
-
-
-def _seen(panel: Space) -> FloatArray:
-    """Return all the points of a panel that must be seen, (N, 3)."""
-    return np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in _parts(layer)])
-
-
-def _ends(panel: Space) -> FloatArray:
-    """Return the lowest and the highest corner of a panel, (2, 3)."""
-    seen = _seen(panel)
-    return np.stack([seen.min(axis=0), seen.max(axis=0)])
-
-
-def _parts(layer: Layer) -> Iterator[FloatArray]:
-    """All the points of a layer that must be seen."""
-    if isinstance(layer, Image | Region):
-        kind = "map" if isinstance(layer, Image) else "flat region"
-        raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
-    yield from points_of(layer)
 
 
 def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:

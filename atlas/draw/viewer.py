@@ -24,7 +24,7 @@ from atlas.draw.style import HEAD_LENGTH, HEAD_WIDTH, context, style_of
 from atlas.draw.text import extent, line, points, typeset
 from atlas.draw.view import View, dashes, fit, named
 from atlas.scene.arrange import narrowed
-from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, points_of
+from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, seen
 from atlas.scene.style import Style, readable
 
 STEPS, GRID = 16000, 16
@@ -78,10 +78,7 @@ def _laid_out(
 
 def _deep(panel: Space) -> bool:
     """Tell whether a panel is more than a drawing across the direction of view."""
-    depth = (
-        np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
-        @ frame(panel)[2]
-    )
+    depth = seen(panel) @ frame(panel)[2]
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 
 
@@ -115,8 +112,8 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
 def _surface(surface: Surface) -> list[Any]:
     """Return quadric, half spaces, quadrics within which it lies, both colours, opacity, and the corners of a box."""
     look = style_of(surface.role)
-    seen = np.concatenate([np.reshape(points, (-1, 3)) for points in (*surface.grids, *surface.rims)])
-    box = seen.min(axis=0) - 1e-3, seen.max(axis=0) + 1e-3
+    points = seen(Space((surface,)))
+    box = points.min(axis=0) - 1e-3, points.max(axis=0) + 1e-3
     within = [_form(quadric) for quadric in surface.within]
     return [
         _form(surface.quadric),

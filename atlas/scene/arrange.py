@@ -8,7 +8,7 @@ from math import log
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.scene.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, points_of
+from atlas.scene.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, seen
 from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.35
@@ -181,5 +181,4 @@ def lettered(panels: Sequence[Space], title: str) -> tuple[Space, ...]:
 
 def extent(panel: Space) -> FloatArray:
     """Return how much of the plane of view (right, up) the layers of a panel cover."""
-    points = [np.reshape(points_of_layer, (-1, 3)) for layer in panel.layers for points_of_layer in points_of(layer)]
-    return np.asarray(np.ptp(np.concatenate(points) @ frame(panel)[:2].T, axis=0))
+    return np.asarray(np.ptp(seen(panel) @ frame(panel)[:2].T, axis=0))

@@ -12,6 +12,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.errors import AtlasError
+
 FloatArray: TypeAlias = NDArray[np.float64]
 Path: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 """A rigid motion of times (N,): the matrices R (N, D, D) and shifts s (N, D) of x -> R x + s, at t = 0 the identity."""
@@ -193,8 +195,12 @@ def frame(space: Space) -> FloatArray:
     return np.array([right, up, towards])
 
 
-def points_of(layer: Layer) -> Iterator[FloatArray]:
-    """Yield all the points (..., 3) of a layer that must be seen."""
+def seen(space: Space) -> FloatArray:
+    """Return all the points (N, 3) of a panel that must be seen. Raises AtlasError for a layer without a depth."""
+    return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in _points_of(layer)])
+
+
+def _points_of(layer: Layer) -> Iterator[FloatArray]:
     if isinstance(layer, Curve | Points):
         yield layer.points
     elif isinstance(layer, Arrow):
@@ -203,6 +209,9 @@ def points_of(layer: Layer) -> Iterator[FloatArray]:
         yield layer.at
     elif isinstance(layer, Surface):
         yield from (*layer.grids, *layer.rims)
+    else:
+        kind = "map" if isinstance(layer, Image) else "flat region"
+        raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
 
 
 _SIDES = np.array([1.0, 1.0, 1.0, -1.0])

@@ -13,7 +13,7 @@ import numpy as np
 from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import quadrics, solids
 from atlas.scene.captions import quotient
-from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Scene, Space, Surface, frame, points_of
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Scene, Space, Surface, frame, seen
 from atlas.scene.sample import quarter_pixel
 
 E1, E2, E3 = np.eye(3)
@@ -50,8 +50,8 @@ def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) ->
     It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
     panel = Space(tuple(layers), *view)
-    seen = np.concatenate([np.reshape(points, (-1, 3)) for layer in panel.layers for points in points_of(layer)])
-    flat = seen / np.abs(seen).max() @ frame(panel)[:2].T
+    points = seen(panel)
+    flat = points / np.abs(points).max() @ frame(panel)[:2].T
     span = np.ptp(flat, axis=0)
     filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
     width, height = np.maximum(np.round(filled), _LEAST)
