@@ -86,10 +86,7 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
         layers.append(Points(on_scale(I)[None], "point"))
         surfaces = quadrics.pieces(I, prime, reach, fine)
         shift = place + ABOVE * E3 + in_plane(*prime)
-        for surface in surfaces:
-            layers.append(solids.moved(surface, shift))
-            line = quadrics.hyperbola(quadrics.quadric_matrix(I, prime), surface, fine)
-            layers += [Curve(points + shift, "hyperbola") for points in line]
+        layers += quadrics.placed(surfaces, quadrics.quadric_matrix(I, prime), shift, fine)
     layers.append(Curve(np.stack([on_scale(start), on_scale(stop)]), "basis"))
     for mark in np.arange(start, stop + 0.25, 0.25):
         layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))

@@ -12,7 +12,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, axis_trace, solids
 from atlas.scene.any_motion import slow_turn
 from atlas.scene.captions import plain_setting, spelt, tex, tex_setting
 from atlas.scene.quadric_panel import E3, O, tolerance
@@ -42,10 +42,10 @@ def scene(
     time = nutations * motions[0].period
     if slow_turn(motions[0], time):
         raise DomainError("figure larmor_pair draws a nutation, and that of this motion is too small to be seen.")
-    b, upright = float(np.hypot(*field)), turned_upright(*field)
+    b = float(np.hypot(*field))
 
     def in_laboratory(motion: GeneralMotion) -> Path:
-        return lambda t: np.asarray(motion.third_axis(t) @ upright.T)
+        return lambda t: axis_trace.turned(motion.third_axis(t), field)
 
     def in_larmor_frame(motion: GeneralMotion) -> Path:
         def path(t: FloatArray) -> FloatArray:
@@ -72,12 +72,6 @@ def scene(
         named={"heavy": "trace", "light": "thin_trace", "dot": "start"},
         size=(2 * SIZE, SIZE + 6.0),
     )
-
-
-def turned_upright(B2: float, B3: float) -> FloatArray:
-    """Return the turn about e1 that makes the field stand upright."""
-    c, s = np.array([B3, B2]) / np.hypot(B2, B3)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:

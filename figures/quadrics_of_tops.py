@@ -9,14 +9,17 @@ import numpy as np
 
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadrics
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, Space, Surface, quadrics, solids
 from atlas.scene.arrange import lettered, stacked
 from atlas.scene.captions import tex
-from atlas.scene.quadric_panel import Member, tolerance
+from atlas.scene.layers import frame
+from atlas.scene.quadric_panel import E3, tolerance
 
 WIDTH, HEIGHT = 178.0, 134.0
 NARROWEST = 150.0
 REACH = 1.9
+PITCH, GAP = 0.5, 0.35
+"""Least distance from one to the next, in parts of the height of the tallest, and the least gap."""
 RANGES = {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)}
 
 
@@ -53,18 +56,14 @@ def scene(
         *(1.4 * float(surface.semi_axes[quadrics.sheet_axis(surface)]) for surface in surfaces if surface.D > 0),
         0.0,
     )
-    members = []
-    for number, (quadric, (name, *_)) in enumerate(zip(surfaces, tops, strict=True), 1):
-        Q = quadrics.top_matrix(ratio, quadric)
-        sheets = quadrics.sheets(quadric, Q, reach, tolerance(2 * reach))
-        members.append(Member(sheets, Q, np.asarray(quadric.centre), f"{number} {name}"))
-    depth = max(
-        surface.centre[2] - grid[..., 2].min()
-        for surface in members
-        for sheet in surface.surfaces
-        for grid in sheet.grids
-    )
-    cells = quadric_panel.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)
+    matrices = [quadrics.top_matrix(ratio, quadric) for quadric in surfaces]
+    sheets = [
+        quadrics.sheets(quadric, Q, -reach, reach, tolerance(2 * reach))
+        for quadric, Q in zip(surfaces, matrices, strict=True)
+    ]
+    names = [f"{number} {name}" for number, (name, *_) in enumerate(tops, 1)]
+    centres = [np.asarray(quadric.centre) for quadric in surfaces]
+    cells = side_by_side(sheets, matrices, centres, names, reach / REACH, azimuth)
     plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
     return Scene(
         caption=(
@@ -82,6 +81,32 @@ def scene(
         named={"Heavy": "hyperbola", "dots": "start", "solid": "main"},
         size=(WIDTH, HEIGHT),
     )
+
+
+def side_by_side(
+    sheets: list[list[Surface]],
+    matrices: list[np.ndarray],
+    centres: list[np.ndarray],
+    names: list[str],
+    scale: float,
+    azimuth: float,
+) -> list[list[Layer]]:
+    """Return the layers of each quadric from left to right, all centres as high as the first, the names below them.
+
+    Gaps are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
+    """
+    right, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
+    heights = [solids.extent(surfaces, E3) for surfaces in sheets]
+    least = PITCH * max(high - low for low, high in heights)
+    depth = max(float(centre[2]) - low for centre, (low, _) in zip(centres, heights, strict=True))
+    for surfaces, Q, centre, name in zip(sheets, matrices, centres, names, strict=True):
+        level = centres[0] - centre
+        left, end = (x + level @ right for x in solids.extent(surfaces, right))
+        shift = (place - left) * right + level
+        place += max(end - left + GAP * scale, least)
+        low = centre + shift - (GAP + depth / scale) * scale * E3
+        cells.append([*quadrics.placed(surfaces, Q, shift, tolerance(3 * scale)), Label(low, name)])
+    return cells
 
 
 def kinds(ratio: float, places: np.ndarray) -> Plane:

@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas.scene import sample, solids
 from atlas.scene.captions import quotient
-from atlas.scene.layers import Curve, FloatArray, Layer, Space, Surface, frame
+from atlas.scene.layers import Curve, FloatArray, Layer, Space, frame
 
 _SEAM = 0.16
 _THIN = 0.02
@@ -35,12 +35,14 @@ def row(count: int, step: float, azimuth: float) -> FloatArray:
     return np.asarray(step * (np.arange(count) - (count - 1) / 2)[:, None] * right)
 
 
-def drawn_body(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:
+def drawn_body(
+    I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float, lids: str = "solid"
+) -> list[Layer]:
     """Return the layers of a body with I3/I2 = I whose axes stand as the columns of ``attitude`` (3, 3).
 
     ``centre`` (3,) is its centre of mass, ``size`` the distance of its farthest point from there; ``tolerance`` as for
-    `atlas.scene.sample.curve`. It is a cylindrical shell with lids and a seam along R_1; for I = 2 a disk with a
-    radius along R_1.
+    `atlas.scene.sample.curve`. It is a cylindrical shell with ``lids`` of that role and a painted seam around R_1, the
+    last layer; for I = 2 a disk with a radius along R_1.
     """
     first, second, axis = np.asarray(attitude).T
     radius, height = (size * length for length in proportions(I))
@@ -49,10 +51,16 @@ def drawn_body(I: float, attitude: FloatArray, centre: FloatArray, size: float, 
         return [disk, Curve(np.stack([centre, centre + radius * first]), "seam_line")]
     side = solids.cylinder(centre, axis, radius, height, tolerance, role="solid")
     ends = [
-        solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role="solid")
+        solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role=lids)
         for sign in (-1.0, 1.0)
     ]
-    seam = _seam(side, centre, (first, second, axis), radius, height)
+    angle = np.linspace(-_SEAM, _SEAM, 5) * np.pi
+    v, w = np.meshgrid(angle, [-0.5 * height, 0.5 * height])
+    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    edge = np.array([*(-first), -float(first @ centre) - radius * np.cos(angle[-1])])
+    seam = replace(
+        side, clip=np.vstack([side.clip, edge]), grids=(centre + ring + w[..., None] * axis,), rims=(), role="seam"
+    )
     return [side, *ends, seam]
 
 
@@ -79,29 +87,11 @@ def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, to
 
     Arguments are those of `drawn_body`.
     """
-    first, second, axis = np.asarray(attitude).T
+    *shell, seam = drawn_body(I, attitude, centre, size, tolerance, lids="opening")
+    axis = np.asarray(attitude)[:, 2]
     radius, height = (size * length for length in proportions(I))
-    side = solids.cylinder(centre, axis, radius, height, tolerance, role="solid")
     places = np.linspace(-0.5, 0.5, max(3, round(_WINDINGS * height / radius)) + 1)[1:-1]
-    ends = [
-        solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role="opening")
-        for sign in (-1.0, 1.0)
-    ]
     u, v = (radius * direction for direction in solids.across(axis))
     angles = sample.knots(solids.ellipse(centre, u, v), 0.0, solids.TURN, tolerance)
     coils = [Curve(solids.ellipse(centre + h * height * axis, u, v)(angles), "coil") for h in places]
-    return [side, *ends, *coils, _seam(side, centre, (first, second, axis), radius, height)]
-
-
-def _seam(
-    side: Surface, centre: FloatArray, axes: tuple[FloatArray, FloatArray, FloatArray], radius: float, height: float
-) -> Surface:
-    """Return the painted strip of the shell around the direction of the first axis."""
-    first, second, axis = axes
-    angle = np.linspace(-_SEAM, _SEAM, 5) * np.pi
-    v, w = np.meshgrid(angle, [-0.5 * height, 0.5 * height])
-    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
-    edge = np.array([*(-first), -float(first @ centre) - radius * np.cos(angle[-1])])
-    return replace(
-        side, clip=np.vstack([side.clip, edge]), grids=(centre + ring + w[..., None] * axis,), rims=(), role="seam"
-    )
+    return [*shell, *coils, seam]

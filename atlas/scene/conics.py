@@ -11,8 +11,6 @@ from atlas.scene.layers import FloatArray
 
 _Flat: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 _Arc: TypeAlias = tuple[_Flat, float, float]
-Arc: TypeAlias = tuple[Callable[[FloatArray], FloatArray], float, float]
-"""A curve in space as a function of a parameter, with both ends of the parameter."""
 
 _FLAT = 1e-12
 _LOOKS, _HALVINGS = 257, 60
@@ -32,14 +30,6 @@ def section(
     Without half spaces they reach at least as far as the ball (centre, radius). All kinds are met: ellipse, hyperbola,
     parabola, two lines, one line; a single point or nothing gives an empty list.
     """
-    arcs_of_section = arcs(quadric, normal, distance, half_spaces, ball)
-    return [sample.curve(point, start, stop, tolerance) for point, start, stop in arcs_of_section]
-
-
-def arcs(
-    quadric: FloatArray, normal: FloatArray, distance: float, half_spaces: FloatArray, ball: tuple[FloatArray, float]
-) -> list[Arc]:
-    """Return the curves of `section` before they are sampled."""
     centre, radius = ball
     n = normal / np.linalg.norm(normal)
     foot = centre + (distance / float(np.linalg.norm(normal)) - n @ centre) * n
@@ -52,7 +42,7 @@ def arcs(
     l1, l2 = (float(v) for v in lengths[order])
     m1, m2 = (float(v) for v in (form[2, :2] @ turn)[order])
     axes = (turn.T @ across)[order]
-    visible: list[Arc] = []
+    curves = []
     for arc, start, stop in _arcs(l1, l2, m1, m2, float(form[2, 2]), radius):
 
         def point(s: FloatArray, arc: _Flat = arc) -> FloatArray:
@@ -60,11 +50,11 @@ def arcs(
             points: FloatArray = foot + x[:, None] * axes[0] + y[:, None] * axes[1]
             return points
 
-        visible += [(point, a, b) for a, b in spans(point, start, stop, half_spaces)]
-    return visible
+        curves += [sample.curve(point, a, b, tolerance) for a, b in _spans(point, start, stop, half_spaces)]
+    return curves
 
 
-def spans(
+def _spans(
     point: Callable[[FloatArray], FloatArray], start: float, stop: float, half_spaces: FloatArray
 ) -> list[tuple[float, float]]:
     """Return the stretches of the parameter in which the curve ``point`` lies in every half space."""

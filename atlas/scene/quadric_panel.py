@@ -5,7 +5,6 @@ e1, e2, e3.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -84,18 +83,17 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = 
 
     ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
     """
-    Q = quadrics.quadric_matrix(I, field)
     high, low = extent(quadric, field)
     fine = tolerance(high if which == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
-    w = quadrics.sheet_axis(quadric)
-    below = float(np.asarray(quadric.axes)[w] @ in_plane(*field)) < 0.0
-    if quadric.kind != "two-sheet hyperboloid":
-        return [quadrics.sheet(quadric, Q, *((-high, low) if below else (-low, high)), fine)]
-    vertex = abs(float(quadric.semi_axes[w]))
-    spans = [(vertex, high), (-high, -vertex)]
-    if below:
-        spans.reverse()
-    return [quadrics.sheet(quadric, Q, *span, fine) for span in (spans if which == "both" else spans[:1])]
+    upwards = rises(quadric, field)
+    span = (-low, high) if upwards else (-high, low)
+    pieces = quadrics.sheets(quadric, quadrics.quadric_matrix(I, field), *span, fine)[:: 1 if upwards else -1]
+    return pieces if which == "both" else pieces[:1]
+
+
+def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
+    """Tell whether the origin lies upwards from -B' along the axis of the sheets."""
+    return not float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
 
 
 def planes(field: tuple[float, float]) -> list[Layer]:
@@ -125,8 +123,8 @@ def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
     if quadric.kind == "all space":
         return []
     pieces = sheets(I, quadric, field, which)
-    below = which == "origin" and float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
-    reach = 0.75 * b if below else 1.14 * extent(quadric, field)[0]
+    above = which != "origin" or rises(quadric, field)
+    reach = 1.14 * extent(quadric, field)[0] if above else 0.75 * b
     return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, reach, 0.75 * b)]
 
 
@@ -204,41 +202,3 @@ def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
     layers.append(Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"))
     layers += angle(centre, float(np.arctan2(axes[1, 2], axes[1, 1])), radius, r"$\beta/2+\pi/4$")
     return layers
-
-
-PITCH = 0.5
-"""Least distance from one to the next, in parts of the height of the tallest."""
-
-
-@dataclass(frozen=True, eq=False)
-class Member:
-    """One quadric: its sheets, its matrix (4, 4) and its centre (3,), its name and the role of that."""
-
-    surfaces: Sequence[Surface]
-    matrix: FloatArray
-    centre: FloatArray
-    name: str
-    role: str = "label"
-
-
-def cells(members: Sequence[Member], scale: float, azimuth: float, below: float = 2.35) -> list[list[Layer]]:
-    """Return the layers of each, from left to right, all centres as high as the first; names stand ``below`` them.
-
-    Gaps and that length are in units of ``scale``; narrow ones stand so far apart that their names do not meet.
-    """
-    right, cells, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
-    least = PITCH * max(float(np.ptp(solids.extent(body.surfaces, E3))) for body in members)
-    for body in members:
-        level = members[0].centre - body.centre
-        left, end = (x + level @ right for x in solids.extent(body.surfaces, right))
-        shift = (place - left) * right + level
-        place += max(end - left + 0.35 * scale, least)
-        layers: list[Layer] = []
-        for surface in body.surfaces:
-            layers.append(solids.moved(surface, shift))
-            curve = quadrics.hyperbola(body.matrix, surface, tolerance(3 * scale))
-            layers += [Curve(points + shift, "hyperbola") for points in curve]
-        low = body.centre + shift - below * scale * E3
-        layers.append(Label(np.asarray(low), body.name, body.role))
-        cells.append(layers)
-    return cells

@@ -1,13 +1,13 @@
 """The quadric of constant Omega_3, (51), as surfaces to draw: sheets cut across their axis."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 import numpy as np
 
 from atlas.core.surfaces.quadric import Quadric, TopQuadric
 from atlas.scene import conics, sample, solids
-from atlas.scene.layers import FloatArray, Surface
+from atlas.scene.layers import Curve, FloatArray, Layer, Surface, moved_surface
 
 _Line: TypeAlias = Callable[[FloatArray], FloatArray]
 
@@ -107,18 +107,18 @@ def top_matrix(I: float, quadric: TopQuadric) -> FloatArray:
 
 def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
     """Return the sheets of the quadric (51) of a body, as `sheets` does; ``field`` is (B2, B3), neither zero."""
-    return sheets(Quadric(ratio, field), quadric_matrix(ratio, field), reach, tolerance)
+    return sheets(Quadric(ratio, field), quadric_matrix(ratio, field), -reach, reach, tolerance)
 
 
-def sheets(quadric: Quadric, Q: FloatArray, reach: float, tolerance: float) -> list[Surface]:
-    """Return the sheets of a quadric with the matrix ``Q`` within ``reach`` of its centre along its axis.
+def sheets(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: float) -> list[Surface]:
+    """Return the sheets of a quadric with the matrix ``Q`` from ``low`` to ``high`` along its axis, from its centre.
 
-    A hyperboloid of one sheet and a cone are one surface.
+    A hyperboloid of one sheet and a cone are one surface; of two sheets the upper one is the first.
     """
     if quadric.kind == "two-sheet hyperboloid":
         vertex = abs(float(quadric.semi_axes[sheet_axis(quadric)]))
-        return [sheet(quadric, Q, *span, tolerance) for span in ((vertex, reach), (-reach, -vertex))]
-    return [sheet(quadric, Q, -reach, reach, tolerance)]
+        return [sheet(quadric, Q, *span, tolerance) for span in ((vertex, high), (low, -vertex))]
+    return [sheet(quadric, Q, low, high, tolerance)]
 
 
 def centre_value(Q: FloatArray, centre: FloatArray) -> float:
@@ -133,6 +133,15 @@ def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatAr
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
     return conics.section(Q, np.array([1.0, 0.0, 0.0]), 0.0, surface.clip, (middle, radius), tolerance)
+
+
+def placed(surfaces: Sequence[Surface], Q: FloatArray, shift: FloatArray, tolerance: float) -> list[Layer]:
+    """Return surfaces of a quadric moved by ``shift`` (3,), each with its part of the hyperbola."""
+    layers: list[Layer] = []
+    for surface in surfaces:
+        layers.append(moved_surface(surface, np.eye(3), shift))
+        layers += [Curve(points + shift, "hyperbola") for points in hyperbola(Q, surface, tolerance)]
+    return layers
 
 
 def _round(line: _Line, tolerance: float) -> FloatArray:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from atlas.scene import sample
-from atlas.scene.layers import FloatArray, Surface, moved_surface
+from atlas.scene.layers import FloatArray, Surface
 
 TURN = 2.0 * np.pi
 _FLAT = 1e-6
@@ -137,11 +137,6 @@ def rectangle(
     )
     Q = matrix(np.zeros((3, 3)), normal, -float(normal @ centre))
     return Surface(Q, clip, (grid,), (), (rim,), role=role, label=label)
-
-
-def moved(surface: Surface, shift: FloatArray) -> Surface:
-    """Return a surface moved by ``shift`` (3,)."""
-    return moved_surface(surface, np.eye(3), shift)
 
 
 def extent(surfaces: Sequence[Surface], along: FloatArray) -> tuple[float, float]:
