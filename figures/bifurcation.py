@@ -12,7 +12,7 @@ from atlas.core.maps.bifurcation import Bifurcation, Stretch
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import listed, plain, tex, tex_vector
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import curve, quarter_pixel, room
 
 WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
 NEAR = 1e-4
@@ -99,8 +99,7 @@ def panel(name: str, bifurcation: Bifurcation, reach: float, *, words: bool) -> 
             oval, text = ("unbounded", "pendulums") if axis == np.argmax(bifurcation.inertia) else ("bounded", "")
             lines.append((oval, text, stable, stable, np.stack([F, H - slope * F], axis=1)))
     edge = outline([(oval, points) for oval, _, _, outer, points in lines if outer], x_limits[1])
-    low, high = float(edge[:, 1].min()), float(edge[:, 1].max())
-    y_limits = low - 0.05 * (high - low), high + 0.05 * (high - low)
+    y_limits = room(edge[:, 1], 0.05)
     layers: list[Layer] = [Region(edge, "region")]
     if words:
         place = np.array([x_limits[0] + 0.4 * (x_limits[1] - x_limits[0]), y_limits[1]])

@@ -13,6 +13,7 @@ from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
 from atlas.scene.captions import listed, plain, tex
+from atlas.scene.sample import room
 
 SIZE, LEAST = 62.0, 5.0
 """A panel in mm, and the least swing of the axis in degrees that is seen in it."""
@@ -96,7 +97,6 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
     ]
     inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines] + [ends, places])
     low, high = float(inside[:, 1].min()), float(max(ends[:, 1].max(), places[:, 1].max()))
-    pad = 0.12 * (high - low)
     cusps = np.linspace(-1.0, 1.0, 65)
     layers: list[Layer] = [Curve(line, "main") for line in lines]
     layers += [
@@ -111,7 +111,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         side = -1 if trace(top) == "waves" else 1
         layers.append(Label(place + side * beside, name))
     return Plane(
-        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)", (-far, far), (low - pad, high + pad),
+        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)", (-far, far), room((low, high), 0.12),
         title=f"({letter}) energies",
     )  # fmt: skip
 

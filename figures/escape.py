@@ -16,7 +16,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting
 from atlas.scene.movement import along
-from atlas.scene.sample import flat
+from atlas.scene.sample import flat, room
 
 WIDTH, COURSE, LAW, MARGIN = 120.0, 30.0, 62.0, 12.0
 """Width, heights of a course and of the law."""
@@ -77,10 +77,7 @@ def moved(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]
 def courses(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> list[Plane]:
     """Return Omega3(t) of each motion over two periods of the slowest, one panel below the other."""
     last = 1.6 * max(motion.period for motion in motions)
-    ends = np.array([motion.turning_points for motion in motions])
-    low, high = float(ends.min()), float(ends.max())
-    pad = 0.12 * (high - low)
-    view = ((0.0, last), (low - pad, high + pad))
+    view = ((0.0, last), room([end for motion in motions for end in motion.turning_points], 0.12))
     panels = []
     for letter, motion, push in zip("abcde", motions, pushes, strict=False):
         line = flat(partial(point, motion), 0.0, last, view, (WIDTH - MARGIN, COURSE - MARGIN), pieces=96)

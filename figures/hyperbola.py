@@ -8,9 +8,9 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.integrals import shape_factors
-from atlas.scene import Curve, Label, Layer, Points, Region, Scene
+from atlas.scene import Curve, Label, Layer, Region, Scene
 from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting
-from atlas.scene.hyperbola_plane import asymptote, branches, components, places, unstable, window
+from atlas.scene.hyperbola_plane import asymptote, branches, components, marked, places, unstable, window
 
 WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
 
@@ -24,9 +24,7 @@ def scene(
 ) -> Scene:
     """Draw both branches, the asymptotes and the named points as far as ``reach`` times the larger of B2 and B3."""
     view, (B2, B3) = window(field, reach, square=True), components(field)
-    centre = np.array([-B2, -B3])
     bands = unstable(ratio, field)
-    named = places(ratio, field)
     pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
     layers: list[Layer] = [Region(view.band(*interval), "unstable_region") for interval in bands if B3]
     layers += [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
@@ -38,14 +36,7 @@ def scene(
     free = free_spin(ratio, field)
     if free:
         layers.append(Curve(np.array([[-B2, max(-free, view.y[0])], [-B2, min(free, view.y[1])]]), "unstable"))
-    layers.append(Points(centre[None], "centre"))
-    layers += [Points(np.array([place.at]), place.role) for place in named]
-    s2, s3 = np.copysign(1.0, field)
-    layers.append(Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)))
-    layers += [
-        Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
-        for place, turn in zip(named, (1, -1, -1), strict=False)
-    ]
+    layers += marked(places(ratio, field), field)
     if B2:
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))
     layers += [

@@ -7,9 +7,9 @@ and the asymptote omega2 = -B2, and all pass through rest and through -2 B'.
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.scene import Curve, Label, Layer, Points, Scene
+from atlas.scene import Curve, Layer, Points, Scene
 from atlas.scene.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector
-from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, places, window
+from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, marked, places, window
 from atlas.scene.style import LINES
 
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
@@ -83,16 +83,7 @@ def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window)
 
 def _points(ratios: tuple[float, ...], field: tuple[float, float]) -> list[Layer]:
     """Return the centre, rest and -2B' with their names, and the points of each body."""
-    B2, B3 = components(field)
-    centre, (s2, s3) = np.array([-B2, -B3]), np.copysign(1.0, field)
-    common = places(ratios[0], field)[:2]
     return [
-        Points(centre[None], "centre"),
-        *(Points(np.array([place.at]), place.role) for place in common),
-        Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
-        *(
-            Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
-            for place, turn in zip(common, (1, -1), strict=True)
-        ),
+        *marked(places(ratios[0], field)[:2], field),
         *(Points(np.array([place.at]), place.role) for ratio in ratios for place in places(ratio, field)[2:]),
     ]

@@ -15,6 +15,7 @@ from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, tex
+from atlas.scene.sample import room
 
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
@@ -92,7 +93,6 @@ def values(name: str, wells: Wells, loop: Monodromy, first: bool, unit: str) -> 
     ]
     inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines])
     low, high = float(inside[:, 1].min()), float(loop.g.max())
-    pad = 0.1 * (high - low)
     layers: list[Layer] = [
         *(Curve(line, "main") for line in lines),
         Curve(smooth(np.stack([loop.p, loop.g], axis=1)), "trajectory"),
@@ -101,7 +101,7 @@ def values(name: str, wells: Wells, loop: Monodromy, first: bool, unit: str) -> 
         Points(np.array([[loop.p[0], loop.g[0]]]), "start"),
     ]
     return Plane(
-        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)" if first else "", (-far, far), (low - pad, high + pad),
+        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)" if first else "", (-far, far), room((low, high), 0.1),
         title=name,
     )  # fmt: skip
 

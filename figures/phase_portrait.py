@@ -18,7 +18,7 @@ from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting
-from atlas.scene.sample import flat
+from atlas.scene.sample import flat, room
 
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
@@ -42,8 +42,8 @@ def scene(
     saddles = [nu for nu, is_stable in top.equilibria if not is_stable]
     energies = top.energies(levels)
     coarse = np.concatenate([line for energy in energies for line in top.orbits(*energy)])
-    (left, right), high = np.ptp(coarse[:, 0]) * np.array([-0.06, 0.06]), 1.1 * float(np.abs(coarse[:, 1]).max())
-    view = (float(coarse[:, 0].min() + left), float(coarse[:, 0].max() + right)), (-high, high)
+    high = 1.1 * float(np.abs(coarse[:, 1]).max())
+    view = room(coarse[:, 0], 0.06), (-high, high)
     layers: list[Layer] = [Curve(np.array([[view[0][0], 0.0], [view[0][1], 0.0]]), "guide")]
     layers += [Curve(line, "component") for energy in energies for line in top.orbits(*energy, view)]
     layers += [Curve(line, "unstable") for nu in saddles for line in top.orbits(top.V(nu), 0.0, view)]

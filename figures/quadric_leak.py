@@ -17,7 +17,7 @@ from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting
-from atlas.scene.sample import curve, flat, quarter_pixel
+from atlas.scene.sample import curve, flat, quarter_pixel, room
 from atlas.scene.style import LINES
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
@@ -118,9 +118,7 @@ def courses(motions: Sequence[Leaving], omega1: Sequence[float], turns: float, u
     """Panel (a): the departure of Omega3 over time, and the slopes omega1 B2."""
     stop = turns * max(x.period for x in motions)
     reach = 1.35 * max(x.farthest for x in motions)
-    lowest, highest = min(0.0, *(x.below for x in motions)), max(0.0, *(x.above for x in motions))
-    pad = 0.16 * (highest - lowest)
-    limits = (lowest - pad, highest + pad)
+    limits = room([0.0, *(end for x in motions for end in (x.below, x.above))], 0.16)
     size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
     for motion, value, role in zip(motions, omega1, LINES, strict=False):

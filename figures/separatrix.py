@@ -16,7 +16,7 @@ from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, solids
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting
 from atlas.scene.quadric_panel import E3, O, tolerance
-from atlas.scene.sample import curve, flat
+from atlas.scene.sample import curve, flat, room
 
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
 RANGES = {"decay": (0.1, 30.0)}
@@ -108,10 +108,7 @@ def sphere(motion: GeneralMotion, field: tuple[float, float], last: float, view:
 
 def course(motions: list[GeneralMotion], rest: float, last: float, unit: str) -> Plane:
     """Panel (b): Omega3 of both motions over time; at rest it is that of the precession."""
-    ends = [motion.omega[2] for motion in motions]
-    low, high = min([rest, *ends]), max([rest, *ends])
-    pad = 0.1 * (high - low)
-    view = ((-last, last), (low - pad, high + pad))
+    view = ((-last, last), room([rest, *(motion.omega[2] for motion in motions)], 0.1))
     layers: list[Layer] = [Curve(np.array([[-last, rest], [last, rest]]), "unstable")]
     for motion, role in zip(motions, ("main", "second"), strict=False):
 

@@ -9,7 +9,7 @@ from typing import Any
 from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import plain, spelt, tex
+from atlas.scene.captions import plain, spelt, tex, tex_vector
 
 SIZE = 44.0
 
@@ -43,11 +43,10 @@ def scene(
         )
         for letter, (name, *_), motion in zip("abcd", TOPS, motions, strict=True)
     )  # fmt: skip
-    start = ", ".join(tex(x) for x in omega)
     return Scene(
         caption=(
-            rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega=({start})$, over "
-            rf"{spelt(nutations)} of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
+            rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega={tex_vector(omega)}$, "
+            rf"over {spelt(nutations)} of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
             r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start. All four are one "
             r"formula."
         ),

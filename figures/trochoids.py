@@ -13,7 +13,7 @@ from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import curve, quarter_pixel, room
 
 WIDTH, MARGIN = 86.0, 15.0
 
@@ -48,7 +48,7 @@ def scene(
         paths.append((speed, points, path(period * np.arange(1.0, turns + 0.5))))
     left = min(0.0, *(float(points[:, 0].min()) for _, points, _ in paths))
     right = max(span, *(float(points[:, 0].max()) for _, points, _ in paths))
-    limits = (left - 0.05 * (right - left), right + 0.05 * (right - left))
+    limits = room((left, right), 0.05)
     panels = tuple(
         Plane(
             (

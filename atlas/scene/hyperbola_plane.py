@@ -1,6 +1,6 @@
 """The hyperbola (67) in the plane (omega2, omega3): the window it is shown in, and its branches there."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ from atlas.core.inputs import components as parts
 from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
-from atlas.scene.layers import Layer, Plane
+from atlas.scene.layers import Label, Layer, Plane, Points
 from atlas.scene.sample import flat
 
 NAMES = ("B2", "B3")
@@ -177,3 +177,17 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     if B2 and B3 and zero[0] not in {0.0, -B2}:
         labels.append(Place(r"$\omega_3=0$", "the second point with omega 3 = 0", zero, "point"))
     return tuple(labels)
+
+
+def marked(named: Sequence[Place], field: Any) -> list[Layer]:
+    """Return the centre -B' and some named points as marks with their names."""
+    centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
+    return [
+        Points(centre[None], "centre"),
+        *(Points(np.array([place.at]), place.role) for place in named),
+        Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
+        *(
+            Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
+            for place, turn in zip(named, (1, -1, -1), strict=False)
+        ),
+    ]

@@ -1,6 +1,6 @@
 """Curves sampled and surfaces cut into faces to a tolerance: what bends needs more, what is not seen nothing."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 
 import numpy as np
 
@@ -42,6 +42,13 @@ def curve(
     points times ``scale`` (D,).
     """
     return _cut(function, start, stop, tolerance, pieces, box, scale)[1]
+
+
+def room(values: Collection[float], share: float) -> tuple[float, float]:
+    """Return limits with all the values between them, and so much of their extent free on either side."""
+    low, high = min(values), max(values)
+    free = share * (high - low)
+    return float(low - free), float(high + free)
 
 
 def flat(
