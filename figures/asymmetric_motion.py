@@ -4,9 +4,8 @@ From any initial angular velocity the motion of a charged body with three differ
 commuting flows on a torus. The lines are drawn through an integration to 1e-10, good to far below a pixel.
 """
 
-from dataclasses import dataclass
 from math import pi
-from typing import Any
+from types import SimpleNamespace
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
@@ -21,23 +20,6 @@ from atlas.study.simulate import simulate
 RANGES = {"turns": (1e-3, 50.0)}
 STEPS = 120
 """Points a turn through which the lines are drawn: what lies between is good to 1e-7."""
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """R_3(t) and Omega(t) as smooth lines through the integrated points."""
-
-    axis: Any
-    Omega: Any
-
-    def third_axis(self, t: Any) -> FloatArray:
-        """R_3(t)."""
-        axis = np.asarray(self.axis(t))
-        return axis / np.linalg.norm(axis, axis=-1, keepdims=True)
-
-    def angular_velocity(self, t: Any) -> FloatArray:
-        """Omega(t)."""
-        return np.asarray(self.Omega(t))
 
 
 def scene(
@@ -57,7 +39,12 @@ def scene(
     steps = simulate(inertia, field, omega, times)
     e1, e2 = np.moveaxis(steps.R, -1, 0)[:2]
     speed = steps.Omega[:, 1:2] * e1 - steps.Omega[:, :1] * e2  # dR_3/dt = Omega2 R_1 - Omega1 R_2, (12)
-    drawn = Drawn(CubicHermiteSpline(times, steps.R[..., 2], speed), CubicSpline(times, steps.Omega))
+    axis = CubicHermiteSpline(times, steps.R[..., 2], speed)
+
+    def third_axis(t: FloatArray) -> FloatArray:
+        return np.asarray(axis(t) / np.linalg.norm(axis(t), axis=-1, keepdims=True))
+
+    drawn = SimpleNamespace(third_axis=third_axis, angular_velocity=CubicSpline(times, steps.Omega))
     moment, words = any_motion.start(omega)
     setting = (
         rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$ from {moment}: {motion.kind}",

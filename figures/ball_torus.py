@@ -50,10 +50,8 @@ def scene(
         ball = BallMotion(1.0, larmor, momentum=(m2, m3))
         stop = count * 2 * np.pi / larmor
         letters = "abcdefgh"[len(panels) :]
-        panels += [
-            torus(rf"({letters[0]}) $\gamma/\alpha={tex(ratio)}$", ball, larmor, stop),
-            trace(rf"({letters[1]}) way of $\mathbf{{R}}_1$", ball, larmor, stop, named=not panels),
-        ]
+        names = rf"({letters[0]}) $\gamma/\alpha={tex(ratio)}$", rf"({letters[1]}) way of $\mathbf{{R}}_1$"
+        panels += pair(names, ball, larmor, stop, named=not panels)
     shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         caption=(
@@ -73,25 +71,22 @@ def scene(
     )
 
 
-def torus(name: str, ball: BallMotion, larmor: float, stop: float) -> Space:
-    """Return the panel of the torus with its net and the line of the motion."""
-    fine = tolerance(1.5)
+def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *, named: bool) -> list[Space]:
+    """Return the torus with its net and the line of the motion, and the ball with the way of R_1.
+
+    The latter shows the field and k at t = 0, too; its start has a name or not.
+    """
+    fine, few = tolerance(1.5), larmor * stop < FEW
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, fine, pieces=pieces)
-    behind = "hidden_trace" if larmor * stop < FEW else ""
-    return Space((*net(), *seen(line, "second_trace", behind), Points(line[:1], "start")), *VIEW, title=name)
-
-
-def trace(name: str, ball: BallMotion, larmor: float, stop: float, *, named: bool) -> Space:
-    """Return the panel of the ball with the way of R_1, the field and k at t = 0; the start has a name or not."""
-    fine = tolerance(1.5)
-    pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, fine, pieces=pieces)
     layers: list[Layer] = [
         solids.sphere(O, 1.0, fine, role="ball"),
-        Curve(way, "second_trace" if larmor * stop < FEW else "fine_trace"),
+        Curve(way, "second_trace" if few else "fine_trace"),
         Points(way[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
         Arrow(E3, 1.5 * E3, "field", r"$\mathbf{B}$"),
     ]
     k = in_plane(*ball.k_hat)
-    return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$")), 25.0, 20.0, title=name)
+    layers.append(Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$"))
+    winding = *net(), *seen(line, "second_trace", "hidden_trace" if few else ""), Points(line[:1], "start")
+    return [Space(winding, *VIEW, title=names[0]), Space(tuple(layers), 25.0, 20.0, title=names[1])]

@@ -39,9 +39,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         ("disk", Wells(M3, A), {"coupling": disk}),
         ("disk, $M_3=0$", Wells(0.0, A), {"coupling": disk}),
     ]
-    loops = []
-    for _, wells, top in cases:
-        loops.append(on_loop(ratio, M3=wells.M3, loop=around(wells, wells.M3, points), **top))
+    loops = [on_loop(ratio, M3=w.M3, loop=around(w, w.M3, points), **top) for _, w, top in cases]
     maps = [values(f"({'abc'[k]}) {cases[k][0]}", cases[k][1], loops[k], k == 0, unit) for k in range(3)]
     lattices = [lattice(f"({'def'[k]}) {words(loops[k])}", loops[k], k == 0) for k in range(3)]
     error = max(loop.step for loop in loops)

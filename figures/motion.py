@@ -12,6 +12,7 @@ from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.any_motion import course
 from atlas.scene.bodies import drawn_body
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting
+from atlas.scene.quadric_panel import E3, O
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 178.0, 62.0
@@ -77,11 +78,10 @@ def scene(
 
 def trace(motion: ElementaryMotion) -> Space:
     """Panel (a): the body at t = 0, the field, and the way of the third axis on the unit sphere."""
-    origin, up = np.zeros(3), np.array([0.0, 0.0, 1.0])
     free = not any(motion.field)
     axis = motion.angular_momentum(0.0) if free else np.array([0.0, *motion.field])
     size = quarter_pixel(2.6, WIDTH / COLUMNS)
-    layers: list[Layer] = drawn_body(quotient(motion.ratio), np.eye(3), origin, BODY, size)
+    layers: list[Layer] = drawn_body(quotient(motion.ratio), np.eye(3), O, BODY, size)
     if motion.k:
         period = 2 * np.pi / abs(motion.k)
         tips = motion.third_axis(np.arange(SPOKES) * period / SPOKES)
@@ -89,9 +89,9 @@ def trace(motion: ElementaryMotion) -> Space:
         layers.append(Curve(curve(motion.third_axis, 0.0, period, size), "trace"))
     if axis.any():
         name, role = (r"$\mathbf{m}$", "momentum") if free else (r"$\mathbf{B}$", "field")
-        layers.append(Arrow(origin, 1.5 * axis / np.linalg.norm(axis), role, name))
-    layers.append(Arrow(origin, 1.25 * up, "body_axis", r"$\mathbf{R}_3(0)$"))
-    layers.append(Points(up[None], "start"))
+        layers.append(Arrow(O, 1.5 * axis / np.linalg.norm(axis), role, name))
+    layers.append(Arrow(O, 1.25 * E3, "body_axis", r"$\mathbf{R}_3(0)$"))
+    layers.append(Points(E3[None], "start"))
     return Space(tuple(layers), title="(a) body and axis")
 
 

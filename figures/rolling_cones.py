@@ -78,13 +78,6 @@ def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatAr
     return about(O, motion.rotation(t) @ back)
 
 
-def angles(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> tuple[float, float]:
-    """Return the half-angles of the space cone and of the body cone, in radians: of omega to the field and to R_3."""
-    omega = np.asarray(motion.angular_velocity(0.0))
-    space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, E3))
-    return space, body
-
-
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
     """Say how the body cone lies to the space cone: both stand on the side of their axes that is nearer to omega."""
     omega = np.asarray(motion.angular_velocity(0.0))
@@ -122,16 +115,13 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
     """
     fine = tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))
+    space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, E3))  # the half-angles
     omega /= np.linalg.norm(omega)
     layers: list[Layer] = []
-    sides = (
-        (axis, angles(motion, axis)[0], "cone", "space"),
-        (E3, angles(motion, axis)[1], "body", "body"),
-    )
-    for line, angle, share, word in sides:
+    for line, angle, share, word in ((axis, space, "cone", "space"), (E3, body, "body", "body")):
         towards = line * np.copysign(1.0, line @ omega)
         cone = solids.cone(O, towards, angle, 1.0, fine)
-        place, offset = beside(cone.rims[0], omega, view, narrow=angle == min(side[1] for side in sides))
+        place, offset = beside(cone.rims[0], omega, view, narrow=angle == min(space, body))
         found: list[Layer] = [
             replace(cone, role=share),
             Curve(np.stack([O, 1.12 * np.cos(angle) * towards]), "construction"),

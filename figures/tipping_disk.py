@@ -52,8 +52,8 @@ def scene(
     growth = float(np.sqrt(-D)) / 2
     motion = GeneralMotion(ratio, (0.0, B3), (push, 0.0, omega3))
     times = moments(motion, count)
-    cells, below = strip(motion, I, times, azimuth), course(motion, times, unit)
     places = row(count, STEP, azimuth)
+    cells, below = strip(motion, I, times, places), course(motion, times, unit)
     far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
     return Scene(
         caption=(
@@ -111,11 +111,11 @@ def moments(motion: GeneralMotion, count: int) -> FloatArray:
     return np.interp(np.linspace(grown[0], grown[-1], count), grown, t)
 
 
-def strip(motion: GeneralMotion, I: float, times: FloatArray, azimuth: float) -> list[list[Layer]]:
-    """Return the layers of the body at each of these times, side by side as seen from there."""
+def strip(motion: GeneralMotion, I: float, times: FloatArray, places: FloatArray) -> list[list[Layer]]:
+    """Return the layers of the body at each of these times, in its place."""
     fine = tolerance(STEP * len(times) / 2)
     cells: list[list[Layer]] = []
-    for i, (centre, R) in enumerate(zip(row(len(times), STEP, azimuth), motion.rotation(times), strict=True)):
+    for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
         cells.append(
             [
                 *riding([*drawn_body(I, R, centre, 1.0, fine)], f"body {i}"),

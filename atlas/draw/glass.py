@@ -20,8 +20,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from atlas.draw.hidden import values
-from atlas.draw.outline import facing
+from atlas.draw.hidden import facing, values
 from atlas.draw.style import style_of
 from atlas.draw.view import View
 from atlas.scene.layers import FloatArray, Surface

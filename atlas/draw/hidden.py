@@ -4,17 +4,26 @@ From a point x the ray x + t d goes to the eye, t > 0. A surface F(x) = (x, 1) Q
 A t^2 + B(x) t + F(x) = 0 with A = d.Q.d, B = 2 d.Q.(x, 1): the point is hidden if a root t > 0 lies in the surface's
 half spaces. Along a chord of a curve everything that can change the answer is a root of a quadratic in the chord's
 parameter; so the ends of hidden stretches are solved for, and between two of them one point answers for all.
+
+Where a ray meets a quadric twice, one point is the nearer; the plane of the silhouette divides the surface into a near
+and a far part, as areas on paper. An area is kept as its edge alone: filled by the rule of non-zero winding it is the
+whole of its image. Panels have the size one.
 """
 
 from collections.abc import Sequence
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
+from contourpy import contour_generator
 from numpy.typing import NDArray
 
 from atlas.scene.layers import FloatArray, Surface
+from atlas.scene.sample import normals
 
 BoolArray = NDArray[np.bool_]
+Edge: TypeAlias = tuple[FloatArray, NDArray[np.uint8]]
+"""Points (N, 3) in space and the codes (N,) that a `matplotlib.path.Path` has for closed polygons."""
 
 _ON = 1e-9
 _NEAR = 1e-7
@@ -23,26 +32,24 @@ _MARGIN = 0.02
 """A mesh keeps to its surface within a fraction of a pixel; its image is taken so much larger."""
 
 
-def split(
-    points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float = 1.0
-) -> list[tuple[FloatArray, bool]]:
+def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[tuple[FloatArray, bool]]:
     """Cut a polyline (N, 3) into pieces, each with whether it is visible.
 
-    ``towards`` is the unit vector to the eye, ``size`` that of the drawing: what is nearer than 1e-7 of it counts as
-    touching.
+    ``towards`` is the unit vector to the eye; what is nearer than 1e-7 counts as touching.
     """
     start, step = points[:-1], np.diff(points, axis=0)
     if len(start) == 0:
         return []
     surfaces = _before(points, surfaces, towards)
-    resting = [_rests(surface, points, size) for surface in surfaces]
+    touching = [_on(surface.quadric, points) for surface in surfaces]
     cuts = [np.zeros((len(start), 1)), np.ones((len(start), 1))]
     cuts += [_changes(surface, start, step, towards) for surface in surfaces]
     s = np.sort(np.clip(np.nan_to_num(np.concatenate(cuts, axis=1), nan=0.0), 0.0, 1.0), axis=1)
     middle = start[:, None] + (0.5 * (s[:, :-1] + s[:, 1:]))[..., None] * step[:, None]
     hidden = np.zeros(middle.shape[:-1], dtype=bool)
-    for surface, on in zip(surfaces, resting, strict=True):
-        hidden |= _hides(surface, middle, towards, size, on[:, None])
+    for surface, on in zip(surfaces, touching, strict=True):
+        rests = on[:-1] & on[1:]
+        hidden |= _hides(surface, middle, towards, rests[:, None])
     row, column = np.nonzero(np.diff(s, axis=1) > _NOTHING)
     if len(row) == 0:
         return []
@@ -57,12 +64,11 @@ def split(
     return pieces
 
 
-def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float = 1.0) -> BoolArray:
+def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> BoolArray:
     """Whether each of the points (N, 3) is hidden."""
     answer = np.zeros(len(points), dtype=bool)
     for surface in _before(points, surfaces, towards):
-        on = np.abs(values(surface.quadric, points)) <= _ON * _weight(surface.quadric, points, size)
-        answer |= _hides(surface, points, towards, size, on)
+        answer |= _hides(surface, points, towards, _on(surface.quadric, points))
     return answer
 
 
@@ -107,16 +113,15 @@ def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
     return np.einsum("...i,ij,...j->...", a, quadric, b)
 
 
-def _weight(quadric: FloatArray, points: FloatArray, size: float) -> FloatArray:
+def _weight(quadric: FloatArray, points: FloatArray) -> FloatArray:
     """Return the size of the terms whose sum F is, against which F counts as zero."""
     x = np.abs(_lift(points))
-    return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * size * size * 1e-3)
+    return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * 1e-3)
 
 
-def _rests(surface: Surface, points: FloatArray, size: float) -> BoolArray:
-    """Which chords of the polyline rest on the surface (both ends do)."""
-    on = np.abs(values(surface.quadric, points)) <= _ON * _weight(surface.quadric, points, size)
-    return on[:-1] & on[1:]
+def _on(quadric: FloatArray, points: FloatArray) -> BoolArray:
+    """Which of the points lie on the surface, but for rounding."""
+    return np.abs(values(quadric, points)) <= _ON * _weight(quadric, points)
 
 
 def _is_flat(quadric: FloatArray) -> bool:
@@ -124,7 +129,7 @@ def _is_flat(quadric: FloatArray) -> bool:
     return bool(np.abs(quadric[:3, :3]).max() <= _NOTHING * np.abs(quadric[:3, 3]).max())
 
 
-def _hides(surface: Surface, x: FloatArray, towards: FloatArray, size: float, on: BoolArray) -> BoolArray:
+def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) -> BoolArray:
     """Whether the surface hides the points x (..., 3); from a point ``on`` it one root is t = 0 and does not count."""
     quadric, d = surface.quadric, _lift(towards, 0.0)
     A = float(_form(quadric, d, d))
@@ -139,19 +144,19 @@ def _hides(surface: Surface, x: FloatArray, towards: FloatArray, size: float, on
             roots = [q / A, np.where(on, 0.0, F / q)]
     answer = np.zeros(x.shape[:-1], dtype=bool)
     for t in roots:
-        real = np.isfinite(t) & (t > _NEAR * size)
+        real = np.isfinite(t) & (t > _NEAR)
         y = x + np.where(real, t, 0.0)[..., None] * towards
-        answer |= real & within(surface, y, size)
+        answer |= real & _within(surface, y)
     return answer
 
 
-def within(surface: Surface, x: FloatArray, size: float) -> BoolArray:
+def _within(surface: Surface, x: FloatArray) -> BoolArray:
     """Whether points (..., 3) lie in all half spaces, and inside all quadrics, that cut the surface out."""
     inside = np.ones(x.shape[:-1], dtype=bool)
     for *n, d in surface.clip:
-        inside &= x @ np.array(n) <= d + _ON * size * np.linalg.norm(n)
+        inside &= x @ np.array(n) <= d + _ON * np.linalg.norm(n)
     for quadric in surface.within:
-        inside &= values(quadric, x) <= _ON * _weight(quadric, x, size)
+        inside &= values(quadric, x) <= _ON * _weight(quadric, x)
     return inside
 
 
@@ -205,3 +210,56 @@ def _roots(c2: FloatArray, c1: FloatArray, c0: FloatArray) -> list[FloatArray]:
     with np.errstate(all="ignore"):
         q = -0.5 * (c1 + np.copysign(np.sqrt(c1 * c1 - 4.0 * c2 * c0), c1))
     return [_ratio(q, c2), _ratio(c0, q)]
+
+
+def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> FloatArray:
+    """Return half of grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen."""
+    return np.asarray(points @ (quadric[:3, :3] @ towards) + quadric[:3, 3] @ towards)
+
+
+def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
+    """Return (near?, outer side seen?, edge) of the surface's parts, the far ones first."""
+    bend = float(towards @ surface.quadric[:3, :3] @ towards)
+    parts = []
+    for sign in (1.0, -1.0):
+        edges = [_edge(grid, sign * facing(surface.quadric, grid, towards)) for grid in surface.grids]
+        edge = _joined(edges)
+        if len(edge[0]):
+            parts.append((bend * sign >= 0.0, sign > 0.0, edge))
+    return sorted(parts, key=lambda area: area[0])
+
+
+def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:
+    """Return, for each level, the edge of the near part where less than that cosine of ``light`` falls on it.
+
+    The light falls on the side that the reader sees.
+    """
+    bend = float(towards @ surface.quadric[:3, :3] @ towards)
+    bands: list[list[Edge]] = [[] for _ in levels]
+    for grid in surface.grids:
+        normal = normals(surface.quadric, grid)
+        slant = normal @ towards * (1.0 if bend >= 0.0 else -1.0)
+        lit = normal @ light * np.where(normal @ towards >= 0.0, 1.0, -1.0)
+        for band, level in zip(bands, levels, strict=True):
+            band.append(_edge(grid, np.minimum(slant, level - lit)))
+    return [_joined(band) for band in bands]
+
+
+def _edge(grid: FloatArray, height: FloatArray) -> Edge:
+    """Return the edge of the part of a mesh (M, N, 3) where the height, linear on each side of its cells, is positive.
+
+    Where the mesh closes on itself the edge runs along the seam there and back, which fills nothing.
+    """
+    (outlines,), (codes,) = contour_generator(z=height, fill_type="ChunkCombinedCode").filled(0.0, np.inf)
+    if outlines is None or codes is None:
+        return np.empty((0, 3)), np.empty(0, dtype=np.uint8)
+    place = outlines[:, ::-1]  # row and column, one of them a whole number
+    corner = np.minimum(place.astype(int), np.array(height.shape) - 2)
+    (i, j), (u, v) = corner.T, (place - corner).T[..., None]
+    rows = [(1.0 - v) * grid[k, j] + v * grid[k, j + 1] for k in (i, i + 1)]
+    return (1.0 - u) * rows[0] + u * rows[1], codes
+
+
+def _joined(edges: list[Edge]) -> Edge:
+    """Return several edges as one."""
+    return np.concatenate([points for points, _ in edges]), np.concatenate([codes for _, codes in edges])

@@ -13,9 +13,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
-from atlas.draw.hidden import hidden, split
+from atlas.draw.hidden import Edge, areas, facing, hidden, shadows, split
 from atlas.draw.labels import along, place, write
-from atlas.draw.outline import Edge, areas, facing, shadows
 from atlas.draw.plane import gid, marker
 from atlas.draw.style import HEAD_WIDTH, dashes, head_base, stroke, style_of, zoom
 from atlas.draw.view import Held, View, fit

@@ -8,14 +8,11 @@ import pytest
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from atlas.draw.hidden import hidden, split
-from atlas.draw.outline import Edge, areas
+from atlas.draw.hidden import Edge, areas, hidden, split
 from atlas.scene import solids
 from atlas.scene.layers import Surface
 
 FloatArray = NDArray[np.float64]
-
-SIZE = 4.0
 
 
 def random_surface(rng: np.random.Generator) -> Surface:
@@ -47,7 +44,7 @@ def test_a_point_is_hidden_when_its_ray_meets_a_surface(seed: int) -> None:
     rng = np.random.default_rng(seed)
     surface, d = random_surface(rng), direction(rng)
     points = rng.uniform(-2.0, 2.0, size=(12, 3))
-    answers = hidden(points, [surface], d, SIZE)
+    answers = hidden(points, [surface], d)
     assert [bool(a) for a in answers] == [meets(surface, x, d) for x in points]
 
 
@@ -57,13 +54,13 @@ def test_pieces_of_a_line_are_visible_throughout_or_hidden_throughout(seed: int)
     rng = np.random.default_rng(100 + seed)
     surfaces, d = [random_surface(rng) for _ in range(2)], direction(rng)
     line = rng.uniform(-2.0, 2.0, size=(4, 3))
-    pieces = split(line, surfaces, d, SIZE)
+    pieces = split(line, surfaces, d)
     assert (pieces[0][0][0] == line[0]).all()
     assert np.abs(pieces[-1][0][-1] - line[-1]).max() < 1e-12
     for piece, visible in pieces:
         for a, b in itertools.pairwise(piece):
             between = a + rng.uniform(0.01, 0.99, size=(5, 1)) * (b - a)
-            assert (hidden(between, surfaces, d, SIZE) != visible).all()
+            assert (hidden(between, surfaces, d) != visible).all()
     for (a, first), (b, second) in itertools.pairwise(pieces):
         assert np.abs(a[-1] - b[0]).max() < 1e-12
         assert first != second
@@ -86,16 +83,16 @@ def test_a_surface_hides_the_same_with_its_mesh_and_without(seed: int) -> None:
         flat = mesh @ across.T
         rim = mesh[np.ravel([np.argsort(sign * flat[:, k])[:20] for k in range(2) for sign in (1.0, -1.0)])]
         points = centre + rng.uniform(0.98, 1.0, (len(rim), 1)) * (rim - centre) - 3.0 * d
-        bare = hidden(points, [replace(surface, grids=())], d, SIZE)
+        bare = hidden(points, [replace(surface, grids=())], d)
         assert bare.any()
-        assert [bool(hidden(x[None], [surface], d, SIZE)[0]) for x in points] == bare.tolist()
+        assert [bool(hidden(x[None], [surface], d)[0]) for x in points] == bare.tolist()
 
 
 def test_a_line_behind_a_ball_is_cut_where_the_ball_ends() -> None:
     """A line 2 behind the centre of the unit ball is hidden on |y| < 1, and the ends of that are had to rounding."""
     ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
     line = np.array([[-2.0, -3.0, 0.0], [-2.0, 3.0, 0.0]])
-    pieces = split(line, [ball], np.array([1.0, 0.0, 0.0]), SIZE)
+    pieces = split(line, [ball], np.array([1.0, 0.0, 0.0]))
     assert [visible for _, visible in pieces] == [True, False, True]
     assert pieces[1][0][:, 1] == pytest.approx([-1.0, 1.0], abs=4 * np.finfo(float).eps)
 
@@ -104,12 +101,12 @@ def test_a_circle_on_a_ball_is_hidden_on_the_far_half_only() -> None:
     """On the surface itself the near half is visible, in one piece up to the two ends of the seam: no flicker."""
     ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
     d = direction(np.random.default_rng(77))
-    ((_, visible),) = split(solids.circle(np.zeros(3), d, 1.0, 1e-3), [ball], d, SIZE)
+    ((_, visible),) = split(solids.circle(np.zeros(3), d, 1.0, 1e-3), [ball], d)
     assert visible  # the silhouette itself
     for seed in range(10):
         axis = direction(np.random.default_rng(seed))
         circle = solids.circle(np.zeros(3), axis, 1.0, 1e-3)
-        pieces = split(circle, [ball], d, SIZE)
+        pieces = split(circle, [ball], d)
         assert 2 <= len(pieces) <= 3
         for piece, visible in pieces:
             heights = piece @ d
@@ -120,14 +117,14 @@ def test_what_lies_in_front_is_not_hidden() -> None:
     """A surface hides what is behind it, not what is before it."""
     plane = solids.rectangle(np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
     points = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [-1.0, 1.5, 0.0], [0.0, 0.2, 0.2]])
-    assert hidden(points, [plane], np.array([1.0, 0.0, 0.0]), SIZE).tolist() == [False, True, False, False]
+    assert hidden(points, [plane], np.array([1.0, 0.0, 0.0])).tolist() == [False, True, False, False]
 
 
 def test_a_disk_hides_a_disk() -> None:
     """A plane cut out by a quadric hides just what is behind that: a line is cut on the edge of the disk."""
     disk = solids.disk(np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.5, 1e-2)
     line = np.array([[-1.0, -3.0, 0.3], [-1.0, 3.0, 0.3]])
-    pieces = split(line, [disk], np.array([1.0, 0.0, 0.0]), SIZE)
+    pieces = split(line, [disk], np.array([1.0, 0.0, 0.0]))
     assert [visible for _, visible in pieces] == [True, False, True]
     assert pieces[1][0][:, 1] == pytest.approx([-0.4, 0.4], abs=4 * np.finfo(float).eps)
 
@@ -138,7 +135,7 @@ def test_a_line_is_cut_where_a_surface_seen_along_its_cut_ends(height: float) ->
     ball = replace(solids.sphere(np.zeros(3), 1.0, 1e-2), clip=np.array([[0.0, 0.0, 1.0, height]]))
     for start, step in ((-3.0, 6.0), (3.0, -6.0)):
         line = np.array([[-2.0, 0.0, start], [-2.0, 0.0, start + step]])
-        pieces = split(line, [ball], np.array([1.0, 0.0, 0.0]), SIZE)
+        pieces = split(line, [ball], np.array([1.0, 0.0, 0.0]))
         assert [visible for _, visible in pieces] == [True, False, True]
         assert np.sort(pieces[1][0][:, 2]) == pytest.approx([-1.0, height], abs=4 * np.finfo(float).eps)
 
@@ -146,10 +143,10 @@ def test_a_line_is_cut_where_a_surface_seen_along_its_cut_ends(height: float) ->
 def test_nothing_hides_nothing() -> None:
     """Without surfaces a line is one visible piece; a line of one point is none."""
     line = np.random.default_rng(0).normal(size=(5, 3))
-    ((piece, visible),) = split(line, [], np.array([0.0, 0.0, 1.0]), SIZE)
+    ((piece, visible),) = split(line, [], np.array([0.0, 0.0, 1.0]))
     assert visible
     assert (piece == line).all()
-    assert split(line[:1], [], np.array([0.0, 0.0, 1.0]), SIZE) == []
+    assert split(line[:1], [], np.array([0.0, 0.0, 1.0])) == []
 
 
 def area(edge: Edge, frame: FloatArray) -> float:
