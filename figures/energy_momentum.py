@@ -34,7 +34,9 @@ def scene(
     """
     tops = one_each(ratios, b, linear)
     alike = len(b) == 1 and not any(linear)
-    called = [name(*top, alike=alike) for top in tops]
+    called = [
+        f"$I={tex(I)}$" + ("" if alike else f", $b={tex(field)}$, $a_0={tex(weight)}$") for I, field, weight in tops
+    ]
     panels = tuple(panel(f"({'abc'[k]}) {called[k]}", *top, M3, reach, unit) for k, top in enumerate(tops))
     same = f", $b={tex(b[0])}$" if alike else ""
     there = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
@@ -85,11 +87,6 @@ def one_each(
     if not all(field >= 0 and (field or weight) for _, field, weight in tops):
         raise DomainError(f"figure energy_momentum needs b > 0, or b = 0 and a weight linear, not {b} and {linear}.")
     return tops
-
-
-def name(I: float, b: float, linear: float, *, alike: bool) -> str:
-    """Return what a top is called: by I alone where field and weight are the same for all."""
-    return f"$I={tex(I)}$" + ("" if alike else f", $b={tex(b)}$, $a_0={tex(linear)}$")
 
 
 def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:

@@ -4,12 +4,10 @@ A body drawn at equal steps of one turn of its precession k about the field, (84
 the painted seam shows the proper rotation phi on top of it.
 """
 
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, solids
@@ -74,11 +72,6 @@ def scene(
         panels=stacked(cells, 1, azimuth, elevation, STEP),
         narrow=stacked(cells, 2, azimuth, elevation, STEP),
         size=(WIDTH, HEIGHT),
-        paths={"first": partial(turned, motion, places[0])},
+        paths={"first": lambda t: about(places[0], motion.rotation(t))},
         lasts=float(times[-1]),
     )
-
-
-def turned(motion: ElementaryMotion, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how the first body goes on."""
-    return about(centre, motion.rotation(t))

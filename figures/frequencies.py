@@ -49,10 +49,11 @@ def scene(
     hyperbola = Hyperbola(ratio, field)
     motions = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
+    turns = "one turn" if order == 1 else f"up to {order} turns"
     proper = (
         r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
         rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
-        + (rf" Dots: motions that repeat themselves after {counted(order)} of the precession." if motions else "")
+        + (rf" Dots: motions that repeat themselves after {turns} of the precession." if motions else "")
         if free
         else r"the proper rotation $\phi$, (72), which is zero on one line of the curve (67) and takes every value on "
         rf"the other, $\omega_2=-B'_2={tex(-B2)}$, drawn upright: there $\phi=\omega_3+B'_3$. (b) Their quotient, (86)."
@@ -80,11 +81,6 @@ def scene(
         named={"dotted": "pole", "Dashed": "reference", **({"Dots": "point"} if motions else {})} if free else {},
         size=(WIDTH, HEIGHT),
     )
-
-
-def counted(order: int) -> str:
-    """Return 'one turn', 'up to 3 turns'."""
-    return "one turn" if order == 1 else f"up to {order} turns"
 
 
 def closed(hyperbola: Hyperbola, free: float, order: int) -> dict[Fraction, ElementaryMotion]:

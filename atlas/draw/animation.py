@@ -135,7 +135,8 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
     Matplotlib's: ``.save("x.gif")`` writes it, and a notebook shows it. Raises AtlasError for an
     unknown name or parameter, and for a value out of its range, and DomainError where the recipe has no picture.
     """
-    parameters, options = _split(options)
+    own = {"fps", "style", "progress"}
+    parameters = {name: options.pop(name) for name in [*options] if name not in own}
     recipe = recipes.load(name)
     if over == "t" and "t" not in recipe.parameters:
         scene = recipe.scene(**parameters)
@@ -159,12 +160,6 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
     length = any_motion.period(motion)
     moments = np.linspace(0.0, length, FRAMES, endpoint=False) if times is None else times
     return animation(lambda k: any_motion.scene_at(motion, float(moments[k]), length), len(moments), **options)
-
-
-def _split(options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the parameters of a recipe and the options of `animation`."""
-    own = {"fps", "style", "progress"}
-    return {k: v for k, v in options.items() if k not in own}, {k: v for k, v in options.items() if k in own}
 
 
 def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:

@@ -30,23 +30,31 @@ _BEYOND = 4.5
 
 
 @dataclass(frozen=True)
-class View:
+class Held:
+    """The scale of a panel, and where its origin is on paper: what all pictures of one movement share.
+
+    A panel is in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one; ``scale`` is in
+    printer's points per unit of these, ``shift`` (2,) the place on paper of their origin.
+    """
+
+    centre: FloatArray
+    size: float
+    scale: float
+    shift: FloatArray
+
+
+@dataclass(frozen=True)
+class View(Held):
     """Where things of a panel appear on paper.
 
-    ``panel`` is the panel in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one;
-    ``frame`` (3, 3) has the rows right, up, towards the eye; ``scale`` is in printer's points per unit of ``panel``,
-    ``shift`` (2,) the place on paper of its origin, ``window`` the panel's (width, height), all in points; ``tags`` are
-    the names, anchored on paper.
+    ``panel`` is the panel in these coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
+    the panel's (width, height) in points; ``tags`` are the names, anchored on paper.
     """
 
     panel: Space
     frame: FloatArray
-    scale: float
-    shift: FloatArray
     window: tuple[float, float]
     tags: tuple[Tag, ...]
-    centre: FloatArray
-    size: float
 
     @property
     def towards(self) -> FloatArray:
@@ -61,16 +69,6 @@ class View:
     def on_paper(self, points: FloatArray) -> FloatArray:
         """Points (..., 3) of the scene as points (..., 2) of the paper."""
         return self.scale * (points @ self.frame[:2].T) + self.shift
-
-
-@dataclass(frozen=True)
-class Held:
-    """The scale of a panel, and where its origin is on paper: what all pictures of one movement share, as in `View`."""
-
-    centre: FloatArray
-    size: float
-    scale: float
-    shift: FloatArray
 
 
 def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
@@ -107,7 +105,7 @@ def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> 
 
     tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
     placed = (replace(tag, anchor=on_paper(tag.anchor), elsewhere=tuple(map(on_paper, tag.elsewhere))) for tag in tags)
-    return View(panel, eye, held.scale, held.shift, window, tuple(placed), held.centre, held.size)
+    return View(held.centre, held.size, held.scale, held.shift, panel, eye, window, tuple(placed))
 
 
 def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:

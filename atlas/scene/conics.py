@@ -84,7 +84,9 @@ def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> lis
     x0 = -m1 / l1
     if abs(l2) * r * r <= _FLAT * size:
         rest = c - m1 * m1 / l1
-        return _parabola(x0, l1, m2, rest, r) if abs(m2) * r > _FLAT * size else _parallels(x0, rest / l1, r)
+        if abs(m2) * r > _FLAT * size:
+            return [(lambda s: (x0 + s, -(rest + l1 * s * s) / (2.0 * m2)), -2.0 * r, 2.0 * r)]
+        return _parallels(x0, rest / l1, r)
     y0 = -m2 / l2
     k = m1 * m1 / l1 + m2 * m2 / l2 - c
     if abs(k) <= _FLAT * size:
@@ -99,11 +101,6 @@ def _line(m1: float, m2: float, c: float, r: float) -> list[_Arc]:
         return []
     x, y, length = -0.5 * c * m1 / square, -0.5 * c * m2 / square, float(np.sqrt(square))
     return [(lambda s: (x - s * m2 / length, y + s * m1 / length), -2.0 * r, 2.0 * r)]
-
-
-def _parabola(x0: float, l1: float, m2: float, rest: float, r: float) -> list[_Arc]:
-    """Parametrise l1 (x - x0)^2 + 2 m2 y + rest = 0."""
-    return [(lambda s: (x0 + s, -(rest + l1 * s * s) / (2.0 * m2)), -2.0 * r, 2.0 * r)]
 
 
 def _parallels(x0: float, square: float, r: float) -> list[_Arc]:
