@@ -1,7 +1,8 @@
 """Names beside things: where a label goes so that it covers neither another label nor a line."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,6 +24,8 @@ _HEIGHT = 20.0
 _HALO, _BOX = 2.2, 0.85
 NOBODY = -2
 """The owner of ink that a name is never taken for the name of."""
+Ink: TypeAlias = tuple[FloatArray, float, int]
+"""Points (N, 2) of what is drawn, how much it hurts to cover one of them, and to what they belong."""
 
 
 @dataclass(frozen=True)
@@ -62,18 +65,14 @@ def _stands(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray)
     return anchors + (length + steps + reach)[:, None] * u
 
 
-def place(
-    tags: Sequence[Tag],
-    ink: FloatArray,
-    weights: FloatArray,
-    window: tuple[float, float, float, float],
-    owners: NDArray[np.int64] | None = None,
-) -> list[FloatArray]:
+def place(tags: Sequence[Tag], drawn: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
     """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
 
-    ``ink`` (N, 2) are points of what is drawn, ``weights`` (N,) how much it hurts to cover them, and ``owners`` (N,)
-    to what they belong; ``window`` is (left, bottom, right, top).
+    It keeps clear of what is ``drawn``; ``window`` is (left, bottom, right, top).
     """
+    parts, *about = zip((np.empty((0, 2)), 0.0, NOBODY), *drawn, strict=True)
+    ink, counts = np.concatenate(parts), list(map(len, parts))
+    weights, owners = (np.repeat(values, counts) for values in about)
     centres = np.array([stand(tag) for tag in tags]).reshape(-1, 2)
     sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
     fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
@@ -88,7 +87,7 @@ def place(
         cost += np.concatenate([_covers(some, tag.extent, ink, weights, window) for some in beside])
         best = np.argsort(cost, kind="stable")[:_KEPT]
         candidates, cost = candidates[best], cost[best]
-        if owners is not None and tag.owner >= 0:
+        if tag.owner >= 0:
             named = owners != NOBODY
             cost += _doubt(candidates, tag.extent, ink[named], owners[named] == tag.owner)
         alone[i] = candidates, cost

@@ -14,9 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import SubplotSpec
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.transforms import Bbox
-from numpy.typing import NDArray
 
-from atlas.draw.labels import NOBODY, Tag, along, place
+from atlas.draw.labels import NOBODY, Ink, Tag, along, place
 from atlas.draw.labels import write as write_tags
 from atlas.draw.plane import draw_plane
 from atlas.draw.space import draw_shaded, draw_space, window
@@ -191,10 +190,9 @@ def write_names(axes: Axes, panel: Plane) -> None:
             colour = readable(style_of(role).colour)
             tags.append(Tag(text, first, offset, extent(text, high), colour, high, tuple(elsewhere), owner))
     if tags:
-        ink, weights, owners = _ink(size, panel, places)
         window = (_FRAME, _FRAME, size[0] - _FRAME, size[1] - _FRAME)
         boxed = any(isinstance(layer, Image) for layer in panel.layers)
-        write_tags(axes, tags, place(tags, ink, weights, window, owners), boxed=boxed)
+        write_tags(axes, tags, place(tags, _ink(size, panel, places), window), boxed=boxed)
 
 
 def _requests(
@@ -225,12 +223,11 @@ def _requests(
         yield layer.label, places(layer.points).mean(axis=0), (0.0, 0.0), "note"
 
 
-def _ink(size: tuple[float, float], panel: Plane, places: Places) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
-    """Return points of all lines and marks inside the panel, how much it hurts to cover each, and its layer.
+def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[Ink]:
+    """Yield points of all lines and marks inside the panel, each layer's as its own.
 
     Guides are pale lines without a name, and no other is taken for theirs: they belong to nobody.
     """
-    ink, weights, owners = [np.empty((0, 2))], [np.empty(0)], [np.empty(0, dtype=np.int64)]
     for owner, layer in enumerate(panel.layers):
         if isinstance(layer, Curve):
             points = along(places(layer.points))
@@ -240,9 +237,7 @@ def _ink(size: tuple[float, float], panel: Plane, places: Places) -> tuple[Float
             points = along(places(np.stack([layer.tail, layer.tip])))
         else:
             continue
-        points = points[((points >= -_OVER) & (points <= np.array(size) + _OVER)).all(axis=1)]
-        ink.append(points)
+        inside = ((points >= -_OVER) & (points <= np.array(size) + _OVER)).all(axis=1)
         guide = layer.role == "guide"
-        weights.append(np.full(len(points), 6.0 if isinstance(layer, Points) else 0.2 if guide else 1.5))
-        owners.append(np.full(len(points), NOBODY if guide else owner))
-    return np.concatenate(ink), np.concatenate(weights), np.concatenate(owners)
+        weight = 6.0 if isinstance(layer, Points) else 0.2 if guide else 1.5
+        yield points[inside], weight, NOBODY if guide else owner

@@ -1,7 +1,7 @@
 """A panel in space on axes whose unit is the printer's point: visible lines solid, hidden ones thin and dashed."""
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import count, cycle
 from typing import Any
@@ -14,7 +14,7 @@ from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
 from atlas.draw.hidden import Edge, areas, facing, hidden, shadows, split
-from atlas.draw.labels import along, place, write
+from atlas.draw.labels import NOBODY, along, place, write
 from atlas.draw.plane import gid, marker
 from atlas.draw.style import HEAD_WIDTH, dashes, head_base, stroke, style_of, zoom
 from atlas.draw.view import Held, View, fit
@@ -62,12 +62,10 @@ def window(axes: Axes) -> tuple[float, float]:
     return float(box.width * scale), float(box.height * scale)
 
 
-def write_names(axes: Axes, view: View, ink: list[tuple[FloatArray, float]]) -> None:
+def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]]) -> None:
     """Write the names of a panel clear of the ink: points (N, 2) and how much it hurts to cover one of them."""
-    points = np.concatenate([np.empty((0, 2)), *(points_of_layer for points_of_layer, _ in ink)])
-    weights = np.concatenate([np.empty(0), *(np.full(len(points_of_layer), weight) for points_of_layer, weight in ink)])
     edges = (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0)
-    write(axes, view.tags, place(view.tags, points, weights, edges))
+    write(axes, view.tags, place(view.tags, [(*part, NOBODY) for part in ink], edges))
 
 
 class _Drawing:
@@ -193,7 +191,7 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
     picture = still(replace(view, window=(right, top)), width, height)
     axes.imshow(picture, extent=(0.0, right, 0.0, top), aspect="auto", interpolation="none")
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
-    write_names(axes, view, list(_ink(view)))
+    write_names(axes, view, _ink(view))
 
 
 def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:

@@ -253,7 +253,7 @@ def test_a_name_moves_away_from_ink() -> None:
     patch = np.stack(np.meshgrid(np.linspace(50.0, 70.0, 30), np.linspace(50.0, 70.0, 30)), axis=-1).reshape(-1, 2)
     moving = Tag("a", (50.0, 50.0), (3.0, 3.0), (12.0, 8.0), "#000000", 9.0)
     fixed = Tag("b", (60.0, 60.0), (0.0, 0.0), (12.0, 8.0), "#000000", 9.0)
-    centres = place([moving, fixed], patch, np.ones(len(patch)), (0.0, 0.0, 100.0, 100.0))
+    centres = place([moving, fixed], [(patch, 1.0, NOBODY)], (0.0, 0.0, 100.0, 100.0))
     low, high = centres[0] - (6.0, 4.0), centres[0] + (6.0, 4.0)
     assert not ((patch > low) & (patch < high)).all(axis=1).any()
     assert centres[1].tolist() == [60.0, 60.0]
@@ -330,8 +330,8 @@ def test_no_name_is_taken_for_that_of_a_guide() -> None:
     """A line with no name does not drive another line's name away, where a line that may have one does."""
     own, other = (np.stack([np.linspace(0.0, 90.0, 91), np.full(91, height)], axis=1) for height in (50.0, 62.5))
     tag = Tag("a", (45.0, 50.0), (0.0, 4.0), (12.0, 8.0), "#000000", 9.0, owner=0)
-    ink, weights, window = np.concatenate([own, other]), np.repeat([1.5, 0.2], 91), (0.0, 0.0, 90.0, 90.0)
-    beside, away = (place([tag], ink, weights, window, np.repeat([0, whose], 91))[0] for whose in (NOBODY, 1))
+    window = (0.0, 0.0, 90.0, 90.0)
+    beside, away = (place([tag], [(own, 1.5, 0), (other, 0.2, whose)], window)[0] for whose in (NOBODY, 1))
     assert beside[1] > 50.0 > away[1]
 
 
