@@ -10,7 +10,7 @@ import numpy as np
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, Space, Surface, quadrics, solids
-from atlas.scene.arrange import lettered, stacked
+from atlas.scene.arrange import stacked
 from atlas.scene.captions import tex
 from atlas.scene.layers import frame
 from atlas.scene.quadric_panel import E3, tolerance
@@ -76,8 +76,8 @@ def scene(
             "A row of quadrics at one scale, tubes of one sheet, then a double cone, then two bowls; below a plane "
             "with a curve that parts tops with one sheet from those with two, and six numbered points."
         ),
-        panels=(*lettered(stacked(cells, 1, azimuth, elevation), "(a) six tops"), plane),
-        narrow=(*lettered(stacked(cells, 2, azimuth, elevation), "(a) six tops"), plane),
+        panels=(*stacked(cells, 1, azimuth, elevation, title="(a) six tops"), plane),
+        narrow=(*stacked(cells, 2, azimuth, elevation, title="(a) six tops"), plane),
         named={"Heavy": "hyperbola", "dots": "start", "solid": "main"},
         size=(WIDTH, HEIGHT),
     )

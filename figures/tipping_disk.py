@@ -18,7 +18,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.core.motions.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.arrange import lettered, stacked
+from atlas.scene.arrange import stacked
 from atlas.scene.bodies import drawn_body, row
 from atlas.scene.captions import plain, quotient, tex
 from atlas.scene.movement import about, along, riding
@@ -71,8 +71,8 @@ def scene(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
             f"time, three times from zero to {plain(round(far))} degrees and back."
         ),
-        panels=(*lettered(stacked(cells, 1, azimuth, elevation), "(a) moments"), below),
-        narrow=(*lettered(stacked(cells, 2, azimuth, elevation), "(a) moments"), below),
+        panels=(*stacked(cells, 1, azimuth, elevation, title="(a) moments"), below),
+        narrow=(*stacked(cells, 2, azimuth, elevation, title="(a) moments"), below),
         named={"dots": "start"},
         size=(WIDTH, HEIGHT),
         paths={

@@ -161,22 +161,19 @@ def narrowed(scene: Scene) -> Scene | None:
 
 
 def stacked(
-    cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0
+    cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0, title: str = ""
 ) -> tuple[Space, ...]:
-    """Return groups of layers that stand side by side in space as so many panels at one scale.
+    """Return groups of layers that stand side by side in space as so many panels at one scale, the first with a title.
 
     Each group has at least so much ``room`` to the right.
     """
     each = -(-len(cells) // rows)
-    panels = [Space(tuple(chain(*cells[i : i + each])), azimuth, elevation) for i in range(0, len(cells), each)]
+    panels = [
+        Space(tuple(chain(*cells[i : i + each])), azimuth, elevation, "" if i else title)
+        for i in range(0, len(cells), each)
+    ]
     span = np.max([extent(panel) for panel in panels], axis=0)
     return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
-
-
-def lettered(panels: Sequence[Space], title: str) -> tuple[Space, ...]:
-    """Return panels of which the first has a title."""
-    first, *others = panels
-    return replace(first, title=title), *others
 
 
 def extent(panel: Space) -> FloatArray:

@@ -136,10 +136,10 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
 
 def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
     """Panel (a): the paths in space, with the directions of the fields to the left of them."""
-    layers, seen = bundle(*drawn)
+    layers = bundle(*drawn)
     layers.append(Curve(drawn[2][0], "velocity", rides="arm"))
     eye = frame(view)
-    flat = seen @ eye.T
+    flat = np.concatenate(drawn[:2]) @ eye.T
     length = 0.25 * float(np.ptp(flat, axis=0).max())
     named = ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$"))
     arrows = [(length * field / np.linalg.norm(field), role, name) for field, role, name in named if np.any(field)]
@@ -153,7 +153,7 @@ def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
 def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Plane:
     """Panel (b): the paths on the plane across B."""
     centre, point, arms = (path @ axes for path in drawn)
-    layers, _ = bundle(centre, point, arms, ("centre of mass", "point"), " below")
+    layers = bundle(centre, point, arms, ("centre of mass", "point"), " below")
     drifts = bool(flight.particle.drift.any())
     along = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
     across = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
@@ -168,13 +168,12 @@ def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Pla
 
 def bundle(
     centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), where: str = ""
-) -> tuple[list[Layer], FloatArray]:
-    """Return the layers of the two paths and the arms between them, and all their points."""
-    layers: list[Layer] = [Curve(arm, "guide") for arm in arms]
-    layers += [
+) -> list[Layer]:
+    """Return the layers of the two paths and the arms between them."""
+    return [
+        *(Curve(arm, "guide") for arm in arms),
         Curve(centre, "fourth", names[0]),
         Curve(point, "trajectory", names[1]),
         Points(point[:1], "start", rides=f"point{where}"),
         Points(centre[:1], "fourth", rides=f"centre{where}"),
     ]
-    return layers, np.concatenate([centre, point])
