@@ -14,7 +14,7 @@ from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, axis_trace, solids
 from atlas.scene.any_motion import slow_turn
-from atlas.scene.captions import plain_setting, spelt, tex, tex_setting
+from atlas.scene.captions import plain_setting, spelt, tex_setting, tex_vector
 from atlas.scene.quadric_panel import E3, O, tolerance
 from atlas.scene.sample import curve
 
@@ -58,7 +58,7 @@ def scene(
     return Scene(
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
-            rf"$\boldsymbol{{\omega}}=({', '.join(map(tex, omega))})$ (heavy) and "
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$ (heavy) and "
             rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {spelt(nutations)} of the nutation from "
             r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory. (b) Larmor's frame: the light line goes on "
             "where the heavy one came from."

@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray, positive
 from atlas.errors import AtlasError
 from atlas.scene import axis_trace
 from atlas.scene.bodies import body_of
-from atlas.scene.captions import plain, quotient, spelt, tex
+from atlas.scene.captions import plain_vector, quotient, spelt, tex_vector
 from atlas.scene.layers import Arrow, Curve, Label, Layer, Plane, Scene, Space
 from atlas.scene.quadric_panel import O, tolerance
 from atlas.scene.sample import MOST as MANY
@@ -207,10 +207,7 @@ def period(motion: Any) -> float:
 
 def start(omega: Sequence[float]) -> tuple[str, str]:
     """Return the initial angular velocity for a caption and in plain words."""
-    return (
-        rf"$\boldsymbol\omega=({', '.join(map(tex, omega))})$",
-        f"the angular velocity ({', '.join(map(plain, omega))})",
-    )
+    return rf"$\boldsymbol\omega={tex_vector(omega)}$", f"the angular velocity {plain_vector(omega)}"
 
 
 def turns(motion: Any, stop: float) -> float:

@@ -69,9 +69,11 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     grid = point(u[:, None], v[None, :])
     angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
     meridians = [sample.curve(meridian(float(t)), a, b, tolerance) for t in angles]
-    parallels = [_round(ring(float(s)), tolerance) for s in np.linspace(a, b, _PARALLELS + 2)[1:-1]]
+    parallels = [
+        sample.curve(ring(float(s)), 0.0, solids.TURN, tolerance) for s in np.linspace(a, b, _PARALLELS + 2)[1:-1]
+    ]
     edges = [h for h, rim in ((low, a), (high, b)) if rim != 0.0]
-    rims = [_round(ring(parameter(h)), tolerance) for h in edges]
+    rims = [sample.curve(ring(parameter(h)), 0.0, solids.TURN, tolerance) for h in edges]
     n, middle = axes[w], float(axes[w] @ centre)
     # a plane that touched the sheet in its vertex would cut, or not, as it is rounded: one through the centre keeps off
     top, bottom = (h if h in edges else 0.0 for h in (high, low))
@@ -142,8 +144,3 @@ def placed(surfaces: Sequence[Surface], Q: FloatArray, shift: FloatArray, tolera
         layers.append(moved_surface(surface, np.eye(3), shift))
         layers += [Curve(points + shift, "hyperbola") for points in hyperbola(Q, surface, tolerance)]
     return layers
-
-
-def _round(line: _Line, tolerance: float) -> FloatArray:
-    """Return a closed curve of a surface."""
-    return sample.curve(line, 0.0, solids.TURN, tolerance)
