@@ -91,13 +91,13 @@ def test_what_a_recipe_takes_is_what_its_function_takes() -> None:
 
 RECIPE = '''"""Typed."""
 from typing import Any, Literal
-from atlas.scene import Scene
+from atlas.scene import Plane, Scene
 RANGES = {"size": (0.5, 2.0)}
 def scene(*, pairs: tuple[tuple[int, int], ...] = ((1, 2), (2, 3)), ratio: Any = 1.5,
           field: tuple[float, float] = (1.0, 2.0), levels: tuple[float, ...] = (1.0,),
           omega3: float | None = None, unit: str = "s", columns: int = 1, size: float = 1, free=(1, "x"),
           names: tuple[str, ...] = ("a",), on: bool = True, side: Literal["left", "right"] = "left") -> Scene:
-    return Scene(title="", caption="", alt="", panels=())
+    return Scene(title="", caption="", alt="", panels=(Plane((), "", ""),))
 '''
 
 
@@ -182,6 +182,10 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
         (
             b'"""Broken."""\ndef scene(): return None\n',
             r"figures/broken\.py: scene\(\) must return a Scene, not NoneType",
+        ),
+        (
+            b'"""Broken."""\nfrom atlas.scene import Scene\ndef scene(): return Scene(caption="A.", alt="A.")\n',
+            r"figures/broken\.py: the Scene has no panels",
         ),
         (b"\xff\xfe", r"figures/broken\.py, line 1: SyntaxError"),
     ],
