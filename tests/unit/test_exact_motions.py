@@ -6,20 +6,20 @@ from typing import Any, TypeAlias
 
 import mpmath
 import pytest
-from flint import arb, fmpq
+from flint import arb, fmpq, fmpq_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import closed_form, taylor
 
 from atlas.errors import DomainError
 from atlas.exact.digits import certified, enclosed, numbers
-from atlas.exact.inputs import Real
+from atlas.exact.inputs import Real, rational
 from atlas.exact.motions.ball import BallMotion
 from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.exact.motions.particle import Flight, ParticleMotion
-from atlas.exact.motions.pseudo_oscillator import PseudoOscillator
 from atlas.exact.surfaces.hyperbola import Hyperbola
 from atlas.exact.surfaces.quadric import Quadric
+from atlas.formulas import integrals
 
 DIGITS = 60
 
@@ -199,10 +199,10 @@ def test_points_of_the_hyperbola_lie_on_the_quadric_and_rest_on_the_cubic(
     h = Hyperbola(I, (B2, B3))
     w3 = h.omega3(w2)
     assert Quadric(I, (B2, B3)).residual((0, w2, w3)) == 0
-    oscillator = PseudoOscillator(I, (B2, B3), (0, w2, w3))
-    assert oscillator.acceleration(w3) == 0
-    assert oscillator.quartic(w3) == 0
-    _, a1, a2, a3 = oscillator.coefficients
+    known = integrals.integrals(h.I, (fmpq(0), rational(w2, "omega2"), w3), (fmpq(0), h.B2, h.B3))
+    a0, a1, a2, a3 = integrals.cubic(h.I, *known)
+    assert a0 + w3 * (a1 + w3 * (a2 + w3 * a3)) == 0
+    assert fmpq_poly([*integrals.quartic(h.I, *known)])(w3) == 0
     assert h.stability(w2) == -(a1 + 2 * a2 * w3 + 3 * a3 * w3**2)
     k, phi = enclosed(lambda: h.frequencies(w2), 250)
     assert phi == ElementaryMotion(I, (B2, B3), w2).phi

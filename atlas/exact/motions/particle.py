@@ -1,6 +1,6 @@
 """The charged particle in constant fields, (89), (93), (98), for any E, B and sign of mu; a point of a body, (101)."""
 
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
@@ -106,17 +106,10 @@ class ParticleMotion:
         return sine / w, cosine
 
 
-class Turning(Protocol):
-    """A motion of a body about its centre of mass."""
-
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
-
-
 class Flight:
     """y_N(t) = y_0(t) + R(t) x_N(0) of the point ``point``, counted from the centre of mass."""
 
-    def __init__(self, particle: ParticleMotion, motion: Turning, point: Any) -> None:
+    def __init__(self, particle: ParticleMotion, motion: Any, point: Any) -> None:
         self.particle, self.motion = particle, motion
         self.point = rationals(point, "the point", 3)
 
