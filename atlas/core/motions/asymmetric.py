@@ -16,8 +16,7 @@ from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.euler_top import EulerTop
+from atlas.exact.motions.elliptic import EllipticMotion, EulerTop
 from atlas.formulas.numbers import workprec
 
 BITS = 60

@@ -13,15 +13,15 @@ from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.motions.clebsch_variations import TorusVaried
 from atlas.core.nutation.variations import Varied
 from atlas.errors import DomainError
+from atlas.exact.arithmetic.turns import AXES, Matrix, turned_back, turns
 from atlas.exact.inputs import sin_cos
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.euler_top import EulerTop
+from atlas.exact.motions.elliptic import EllipticMotion, EulerTop
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.cayley_klein import steady
 from atlas.exact.nutation.differences import Differences
-from atlas.exact.nutation.nutating import Matrix, Nutating, product, turn
+from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.variations import Constants, TooNearError, constants, variations
 from atlas.formulas import ball, elementary
 from atlas.formulas.numbers import direction, rational, workprec
@@ -70,7 +70,7 @@ class Inputs:
         twin = self.twin(*x)
         if isinstance(twin, Turns):
             return twin.constants()
-        return constants(twin.tilt(), twin.solution, getattr(twin, "places", (0, 1, 2)))
+        return constants(twin.tilt(), twin.solution, twin.places)
 
     def _places(self, names: Sequence[str]) -> list[int]:
         return [self.names.index(x) for x in names]
@@ -96,22 +96,19 @@ class Turns(NamedTuple):
 
     def rotation(self, t: fmpq) -> Matrix:
         """Return R(t) as rows."""
-        first, second = (turn(n, c, s) for n, (s, c) in zip(self._axes, self._angles(t), strict=True))
-        return product(first, second)
+        axis, last = self._axes
+        return turns(t, (axis, self.k), (last, self.phi))
 
     def angular_velocity(self, t: fmpq) -> list[Any]:
         """Return Omega(t) in the body."""
-        (n1, n2, n3), (s, c) = direction(self._axes[0]), self._angles(t)[1]
-        return [self.k * (n1 * c + n2 * s), self.k * (n2 * c - n1 * s), self.k * n3 + self.phi]
+        s, c = sin_cos(self.phi * t)
+        n1, n2, n3 = direction(self._axes[0])
+        return turned_back((self.k * n1, self.k * n2, self.k * n3 + self.phi), c, s)
 
     @property
     def _axes(self) -> tuple[Any, Any]:
         axis = self.along if len(self.along) == 3 else (fmpq(0), *self.along)
-        return axis if any(x != 0 for x in axis) else (fmpq(0), fmpq(0), fmpq(1)), (fmpq(0), fmpq(0), fmpq(1))
-
-    def _angles(self, t: fmpq) -> list[Any]:
-        """Return sines and cosines of both angles."""
-        return [sin_cos(rate * t) for rate in (self.k, self.phi)]
+        return axis if any(x != 0 for x in axis) else AXES[2], AXES[2]
 
 
 def _size(*rates: fmpq) -> fmpq:

@@ -10,8 +10,7 @@ from atlas.core.arithmetic.rotation import target
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.exact.digits import enclosed
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.euler_top import EulerTop
+from atlas.exact.motions.elliptic import EllipticMotion, EulerTop
 
 WITHIN = 3.6e-15
 """Bound on errors of entries of R, and of the vector that turns like K, beside its length."""

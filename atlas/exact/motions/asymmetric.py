@@ -16,16 +16,14 @@ from typing import Any
 from flint import arb, arb_poly, ctx, fmpq
 
 from atlas.errors import DomainError, NotCertifiedError
+from atlas.exact.arithmetic.turns import AXES, identity, product, turn
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.motions.clebsch_flow import Arrival
 from atlas.exact.motions.clebsch_periods import Integrals, nearest
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.elliptic_curve import check_moments
-from atlas.exact.motions.euler_top import EulerTop
-from atlas.exact.motions.simpler import Spin, Symmetric
+from atlas.exact.motions.elliptic import EllipticMotion, EulerTop, check_moments
+from atlas.exact.motions.general import Symmetric
 from atlas.exact.motions.torus import Torus, frequencies, turned
 from atlas.exact.nutation.cayley_klein import matrix
-from atlas.exact.nutation.nutating import product, turn
 from atlas.formulas.numbers import dot, workprec
 from atlas.formulas.numbers import nearest as nearest_float
 
@@ -185,7 +183,7 @@ class OnTorus:
         if i is None:
             swing: list[list[Real]] = matrix(arrival.q)
         else:
-            swing = turn([fmpq(int(i == j)) for j in range(3)], w * w - q[i] * q[i], 2 * w * q[i])
+            swing = turn(AXES[i], w * w - q[i] * q[i], 2 * w * q[i])
         return product(turn(self.field, angle.cos(), angle.sin()), swing)
 
     def field_in_body(self, t: Any) -> list[Real]:
@@ -216,12 +214,12 @@ class AsymmetricMotion:
         check_moments(self.inertia)
         self.kind, self._motion = self._case()
 
-    def _case(self) -> tuple[str, Spin | Symmetric | EulerTop | EllipticMotion | OnTorus]:
+    def _case(self) -> tuple[str, Symmetric | EllipticMotion | OnTorus]:
         J, K, Omega = self.inertia, self.field, self.omega
         if not any(Omega):
-            return "at rest", Spin(Omega, K)
+            return "at rest", EulerTop(J, Omega)
         if sum(any(pair) for pair in zip(Omega, K, strict=True)) == 1:
-            return "spin about an axis", Spin(Omega, K)
+            return "spin about an axis", EulerTop(J, Omega)  # the field stays
         if len(set(J)) < 3:
             return "ball" if len(set(J)) == 1 else "symmetric body", Symmetric(J, Omega, K)
         if not any(K):
@@ -245,13 +243,12 @@ class AsymmetricMotion:
         """
         if isinstance(self._motion, EllipticMotion):
             return self._motion
-        free = isinstance(self._motion, Spin) or not any(self.field)
-        return EulerTop(self.inertia, self.omega) if free else None
+        return None if any(self.field) else EulerTop(self.inertia, self.omega)
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
         if rational(t, "the time") == 0:
-            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
+            return identity()
         return self._motion.rotation(t)
 
     def column(self, j: int, t: Any) -> list[Real]:
@@ -314,7 +311,7 @@ class AsymmetricMotion:
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m = R II Omega in the laboratory frame."""
         m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
-        return [row[0] * m[0] + row[1] * m[1] + row[2] * m[2] for row in self.rotation(t)]
+        return [dot(row, m) for row in self.rotation(t)]
 
 
 def _power(x: fmpq) -> fmpq:

@@ -4,6 +4,7 @@ from typing import Any
 
 from flint import fmpq
 
+from atlas.exact.arithmetic.turns import AXES, turn, turns
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.formulas import ball
 from atlas.formulas.domain import check_ball
@@ -36,25 +37,11 @@ class BallMotion:
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t), (28); for a momentum along the field (30), in which the two turns are one."""
-        t = rational(t, "the time")
+        t, last = rational(t, "the time"), AXES[2]
         if self.m2 == 0:
             s, c = sin_cos(self.m3 / self.inertia * t)
-            zero, one = fmpq(0), fmpq(1)
-            return [[c, -s, zero], [s, c, zero], [zero, zero, one]]
-        k2, k3 = self.k_hat
-        s, c = sin_cos(self.gamma * t)
-        S, C = sin_cos(self.larmor * t)
-        v = 1 - c
-        first, second, third = (
-            [c, k3 * s, -k2 * s],
-            [-k3 * s, c + k2**2 * v, k2 * k3 * v],
-            [k2 * s, k2 * k3 * v, c + k3**2 * v],
-        )
-        return [
-            [C * a + S * b for a, b in zip(first, second, strict=True)],
-            [C * b - S * a for a, b in zip(first, second, strict=True)],
-            third,
-        ]
+            return turn(last, c, s)
+        return turns(t, (last, -self.larmor), ((fmpq(0), *self.k_hat), -self.gamma))
 
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t) in the laboratory frame, (26)."""

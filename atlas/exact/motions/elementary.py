@@ -1,18 +1,61 @@
 """The motions in elementary functions (71) to (73), (84) to (88) as balls, and the free body beside them, (87)."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from flint import arb, fmpq
 
+from atlas.exact.arithmetic.turns import AXES, Matrix, turned_back, turns
 from atlas.exact.bodies.body import ratio_of
 from atlas.exact.inputs import Real, rational, rationals, sin_cos, turn_time
 from atlas.formulas import elementary
 from atlas.formulas.domain import case_of, check_omega3
 from atlas.formulas.integrals import NAMES, along_field, integrals
-from atlas.formulas.numbers import root
+from atlas.formulas.numbers import direction, root
 
 
-class ElementaryMotion:
+class DoubleTurn:
+    """A motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with the angular velocity `omega`."""
+
+    omega: tuple[fmpq, ...]
+
+    @property
+    def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
+        """A vector along the axis, zero for a body at rest, k and phi."""
+        raise NotImplementedError
+
+    @property
+    def _direction(self) -> Sequence[fmpq]:
+        """A vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
+        along = self._turning[0]
+        return along if any(along) else AXES[2]
+
+    @property
+    def k(self) -> Real:
+        """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
+        return self._turning[1]
+
+    @property
+    def phi(self) -> fmpq:
+        """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
+        return self._turning[2]
+
+    @property
+    def period(self) -> arb:
+        """Time 2 pi/|k| of one precession; infinite without one."""
+        return turn_time(self.k)
+
+    def rotation(self, t: Any) -> Matrix:
+        """Return R(t), (84), as rows."""
+        return turns(rational(t, "the time"), (self._direction, self.k), (AXES[2], self.phi))
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame, (73): it turns about the third axis with frequency phi."""
+        s, c = sin_cos(self.phi * rational(t, "the time"))
+        return turned_back(self.omega, c, s)
+
+
+class ElementaryMotion(DoubleTurn):
     """The motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with Omega(0) = (0, omega2, omega3).
 
     ``omega3`` is given where (71) leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole
@@ -29,54 +72,19 @@ class ElementaryMotion:
         curve = fmpq(1), self.I, self.B2, self.B3, self.omega2, rational_omega3 or fmpq(0)
         self.omega3: fmpq = elementary.constants(self.case, *curve)[0]
         check_omega3(self.case, rational_omega3, self.omega3)
-
-    @property
-    def omega(self) -> tuple[fmpq, fmpq, fmpq]:
-        """Initial angular velocity (0, omega2, omega3)."""
-        return fmpq(0), self.omega2, self.omega3
+        self.omega = fmpq(0), self.omega2, self.omega3
 
     @property
     def axis(self) -> tuple[Real, Real]:
         """Components 2 and 3 of the unit vector of the precession axis."""
-        x, y = self._direction
-        size = root(x**2 + y**2)
-        return x / size, y / size
-
-    @property
-    def _direction(self) -> tuple[fmpq, fmpq]:
-        """Components 2 and 3 of a vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
-        if self.case == "free body" and self.omega2 == 0 and self.omega3 == 0:
-            return fmpq(0), fmpq(1)
-        x, y = self._turning[0]
+        x, y = direction(self._direction[1:])
         return x, y
 
     @property
-    def k(self) -> Real:
-        """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
-        k: Real = self._turning[1]
-        return k
-
-    @property
-    def phi(self) -> fmpq:
-        """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
-        phi: fmpq = self._turning[2]
-        return phi
-
-    @property
-    def period(self) -> arb:
-        """Time 2 pi/|k| of one precession; infinite without one."""
-        return turn_time(self.k)
-
-    @property
-    def _turning(self) -> tuple[Any, Real, Any]:
+    def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
         """A vector along the axis, k and phi."""
-        return elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
-
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t), (84), as rows."""
-        A = self._precession(t)
-        S, C = sin_cos(self.phi * rational(t, "the time"))
-        return [[row[0] * C + row[1] * S, row[1] * C - row[0] * S, row[2]] for row in A]
+        along, k, phi = elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
+        return (fmpq(0), *along), k, phi
 
     def quaternion(self, t: Any) -> list[Real]:
         """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (85)."""
@@ -92,17 +100,12 @@ class ElementaryMotion:
 
     def third_axis(self, t: Any) -> list[Real]:
         """Return the third column of R(t), (84)."""
-        return [row[2] for row in self._precession(t)]
-
-    def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame, (73)."""
-        S, C = sin_cos(self.phi * rational(t, "the time"))
-        return [self.omega2 * S, self.omega2 * C, self.omega3]
+        return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B', (32), (62), (60): the field turns about the third axis with frequency phi."""
-        S, C = sin_cos(self.phi * rational(t, "the time"))
-        return [self.B2 * S, self.B2 * C, self.B3]
+        s, c = sin_cos(self.phi * rational(t, "the time"))
+        return turned_back((fmpq(0), self.B2, self.B3), c, s)
 
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t)/I2 in the laboratory frame, (88): it precesses about the axis with frequency k.
@@ -111,7 +114,7 @@ class ElementaryMotion:
         """
         s, c = sin_cos(self.k * rational(t, "the time"))
         m2, m3 = self.omega2, self.I * self.omega3
-        x, y = self._direction
+        _, x, y = self._direction
         square = x**2 + y**2
         along, across = m2 * x + m3 * y, m3 * x - m2 * y
         return [
@@ -126,19 +129,8 @@ class ElementaryMotion:
         state = self.I, (fmpq(0), self.omega2, self.omega3), (fmpq(0), self.B2, self.B3)
         return dict(zip(NAMES, (*integrals(*state), along_field(*state)), strict=True))
 
-    def _precession(self, t: Any) -> list[list[Real]]:
-        """Return R_axis(k t), the first factor of (85)."""
-        (x, y), (n2, n3) = self._direction, self.axis
-        s, c = sin_cos(self.k * rational(t, "the time"))
-        v = (1 - c) / (x**2 + y**2)
-        return [
-            [c, -n3 * s, n2 * s],
-            [n3 * s, c + x**2 * v, x * y * v],
-            [-n2 * s, x * y * v, c + y**2 * v],
-        ]
 
-
-class FreeMotion:
+class FreeMotion(DoubleTurn):
     """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above (87)."""
 
     def __init__(self, ratio: Any, omega: Any) -> None:
@@ -146,53 +138,6 @@ class FreeMotion:
         self.omega = rationals(omega, "omega", 3)
 
     @property
-    def k(self) -> Real:
-        """Frequency of precession about the angular momentum: |m|/I2."""
-        k: Real = elementary.free(fmpq(1), self.I, *self.omega)[1]
-        return k
-
-    @property
-    def phi(self) -> fmpq:
-        """Frequency of proper rotation (1 - I) omega3, (87)."""
-        phi: fmpq = elementary.free(fmpq(1), self.I, *self.omega)[2]
-        return phi
-
-    @property
-    def period(self) -> arb:
-        """Time 2 pi/|k| of one precession; infinite without one."""
-        return turn_time(self.k)
-
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows: the turn about m = (omega1, omega2, I omega3) times that about the third axis."""
-        t = rational(t, "the time")
-        S, C = sin_cos(self.phi * t)
-        return [[row[0] * C + row[1] * S, row[1] * C - row[0] * S, row[2]] for row in self._precession(t)]
-
-    def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body: it turns about the third axis with frequency phi."""
-        w1, w2, w3 = self.omega
-        S, C = sin_cos(self.phi * rational(t, "the time"))
-        return [w1 * C + w2 * S, w2 * C - w1 * S, w3]
-
-    @property
-    def _momentum(self) -> tuple[fmpq, fmpq, fmpq]:
-        x, y, z = elementary.free(fmpq(1), self.I, *self.omega)[0]
-        return x, y, z
-
-    @property
-    def _square(self) -> fmpq:
-        x, y, z = self._momentum
-        return x**2 + y**2 + z**2
-
-    def _precession(self, t: fmpq) -> list[list[Real]]:
-        """Return R_m(k t), the identity for a body at rest."""
-        x, y, z = self._momentum
-        if self._square == 0:
-            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
-        sine, c = sin_cos(self.k * t)
-        s, v = sine / self.k, (1 - c) / self._square
-        return [
-            [c + x * x * v, x * y * v - z * s, x * z * v + y * s],
-            [y * x * v + z * s, c + y * y * v, y * z * v - x * s],
-            [z * x * v - y * s, z * y * v + x * s, c + z * z * v],
-        ]
+    def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
+        """The angular momentum, k and phi."""
+        return elementary.free(fmpq(1), self.I, *self.omega)

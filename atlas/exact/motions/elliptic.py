@@ -19,16 +19,16 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.inputs import Real, rational, rationals, sin_cos
-from atlas.exact.motions.elliptic_curve import check_moments, square_of_v
-from atlas.exact.nutation.cayley_klein import Solution, matrix, steady
-from atlas.exact.nutation.constants import Nutation
+from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.nutation.elliptic_quartic import EllipticQuartic
-from atlas.exact.nutation.nutating import Nutating, product, turn
+from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.formulas.elliptic import splitting
 from atlas.formulas.integrals import clebsch
-from atlas.formulas.numbers import by_precision, nearest, root
+from atlas.formulas.numbers import by_precision, dot, nearest, root
+
+ROUNDING = fmpq(1, 2**48)
+"""By so much of itself the largest moment of a plane body may exceed the sum of the others."""
 
 
 class EllipticMotion(Nutating):
@@ -52,6 +52,9 @@ class EllipticMotion(Nutating):
         self.square = square_of_v(moments, self.z)
         D = moments[0] * moments[1] * moments[2]
         self._e = tuple(1 / (self.z * I + D) for I in moments)
+        self._start()
+
+    def _start(self) -> None:
         self.places = self._order()
         e, K = self._turned(self._e), self._turned(self.field)
         self.quartic: EllipticQuartic = EllipticQuartic(e, K, self.square, self.branch)
@@ -149,11 +152,6 @@ class EllipticMotion(Nutating):
         return [(E - self.frame) * x for E, x in zip(self.E, K, strict=True)]
 
     @property
-    def b(self) -> Real:
-        """Length of the field."""
-        return root(self.quartic.N)
-
-    @property
     def precession(self) -> Real:
         """Rate E_a b - b of the frame about the field in which the pair has its own rates."""
         return (self.E[self.places[2]] - self.frame) * self.b
@@ -176,21 +174,6 @@ class EllipticMotion(Nutating):
             spin=zero,
         )
 
-    @by_precision
-    def solution(self) -> Solution:
-        """The constants of alpha and beta, from which R follows, at the precision of the moment."""
-        return self.trigonometric(hyperbolic=True)
-
-    def trigonometric(self, *, hyperbolic: bool = False) -> Solution:
-        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
-        if self.is_steady:
-            return steady(self.tilt(), *self.steady_rates(), self.period / 2)
-        return Nutation(self.quartic, self.sphere).solution(trigonometric=not hyperbolic and self.kind == "elliptic")
-
-    def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Return cos and sin of half the angle between field and axis, and of the azimuth, at t = 0."""
-        return self.sphere.tilt
-
     def steady_rates(self) -> tuple[Real, Real]:
         """Return the rates k about the field and phi about the axis a of a motion that is two turns."""
         first, _, last = self.places
@@ -210,27 +193,12 @@ class EllipticMotion(Nutating):
             rate = arb(root(square)) if square > 0 else arb(0)
         return arb("inf") if rate.is_zero() else 2 * arb.pi() / rate
 
+    @property
+    def _half(self) -> arb:
+        return self.period / 2
+
     def _periods(self) -> tuple[arb, arb]:
         return (arb(1), arb("inf")) if self.is_steady else super()._periods()
-
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
-        t = rational(t, "the time")
-        if t == 0 or self.kind == "at rest":
-            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
-        if self.is_steady:
-            k, phi = self.steady_rates()
-            (s, c), (S, C) = sin_cos(k * t), sin_cos(phi * t)
-            axis = [fmpq(int(i == self.places[2])) for i in range(3)]
-            return product(turn(self.field, c, s), turn(axis, C, S))
-        a, b, _, _ = self.solution.parameters(t)
-        R, back = matrix(self.from_frame(a, b)), self._back
-        return [[R[i][j] for j in back] for i in back]
-
-    def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', the field in the body."""
-        R, B = self.rotation(t), self.field
-        return [R[0][j] * B[0] + R[1][j] * B[1] + R[2][j] * B[2] for j in range(3)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) = (E - 1) K(t) in the body's frame."""
@@ -239,18 +207,58 @@ class EllipticMotion(Nutating):
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m = R II Omega in the laboratory frame."""
         m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
-        return [row[0] * m[0] + row[1] * m[1] + row[2] * m[2] for row in self.rotation(t)]
+        return [dot(row, m) for row in self.rotation(t)]
 
-    def quaternion(self, t: Any) -> list[arb]:
-        """Return a unit quaternion of R(t), scalar first."""
-        q = super().quaternion(t)
-        return [q[0], *(q[1 + i] for i in self._back)]
-
-    @property
-    def _back(self) -> list[int]:
-        """Where each body axis stands in the order of the axes."""
-        return [self.places.index(i) for i in range(3)]
+    def from_frame(self, a: acb, b: acb) -> list[arb]:
+        """Return the quaternion, its vector along the principal axes in the order of the moments."""
+        q = super().from_frame(a, b)
+        return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
 
     def _turned(self, vector: Any) -> Any:
         """Return components in the order of the axes."""
         return tuple(vector[i] for i in self.places)
+
+
+class EulerTop(EllipticMotion):
+    """The motion R(t), R(0) = 1, of a free body with moments (I1, I2, I3) that starts with ``omega``.
+
+    The angular momentum m = II Omega in the body stands for the field, and E = II^-1: m' = [m, E m]. No frame turns.
+    """
+
+    frame = 0
+
+    def __init__(self, inertia: Any, omega: Any) -> None:
+        self.inertia = moments = rationals(inertia, "inertia (I1, I2, I3)", 3)
+        check_moments(moments)
+        self.field = tuple(I * w for I, w in zip(moments, rationals(omega, "omega", 3), strict=True))
+        self._e = tuple(1 / I for I in moments)
+        self.square, self.branch, self.z = fmpq(1), -1, fmpq(1)
+        self._start()
+
+    @property
+    def _rests(self) -> bool:
+        """Whether there is no motion."""
+        return not any(self.field)
+
+
+def check_moments(moments: tuple[fmpq, ...]) -> None:
+    """Raise DomainError for what are no moments of a body."""
+    shown = ", ".join(str(nearest(I)) for I in moments)
+    if min(moments) <= 0:
+        raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")
+    if max(moments) * (2 - ROUNDING) > sum(moments):
+        raise DomainError(f"No body has the moments of inertia {shown}: the largest is at most the sum of the others.")
+
+
+def square_of_v(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
+    """Return v^2 = prod(z + D/I_i); DomainError where it is not positive."""
+    D = moments[0] * moments[1] * moments[2]
+    zeros = sorted(-D / I for I in moments)
+    if not (z > zeros[2] or zeros[0] < z < zeros[1]):
+        low, middle, high = map(nearest, zeros)
+        oval = f" and between {low} and {middle}" if zeros[0] < zeros[1] else ""
+        raise DomainError(
+            f"There is no elliptic motion with z = {nearest(z)}: v^2 = prod(z + D/I_i) is positive for z above "
+            f"{high}{oval}, the ends excluded."
+        )
+    return (z - zeros[0]) * (z - zeros[1]) * (z - zeros[2])

@@ -14,16 +14,14 @@ from typing import Any, Self
 
 from flint import acb, arb, fmpq
 
-from atlas.errors import DomainError
 from atlas.exact.bodies.body import ratio_of
-from atlas.exact.inputs import Real, rational, rationals
-from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.exact.inputs import Real, rationals
 from atlas.exact.nutation.cayley_klein import Lattice, Parameter, Solution, Sum, steady
 from atlas.exact.nutation.constants import Nutation
-from atlas.exact.nutation.nutating import Nutating, attitude
+from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.quartic import Quartic, Vector
 from atlas.exact.nutation.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
-from atlas.formulas.numbers import by_precision, root
+from atlas.formulas.numbers import by_precision, dot, root
 
 
 class GeneralMotion(Nutating):
@@ -77,19 +75,6 @@ class GeneralMotion(Nutating):
         """Whether theta is constant, so that R(t) is two turns one after the other."""
         return self.kind in {"free body", "at rest", "precession", "spin along the field"}
 
-    @cached_property
-    def _elementary(self) -> ElementaryMotion | FreeMotion | None:
-        """The same motion in elementary functions, whose zeros are exact, if Omega3 is constant and B1 = 0."""
-        if self.kind == "free body":
-            return FreeMotion(self.I, self.omega)
-        if not self.is_steady or self.field[0] != 0:
-            return None
-        _, w2, w3 = self.omega
-        try:
-            return ElementaryMotion(self.I, self.field[1:], w2)
-        except DomainError:  # omega3 is free
-            return ElementaryMotion(self.I, self.field[1:], w2, w3)
-
     @property
     def B2(self) -> fmpq:
         """Second component of the field in the body at t = 0."""
@@ -100,36 +85,21 @@ class GeneralMotion(Nutating):
         """Third component of the field in the body at t = 0."""
         return self.field[2]
 
-    @property
-    def b(self) -> Real:
-        """Length of the field."""
-        return root(self.quartic.K2)
-
-    @by_precision
-    def solution(self) -> Solution:
-        """The constants of alpha and beta, from which R and K follow, at the precision of the moment."""
-        if self.is_steady:
-            return self._steady(self.sphere, *self._steady_rates())
-        if self.kind != "ball":
-            return Nutation(self.quartic, self.sphere).solution()
-        return self._ball(self.sphere, self._momentum)
+    def _solved(self, *, trigonometric: bool = False) -> Solution:
+        if self.kind == "ball":
+            return self._ball(self.sphere, self._momentum)
+        return super()._solved(trigonometric=trigonometric)
 
     @by_precision
     def velocity(self) -> Solution:
         """The constants of the pair from which Omega follows, see `atlas.exact.nutation.spheres`."""
         sphere = self._velocity_sphere
         if self.is_steady:
-            return self._steady(sphere, fmpq(0), self._steady_turn())
+            return steady(sphere.tilt, fmpq(0), self._steady_turn(), self._half)
         if self.kind != "ball":
             return Nutation(self.quartic, sphere).solution()
         M1, M2, M3 = self._momentum
         return self._ball(sphere, (M2, M1, -M3))
-
-    def trigonometric(self) -> Solution:
-        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
-        if not self.kind.startswith("nutation"):
-            return self.solution
-        return Nutation(self.quartic, self.sphere).solution(trigonometric=True)
 
     @by_precision
     def sphere(self) -> Sphere:
@@ -156,17 +126,13 @@ class GeneralMotion(Nutating):
         momentum = w1, w2, self.I * w3
         return momentum if any(w != 0 for w in self.omega) else (fmpq(0), fmpq(0), fmpq(1))
 
-    def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
-        return self.sphere.tilt
-
     def velocity_sizes(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of the azimuth of Omega(0), and the largest Omega across and along the axis."""
         sphere = self._velocity_sphere
         return sphere.tilt[2], sphere.tilt[3], sphere.length, abs(sphere.poles[1])
 
-    def _steady_rates(self) -> tuple[Real, Real]:
-        """Return k and phi where Omega3 is constant."""
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about the field and phi about the body's axis where Omega3 is constant."""
         q, (w1, w2, w3) = self.quartic, self.omega
         if self.kind == "free body":
             return root(w1**2 + w2**2 + (self.I * w3) ** 2), (1 - self.I) * w3
@@ -180,13 +146,12 @@ class GeneralMotion(Nutating):
         across = w1**2 + w2**2
         return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.along / across if across != 0 else 0)
 
-    def _steady(self, sphere: Sphere, k: Real, phi: Real) -> Solution:
-        q = self.quartic
-        square = arb(0) if q.K2 == 0 else -arb(q.polynomial.derivative().derivative()(self.omega[2])) / 2
-        half = arb.pi() / square.sqrt() if square > 0 else arb("inf")
-        if self.kind == "free body" and k != 0:
-            half = arb.pi() / k
-        return steady(sphere.tilt, k, phi, half)
+    @property
+    def _half(self) -> arb:
+        if self.kind == "free body" and any(self.omega):
+            return arb.pi() / self.steady_rates()[0]
+        square = -arb(self.quartic.polynomial.derivative().derivative()(self.omega[2])) / 2
+        return arb.pi() / square.sqrt() if square > 0 and self.quartic.K2 else arb("inf")
 
     def _ball(self, sphere: Sphere, M: tuple[fmpq, fmpq, fmpq]) -> Solution:
         """Return the turn of the vector about M, which stands in the body."""
@@ -241,33 +206,39 @@ class GeneralMotion(Nutating):
         """Whether the body is a ball in a field."""
         return self.kind == "ball"
 
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
-        t = rational(t, "the time")
-        if t != 0 and self._elementary is not None:
-            return self._elementary.rotation(t)
-        return attitude(self, t)
-
-    def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
-        if rational(t, "the time") == 0:
-            return list(self.omega)
-        if self._elementary is not None:
-            return self._elementary.angular_velocity(t)
-        return self.turning_rate(t)
-
-    def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', (32)."""
-        R = self.rotation(t)
-        return [sum((R[i][j] * self.field[i] for i in range(3)), fmpq(0)) for j in range(3)]
-
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory frame."""
-        R, (w1, w2, w3) = self.rotation(t), self.angular_velocity(t)
-        return [row[0] * w1 + row[1] * w2 + row[2] * self.I * w3 for row in R]
+        w1, w2, w3 = self.angular_velocity(t)
+        return [dot(row, (w1, w2, self.I * w3)) for row in self.rotation(t)]
 
     @property
     def invariants(self) -> dict[str, fmpq]:
         """The constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M = II (Omega + K) in units of I2."""
         q = self.quartic
         return {"E'": q.E, "K^2": q.K2, "c3": q.c3, "c5": q.c5, "(M,B')": q.momentum}
+
+
+class Symmetric:
+    """The motion of a body with two equal moments, whatever the order of its axes."""
+
+    def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
+        last = next(i for i in range(3) if moments[i - 1] == moments[i - 2])
+        places = (last - 2) % 3, (last - 1) % 3, last
+        spin, field = ([x[i] for i in places] for x in (Omega, K))
+        self.exact = GeneralMotion.at_state(moments[last] / moments[last - 1], spin, field)
+        self._back = [places.index(i) for i in range(3)]
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        R = self.exact.rotation(t)
+        return [[R[i][j] for j in self._back] for i in self._back]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body."""
+        Omega = self.exact.angular_velocity(t)
+        return [Omega[i] for i in self._back]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B'."""
+        K = self.exact.field_in_body(t)
+        return [K[i] for i in self._back]

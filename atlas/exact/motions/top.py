@@ -14,17 +14,17 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from atlas.exact.inputs import Real, rational, rationals
+from atlas.exact.inputs import Real, rationals
 from atlas.exact.motions import top_steady
 from atlas.exact.motions.top_steady import SteadyPrecession
-from atlas.exact.nutation.cayley_klein import Solution, steady
+from atlas.exact.nutation.cayley_klein import Solution
 from atlas.exact.nutation.constants import Nutation
-from atlas.exact.nutation.nutating import Nutating, attitude
+from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.quartic import TopQuartic
 from atlas.exact.nutation.spheres import POLES, Sphere
 from atlas.exact.nutation.swing import crossing, swing
 from atlas.exact.surfaces.top_quadric import inputs_of_top
-from atlas.formulas.numbers import by_precision
+from atlas.formulas.numbers import by_precision, dot, length
 from atlas.formulas.top import constants
 
 
@@ -132,27 +132,14 @@ class TopMotion(Nutating):
         energy, M3, p = constants(self.I, k2, k3, q.across, q.nu, a0, A0, w1, w2, w3)
         return [(energy / 2).value, M3.value, p.value]
 
-    @by_precision
-    def solution(self) -> Solution:
-        """The constants of alpha and beta, from which R follows, at the precision of the moment."""
-        return self._steady() if self.is_steady else self._nutation()
-
-    def trigonometric(self) -> Solution:
-        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
-        return self._nutation(trigonometric=True) if self.kind.startswith("nutation") else self.solution
-
-    def _nutation(self, *, trigonometric: bool = False) -> Solution:
+    def _solved(self, *, trigonometric: bool = False) -> Solution:
+        if self.is_steady or self.quartic.kappa == 0:
+            return super()._solved(trigonometric=trigonometric)
         nutation = Nutation(self.quartic, self.sphere)
         solution = nutation.solution(trigonometric=trigonometric)
-        if self.quartic.kappa == 0:
-            return solution
         if self.kind.endswith("between n and -n"):
             return replace(solution, swing=crossing(self.quartic, solution.origin))
         return replace(solution, swing=swing(nutation, self.quartic))
-
-    def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
-        return self.sphere.tilt
 
     def steady_rates(self) -> tuple[Real, Real]:
         """Return the rates k about n and phi about the body's axis where theta is constant."""
@@ -161,9 +148,10 @@ class TopMotion(Nutating):
             return fmpq(0), w3
         return (q.across.of(w2) / q.across).value, (q.across.of(w3) - q.nu * w2 / q.across).value
 
-    def _steady(self) -> Solution:
+    @property
+    def _half(self) -> arb:
         square = -arb(self.quartic.curvature) / 2
-        return steady(self.tilt(), *self.steady_rates(), arb.pi() / square.sqrt() if square > 0 else arb("inf"))
+        return arb.pi() / square.sqrt() if square > 0 else arb("inf")
 
     @property
     def roots(self) -> list[acb]:
@@ -200,25 +188,19 @@ class TopMotion(Nutating):
             for name, side in (("upright", 1), ("hanging", -1))
         }
 
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
-        return attitude(self, rational(t, "the time"))
-
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame."""
-        if rational(t, "the time") == 0:
-            return list(self.omega)
-        across, other, along = self.turning_rate(t)
+        across, other, along = super().angular_velocity(t)
         # without k3 there is no torque about the axis that is not one of n
         return [across, other, along if self.coupling[1] else self.omega[2]]
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return b(t) = R^T n, the direction n in the body."""
-        R, n = self.rotation(t), self.sphere.start
-        return [R[1][j] * n[1] + R[2][j] * n[2] for j in range(3)]
+        size = length(*self.direction)
+        return [x / size for x in super().field_in_body(t)]
 
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return I Omega + k b, over I2, in the laboratory frame: R(t) M."""
         (w1, w2, w3), b, (k2, k3) = self.angular_velocity(t), self.field_in_body(t), self.coupling
         M = w1 + k2 * b[0], w2 + k2 * b[1], self.I * w3 + k3 * b[2]
-        return [row[0] * M[0] + row[1] * M[1] + row[2] * M[2] for row in self.rotation(t)]
+        return [dot(row, M) for row in self.rotation(t)]

@@ -11,14 +11,17 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.inputs import Real, sin_cos
-from atlas.exact.nutation.cayley_klein import Solution, infinite, matrix
+from atlas.exact.arithmetic.turns import AXES, Matrix, identity, product, turn, turned_back, turns
+from atlas.exact.inputs import Real, rational, sin_cos
+from atlas.exact.nutation.cayley_klein import Solution, infinite, matrix, steady
+from atlas.exact.nutation.constants import Nutation
 from atlas.exact.nutation.quartic import Quartic
-from atlas.formulas.numbers import root, workprec
+from atlas.exact.nutation.spheres import Sphere
+from atlas.formulas.numbers import by_precision, dot, length, workprec
 
 
 class Nutating:
-    """A motion R(t) with a quartic, `kind`, the constants `solution` of its pair, and `tilt` of its axis at t = 0."""
+    """A motion R(t) with a quartic, `kind`, the `sphere` of its axis, and the constants `solution` of its pair."""
 
     quartic: Quartic
     kind: str
@@ -27,15 +30,21 @@ class Nutating:
     """Vector about which the axis precesses, in the body at t = 0; of any length."""
     cancelled = 0
     """Digits, of base two, that the spin in a period loses when it is made of two turns."""
+    places = 0, 1, 2
+    """Axes of the body, the one last that nutates."""
 
     @property
-    def solution(self) -> Solution:
-        """The constants of alpha and beta at the precision of the moment."""
+    def sphere(self) -> Sphere:
+        """The sphere of the field at the precision of the moment."""
         raise NotImplementedError
 
     @property
     def is_steady(self) -> bool:
-        """Whether theta is constant."""
+        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        raise NotImplementedError
+
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about the field and phi about the body's axis where theta is constant."""
         raise NotImplementedError
 
     @property
@@ -64,21 +73,37 @@ class Nutating:
         return False
 
     @property
+    def _axis(self) -> Sequence[fmpq]:
+        """Vector along the axis of precession, in the body at t = 0."""
+        return self.field
+
+    @property
     def b(self) -> Real:
         """Length of the field, or of the direction."""
-        raise NotImplementedError
+        return length(*self.field)
+
+    @by_precision
+    def solution(self) -> Solution:
+        """The constants of alpha and beta, from which R follows, at the precision of the moment."""
+        return self._solved()
 
     def trigonometric(self) -> Solution:
         """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
+        return self._solved(trigonometric=True)
+
+    def _solved(self, *, trigonometric: bool = False) -> Solution:
+        if self.is_steady:
+            return steady(self.sphere.tilt, *self.steady_rates(), self._half)
+        return Nutation(self.quartic, self.sphere).solution(trigonometric=trigonometric)
+
+    @property
+    def _half(self) -> arb:
+        """Half the period of an infinitesimal nutation where theta is constant; infinite where that is unstable."""
         raise NotImplementedError
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
-        raise NotImplementedError
-
-    def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as rows."""
-        raise NotImplementedError
+        return self.sphere.tilt
 
     @property
     def period(self) -> arb:
@@ -157,10 +182,37 @@ class Nutating:
 
     def from_frame(self, a: acb, b: acb) -> list[arb]:
         """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
-        c, s, C, S = self.tilt()
+        c, s, C, S = self.sphere.tilt
         w, x, y, z = a.real, b.real, b.imag, a.imag
         w, x, y, z = w * c + x * s, x * c - w * s, y * c + z * s, z * c - y * s
         return [w, x * C + y * S, y * C - x * S, z]
+
+    def rotation(self, t: Any) -> Matrix:
+        """Return R(t) as rows: exact at t = 0, of two turns where it is their product, else of the pair."""
+        t = rational(t, "the time")
+        if t == 0 or self.kind == "at rest":
+            return identity()
+        if self.is_steady:
+            k, phi = self.steady_rates()
+            return turns(t, (self._axis, k), (AXES[self.places[2]], phi))
+        if self.kind == "ball":
+            M = [w + k for w, k in zip(self.omega, self.field, strict=True)]
+            return turns(t, (self.field, self.precession), (M, length(*M)))
+        a, b, _, _ = self.solution.parameters(t)
+        return self._swung(t, a, b) if self.is_plane else matrix(self.from_frame(a, b))
+
+    def _swung(self, t: fmpq, a: acb, b: acb) -> Matrix:
+        """Return R(t) of a swing in a plane of Larmor's frame, about n across that."""
+        # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
+        phase = acb(0, -self.precession * t / 2).exp()
+        w, x, y, _ = self.from_frame(a * phase, b * phase)
+        vertical = self.field[0] == self.field[1] == 0
+        n = (self.omega[0], self.omega[1]) if vertical else (self.field[1], -self.field[0])
+        along = arb(x * n[0] + y * n[1]) / length(*n)
+        square = w * w + along * along
+        s, c = sin_cos(self.precession * t)
+        swing = turn((*n, fmpq(0)), (w * w - along * along) / square, 2 * w * along / square)
+        return product(turn(self.field, c, s), swing)
 
     def column(self, j: int, t: Any) -> list[Real]:
         """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
@@ -169,6 +221,20 @@ class Nutating:
     def third_axis(self, t: Any) -> list[Real]:
         """Return the third column of R(t)."""
         return self.column(3, t)
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', (32)."""
+        return [dot(column, self.field) for column in zip(*self.rotation(t), strict=True)]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame."""
+        t = rational(t, "the time")
+        if t == 0:
+            return list(self.omega)
+        if not self.is_steady:
+            return self.turning_rate(t)
+        s, c = sin_cos(self.steady_rates()[1] * t)
+        return turned_back(self.omega, c, s)
 
     def turning_rate(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
@@ -182,54 +248,3 @@ class Nutating:
             (w * dy - y * dw - z * dx + x * dz) / square,
             (w * dz - z * dw - x * dy + y * dx) / square,
         ]
-
-
-Matrix = list[list[Any]]
-
-
-def attitude(motion: Nutating, t: fmpq) -> Matrix:
-    """Return R(t) as rows: exact at t = 0, of two turns where it is their product, else of the pair (alpha, beta)."""
-    if t == 0:
-        return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
-    R = rotation(motion, t)
-    if R is not None:
-        return R
-    a, b, _, _ = motion.solution.parameters(t)
-    return matrix(motion.from_frame(a, b))
-
-
-def rotation(motion: Nutating, t: fmpq) -> Matrix | None:
-    """Return R(t) as the product of two turns, None for a motion that is no such product."""
-    if motion.kind != "ball" and not motion.is_plane:
-        return None
-    s, c = sin_cos(motion.precession * t)
-    larmor = turn(motion.field, c, s)
-    if motion.kind == "ball":
-        M = [w + k for w, k in zip(motion.omega, motion.field, strict=True)]
-        s, c = sin_cos(root(sum((x * x for x in M), fmpq(0))) * t)
-        return product(larmor, turn(M, c, s))
-    # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
-    phase = acb(0, -motion.precession * t / 2).exp()
-    a, b, _, _ = motion.solution.parameters(t)
-    w, x, y, _ = motion.from_frame(a * phase, b * phase)
-    vertical = motion.field[0] == motion.field[1] == 0
-    n = (motion.omega[0], motion.omega[1]) if vertical else (motion.field[1], -motion.field[0])
-    along = arb(x * n[0] + y * n[1]) / root(n[0] ** 2 + n[1] ** 2)
-    square = w * w + along * along
-    return product(larmor, turn((*n, fmpq(0)), (w * w - along * along) / square, 2 * w * along / square))
-
-
-def turn(vector: Sequence[fmpq], cos: Real, sin: Real) -> Matrix:
-    """Return the turn about a vector that is not zero by the angle whose cosine and sine are given, by Rodrigues."""
-    size = root(sum((x * x for x in vector), fmpq(0)))
-    x, y, z = n = [v / size if v != 0 else fmpq(0) for v in vector]
-    across = ((fmpq(0), -z, y), (z, fmpq(0), -x), (-y, x, fmpq(0)))
-    return [
-        [(cos if i == j else fmpq(0)) + (1 - cos) * (n[i] * n[j]) + sin * across[i][j] for j in range(3)]
-        for i in range(3)
-    ]
-
-
-def product(first: Matrix, second: Matrix) -> Matrix:
-    """Return the product of two matrices."""
-    return [[sum((first[i][k] * second[k][j] for k in range(3)), fmpq(0)) for j in range(3)] for i in range(3)]
