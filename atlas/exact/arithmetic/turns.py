@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from atlas.exact.inputs import Real, sin_cos
-from atlas.formulas.numbers import cross, dot, root
+from atlas.formulas.numbers import root
 
 Matrix: TypeAlias = list[list[Any]]
 
@@ -23,15 +23,15 @@ def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
 
     Of rational vectors all but the length is rational, and what is zero at all angles is exactly zero.
     """
-    square = dot(vector, vector)
-    across = [cross(vector, axis) for axis in AXES]
-    sine = sin / root(square)
-
-    def entry(i: int, j: int) -> Real:
-        along: Real = vector[i] * vector[j] / square
-        return along + cos * (1 - along) if i == j else (1 - cos) * along + sine * across[j][i]
-
-    return [[entry(i, j) for j in range(3)] for i in range(3)]
+    x, y, z = vector
+    square = x * x + y * y + z * z
+    v, sine = (1 - cos) / square, sin / root(square)
+    a, b, c = x * sine, y * sine, z * sine
+    return [
+        [1 - (y * y + z * z) * v, x * y * v - c, x * z * v + b],
+        [x * y * v + c, 1 - (x * x + z * z) * v, y * z * v - a],
+        [x * z * v - b, y * z * v + a, 1 - (x * x + y * y) * v],
+    ]
 
 
 def turns(t: Any, first: tuple[Sequence[Real], Real], second: tuple[Sequence[Real], Real]) -> Matrix:
@@ -42,7 +42,8 @@ def turns(t: Any, first: tuple[Sequence[Real], Real], second: tuple[Sequence[Rea
 
 def product(first: Matrix, second: Matrix) -> Matrix:
     """Return the product of two matrices."""
-    return [[dot(row, column) for column in zip(*second, strict=True)] for row in first]
+    columns = list(zip(*second, strict=True))
+    return [[a * x + b * y + c * z for x, y, z in columns] for a, b, c in first]
 
 
 def turned_back(vector: Sequence[Real], cos: Real, sin: Real) -> list[Real]:

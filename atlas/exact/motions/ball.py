@@ -41,7 +41,8 @@ class BallMotion:
         if self.m2 == 0:
             s, c = sin_cos(self.m3 / self.inertia * t)
             return turn(last, c, s)
-        return turns(t, (last, -self.larmor), ((fmpq(0), *self.k_hat), -self.gamma))
+        along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
+        return turns(t, (last, -self.larmor), ((fmpq(0), *along), -gamma))
 
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t) in the laboratory frame, (26)."""
