@@ -21,7 +21,7 @@ from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.motions.clebsch_lattice import Lattice
 from atlas.exact.motions.clebsch_periods import BITS, complex_of
 from atlas.exact.motions.clebsch_theta import ThetaMotion
-from atlas.exact.motions.theta_sums import Array
+from atlas.exact.motions.theta_sums import Array, weights_at
 from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import workprec
 
@@ -187,12 +187,11 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
 
 def _tables(constants: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
     """Return weights beside the largest of the denominator, ways, frequencies and frame, each in a row."""
-    hat = constants.hat
-    rows = [{(P, Q): x for P, Q, x in form.terms(hat, constants.start, box)} for form in constants.forms]
-    if box[peak] not in rows[3]:
+    places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in box]
+    unit = places[peak][3]
+    if unit == 0:
         raise _other_form()
-    unit = rows[3][box[peak]]
-    weights = [row.get(place, acb(0)) / unit for row in rows for place in box]
+    weights = [x / unit for row in zip(*places, strict=True) for x in row]
     return [
         weights,
         *([x for row in kind for x in row] for kind in (constants.ways, [constants.frequencies], constants.frame)),

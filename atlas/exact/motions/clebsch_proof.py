@@ -24,7 +24,9 @@ beside the sum of sizes, so that a sum of positive terms is off by a factor belo
 sums are larger there is no bound.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import cache, partial
 from itertools import product
 
 import numpy as np
@@ -34,7 +36,7 @@ from numpy.typing import NDArray
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.clebsch_periods import BITS, centre, complex_of, nearest
 from atlas.exact.motions.clebsch_theta import ThetaMotion
-from atlas.exact.motions.theta_sums import CHARACTERISTICS, HALF, Array, near
+from atlas.exact.motions.theta_sums import CHARACTERISTICS, HALF, Array, near, weights_at
 from atlas.exact.motions.torus import Period, Torus
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.numbers import dot, rational, workprec
@@ -139,8 +141,8 @@ class Cell:
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
         self.narrow = float(np.linalg.eigvalsh(self.Y)[0])
         self.away = np.linalg.solve(self.Y, np.array([complex_of(s).imag for s in self.shift]))
-        self.forms = [theta.denominator, *theta.K, *theta.M, *theta.N]
-        self._known = dict[Place, list[acb]]()
+        self.forms = [theta.denominator, *theta.K, *theta.M, *(replace(x, shift=self.shift) for x in theta.N)]
+        self._terms: Callable[[Place], list[acb]] = cache(partial(weights_at, self.forms, self.hat, self.origin))
         sizes = [*theta.motion.moments, *(1 / I for I in theta.motion.moments), *self.lines, theta.motion.D, 1]
         weights = max(abs(complex_of(x)) for form in self.forms for x in form.weights)
         self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
@@ -282,21 +284,6 @@ class Cell:
         slopes = 8 * np.pi * rate * (abs(self.away).max() + 2 / np.sqrt(self.narrow))
         peak = np.pi / 2 * self.away @ self.Y @ self.away if height else 0.0
         return float(self.weight * sums * (1 + slopes) * np.exp(self._size(S, height) + peak))
-
-    def _terms(self, place: Place) -> list[acb]:
-        """Return the weights of all forms at a place (P, Q)."""
-        if place not in self._known:
-            P, Q = place
-            square = self.hat[0, 0] * (P * P) + 2 * self.hat[0, 1] * (P * Q) + self.hat[1, 1] * (Q * Q)
-            i_pi, (x, y), (u, v) = acb(0, 1) * arb.pi(), self.origin, self.shift
-            powers = [(i_pi * (square / 4 + P * x + Q * y)).exp()] * N[0]
-            powers += [powers[0] * (-i_pi * (P * u + Q * v)).exp()] * len(N)
-            terms = list[acb]()
-            for form, power in zip(self.forms, powers, strict=True):
-                e, d = CHARACTERISTICS[form.place]
-                terms.append(acb(0) if e != Q % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
-            self._known[place] = terms
-        return self._known[place]
 
 
 def _check_characteristics(theta: ThetaMotion) -> None:

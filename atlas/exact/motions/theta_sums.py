@@ -8,7 +8,7 @@ Several of them share their powers of exp(i pi v_1) and exp(i pi v_2): a matrix 
 over P. Only quotients are wanted, so that one exponential may be left out of all of them.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, TypeAlias
@@ -67,18 +67,19 @@ class Form:
         n0, n1 = self.weights
         return Form(self.place, (n0 / x, n1 / x), self.shift)
 
-    def terms(
-        self, hat: acb_mat, origin: Sequence[acb], places: Iterable[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, acb]]:
-        """Return P, Q and the weight of exp(i pi (P u_1 + Q u_2)) at v = origin + u, at places (P, Q)."""
-        e, d = CHARACTERISTICS[self.place]
-        v = [x - y for x, y in zip(origin, self.shift, strict=True)]
-        for P, Q in places:
-            if e == Q % 2:
-                x, y = arb(P) / 2, arb(Q) / 2
-                square = hat[0, 0] * x * x + 2 * hat[0, 1] * x * y + hat[1, 1] * y * y
-                exponent = acb(0, 1) * arb.pi() * (square + 2 * (x * v[0] + y * v[1]) + y * d)
-                yield P, Q, self.weights[P % 2] * exponent.exp()
+
+def weights_at(forms: Sequence[Form], hat: acb_mat, origin: Sequence[acb], place: tuple[int, int]) -> list[acb]:
+    """Return the weights that exp(i pi (P u_1 + Q u_2)) has in some forms at v = origin + u, at a place (P, Q)."""
+    P, Q = place
+    square = hat[0, 0] * (P * P) + 2 * hat[0, 1] * (P * Q) + hat[1, 1] * (Q * Q)
+    shift, power, weights = None, acb(0), list[acb]()
+    for form in forms:
+        if form.shift is not shift:  # those with one shift stand together
+            x, y = (z - less for z, less in zip(origin, form.shift, strict=True))
+            shift, power = form.shift, (acb(0, 1) * arb.pi() * (square / 4 + P * x + Q * y)).exp()
+        e, d = CHARACTERISTICS[form.place]
+        weights.append(acb(0) if e != Q % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
+    return weights
 
 
 class Sums:
@@ -95,12 +96,12 @@ class Sums:
         self.table: Array = np.zeros((len(forms), *(high - low + 1)), complex)
         self.rest = np.zeros_like(self.table)
         rows, columns = (range(int(a), int(b) + 1) for a, b in zip(low, high, strict=True))
-        box = list(product(rows, columns))
-        for f, form in enumerate(forms):
-            for P, Q, weight in form.terms(hat, origin, box):
-                place = f, P - low[0], Q - low[1]
-                self.table[place] = complex_of(weight)
-                self.rest[place] = complex_of(weight - acb(self.table[place]))
+        for p, q in product(rows, columns):
+            weights = weights_at(forms, hat, origin, (p, q))
+            self.table[:, p - low[0], q - low[1]] = rounded = [complex_of(x) for x in weights]
+            self.rest[:, p - low[0], q - low[1]] = [
+                complex_of(x - acb(y)) for x, y in zip(weights, rounded, strict=True)
+            ]
         self.centre = centre
         self.P, self.Q = (np.arange(a, b + 1) for a, b in zip(low - centre, high - centre, strict=True))
         self.reach = int(max(abs(self.P).max(), abs(self.Q).max()))
