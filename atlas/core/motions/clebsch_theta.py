@@ -27,7 +27,7 @@ from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
 from atlas.core.nutation.grid import moments
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.clebsch_periods import BITS, complex_of
+from atlas.exact.motions.clebsch_periods import BITS, complex_of, matrix_of
 from atlas.exact.motions.clebsch_theta import ThetaMotion, frame
 from atlas.exact.motions.theta_sums import HALF, Array, Sums
 from atlas.exact.motions.torus import Period, Torus, frequencies
@@ -122,7 +122,7 @@ class ThetaKernel:
         self.size = size / self.rate
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
         self.rounding = Rounding(self.sums, rounded[:2], rounded[2], b, self.size)
-        tau = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
+        tau = matrix_of(theta.tau)
         self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
             abs(tau.imag) < NOTHING, 0, tau.imag
         )

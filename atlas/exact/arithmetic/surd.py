@@ -31,6 +31,11 @@ class Surd:
         exact = root(N)
         return cls(exact, fmpq(0), N) if isinstance(exact, fmpq) else cls(fmpq(0), fmpq(1), N)
 
+    @classmethod
+    def rational(cls, x: fmpq) -> "Surd":
+        """Return a rational number."""
+        return cls(x, fmpq(0), fmpq(1))
+
     def of(self, x: "Surd | fmpq | int") -> "Surd":
         """Return a number as one of this field."""
         return x if isinstance(x, Surd) else Surd(fmpq(x), fmpq(0), self.N)

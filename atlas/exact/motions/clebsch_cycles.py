@@ -19,7 +19,6 @@ which a cycle of the torus has for 2 pi times its action; both vanish with the c
 """
 
 from collections.abc import Callable
-from functools import lru_cache
 from math import ceil, log
 from typing import TypeAlias
 
@@ -28,7 +27,7 @@ from flint import acb, acb_mat, arb, ctx, fmpq
 
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.clebsch_lattice import Lattice
-from atlas.exact.motions.clebsch_periods import Curve, Integrals, centre, complex_of, sums, value
+from atlas.exact.motions.clebsch_periods import Curve, Integrals, centre, complex_of, rule, sums, value
 from atlas.exact.motions.torus import Period
 from atlas.formulas.numbers import workprec
 
@@ -123,7 +122,7 @@ def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> l
         return [acb(D), z, v, eta], eta / s.sin() ** 2
 
     root, place, parts = acb(0), acb(0), list(near.parts(start, stop))[::-1]
-    nodes = _rule(int(ctx.prec))
+    nodes = rule(ceil(ctx.prec * log(2) / (2 * RATE)) + 4, int(ctx.prec))
     while parts:
         low, high = parts.pop()
         middle, half = arb.pi() * (low + high) / 2, arb.pi() * (high - low) / 2
@@ -184,10 +183,3 @@ def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
             continue
         most = [max(x, (abs(form) / size.sqrt()).upper()) for x, form in zip(most, numerators, strict=True)]
     return most
-
-
-@lru_cache(maxsize=2)
-def _rule(bits: int) -> list[tuple[arb, arb]]:
-    """Return nodes and weights of Gauss's rule on (-1, 1), from the left, for so many bits."""
-    nodes = ceil(bits * log(2) / (2 * RATE)) + 4
-    return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]

@@ -29,6 +29,7 @@ from atlas.exact.motions.clebsch_periods import (
     Integrals,
     complex_of,
     generating,
+    matrix_of,
     nearest,
     sums,
 )
@@ -156,7 +157,7 @@ def _real_first(conjugation: Whole) -> list[list[int]]:
 
 def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]:
     """Return Gauss's reduction of the two real periods, as whole weights: by Riemann's form zeta* (Im tau)^-1 zeta."""
-    vectors = np.array([[complex_of(x) for x in period[:2]] for period in periods])
+    vectors = matrix_of(acb_mat(periods))[:, :2]
     a1, a2, _, _ = basis @ vectors
     zeta = np.linalg.solve(np.array([a1, a2 / 2]).T, vectors[:2].T)
     gram = (zeta.conj().T @ np.linalg.solve(_riemann(vectors, basis).imag, zeta)).real
@@ -220,7 +221,7 @@ def _symplectic(form: Whole) -> Whole:
 
 def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
     """Return a symplectic basis for which no single move makes det Im tau larger."""
-    vectors = np.array([[complex_of(x) for x in period[:2]] for period in periods])
+    vectors = matrix_of(acb_mat(periods))[:, :2]
     if _riemann(vectors, basis)[0, 0].imag < 0:
         basis = basis * np.array([[1], [1], [-1], [-1]])
     for _ in range(TURNS):

@@ -17,7 +17,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from flint import acb, arb, fmpq, fmpq_poly, fmpz_mat
+from flint import acb, acb_mat, acb_poly, arb, fmpq, fmpq_poly, fmpz_mat
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
@@ -88,11 +88,22 @@ class Integrals:
         first, second, third = (fmpq_poly([self.D / I, 1]) for I in self.moments)
         return first * second * third
 
+    @property
+    def quartic(self) -> fmpq_poly:
+        """g^2 - 4 c^2 P, whose roots are the z of the zeros of Psi; g itself, where c = 0."""
+        return self.g * self.g - 4 * self.c * self.c * self.P if self.c else self.g
+
     def double_points(self) -> fmpq_poly:
         """Return the polynomial whose roots are the z at which zeros of Psi fall together: a number if they do not."""
-        zeros = self.g * self.g - 4 * self.c * self.c * self.P if self.c else self.g
-        twice = zeros.gcd(zeros.derivative())
+        twice = self.quartic.gcd(self.quartic.derivative())
         return twice if self.c else twice * self.g.gcd(self.P)
+
+    def zeros(self) -> list[tuple[acb, acb]]:
+        """Return (z, v) of the four zeros of Psi."""
+        roots = [z for z, _ in self.quartic.complex_roots()]
+        if self.c:
+            return [(z, -value(self.g, z) / (2 * self.c)) for z in roots]
+        return [(z, sign * value(self.P, z).sqrt()) for z in roots for sign in (1, -1)]
 
 
 def real_periods(motion: Integrals) -> list[Pair]:
@@ -111,6 +122,7 @@ class Curve:
     """
 
     def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
+        _check_sizes(motion.quartic)
         self.motion, self.g, self.proven = motion, motion.g, proven
         self.third = arb(motion.e2) / 3
         low, middle, high = sorted(motion.e2 / 3 - motion.D / I for I in motion.moments)
@@ -121,20 +133,9 @@ class Curve:
         _, second, third, fourth = acb(0).modular_theta(self.tau)
         self.scale, self.foot = arb.pi() / self.real * third * fourth, motion.D / max(motion.moments)
         self.slope = -arb.pi() / self.real * second * second * self.scale * self.scale
-        self.zeros = [self._place(z, v) for z, v in self._zeros()]
+        self.zeros = [self._place(z, v) for z, v in motion.zeros()]
         around = self._periods(FAR)
         self.others: Array = np.array([complex_of(zero + x + y) for zero in (*self.zeros, acb(0)) for x, y in around])
-
-    def _zeros(self) -> Iterator[tuple[acb, acb]]:
-        motion = self.motion
-        if motion.c == 0:
-            for z in _roots(self.g):
-                v = value(motion.P, z).sqrt()
-                yield z, v
-                yield z, -v
-            return
-        for z in _roots(self.g * self.g - 4 * motion.c * motion.c * motion.P):
-            yield z, -value(self.g, z) / (2 * motion.c)
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
         """Return periods of wp, in two parts, up to so many cells along each."""
@@ -202,7 +203,7 @@ class Curve:
         first, second, third, before = acb(0), acb(0), acb(0), None
         for low, high in self.parts(start, stop):
             half = arb.pi() * (high - low) / 2
-            for x, weight in _rule():
+            for x, weight in rule(NODES, BITS):
                 s = arb.pi() * low + half * (1 + x)
                 z, v = self.at(start + way * (1 - s.cos()) / 2)
                 square = (value(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2
@@ -221,20 +222,18 @@ class Curve:
         return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
 
 
-def _roots(polynomial: fmpq_poly) -> list[acb]:
-    """Return the roots; NotCertifiedError where the coefficients are too far apart."""
+def _check_sizes(polynomial: fmpq_poly) -> None:
+    """Raise NotCertifiedError where coefficients are too far apart for its roots."""
     sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
     if max(sizes) - min(sizes) > APART:
         raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
-    return [root for root, _ in polynomial.complex_roots()]
 
 
-@lru_cache(maxsize=1)
-def _rule() -> list[tuple[arb, arb]]:
-    """Return nodes and weights of Gauss's rule on (-1, 1), from the left."""
-    with workprec(BITS):
-        nodes = [arb.legendre_p_root(NODES, k, weight=True) for k in range(NODES)]
-    return [(x.mid(), weight.mid()) for x, weight in reversed(nodes)]
+@lru_cache(maxsize=4)
+def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
+    """Return nodes and weights of Gauss's rule on (-1, 1), from the left, in balls."""
+    with workprec(bits):
+        return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
 
 
 def _parts(angles: Array) -> Iterator[tuple[arb, arb]]:
@@ -292,10 +291,7 @@ def nearest(x: arb) -> int:
 
 def value(polynomial: fmpq_poly, z: acb) -> acb:
     """Return the value of a polynomial with rational coefficients."""
-    total = acb(0)
-    for x in reversed(polynomial.coeffs()):
-        total = total * z + x
-    return total
+    return acb_poly(polynomial)(z)
 
 
 def _rates(a: complex, b: complex, places: Array) -> NDArray[np.float64]:
@@ -313,6 +309,11 @@ def centre(x: acb) -> acb:
 def complex_of(x: acb) -> complex:
     """Return the middle of a complex ball in doubles."""
     return complex(float(x.real.mid()), float(x.imag.mid()))
+
+
+def matrix_of(x: acb_mat) -> Array:
+    """Return the middle of a matrix in doubles."""
+    return np.array([[complex_of(y) for y in row] for row in x.tolist()])
 
 
 def _far(x: acb) -> float:

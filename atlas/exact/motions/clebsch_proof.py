@@ -34,7 +34,7 @@ from flint import acb, acb_mat, arb
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
-from atlas.exact.motions.clebsch_periods import BITS, centre, complex_of, nearest
+from atlas.exact.motions.clebsch_periods import BITS, centre, complex_of, matrix_of, nearest
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import CHARACTERISTICS, HALF, Array, near, weights_at
 from atlas.exact.motions.torus import Period, Torus
@@ -134,7 +134,7 @@ class Cell:
         self.lines = [centre(theta.l[0] * inverse[0, k] + theta.l[1] * inverse[1, k]) for k in range(2)]
         self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
         self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
-        self.Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
+        self.Y = matrix_of(self.hat).imag
         self.corners = self.into @ (HALF * np.array(list(product((-1, 1), repeat=2))).T)
         self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
         self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT / np.pi)

@@ -21,7 +21,7 @@ from flint import acb, acb_mat, arb, fmpq
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.clebsch_lattice import Lattice
 from atlas.exact.motions.clebsch_origins import State, Vector, around, fields, origins
-from atlas.exact.motions.clebsch_periods import BITS, Integrals, centre, complex_of
+from atlas.exact.motions.clebsch_periods import BITS, Integrals, centre, complex_of, matrix_of
 from atlas.exact.motions.theta_sums import CHARACTERISTICS, Array, Form, Sums
 from atlas.formulas.numbers import cross, dot, workprec
 
@@ -138,10 +138,7 @@ class ThetaMotion:
         them and the start is a fourth of that of a period.
         """
         target = np.array([complex_of(x) for x in self.at_start.all[:6]])
-        real, others = (
-            np.array([[complex_of(x) for x in T[:2]] for T in pair])
-            for pair in (self.lattice.real, self.lattice.others)
-        )
+        real, others = (matrix_of(acb_mat(pair))[:, :2] for pair in (self.lattice.real, self.lattice.others))
         rough, quarters = Rough(self), np.array(list(product(range(4), repeat=2)))[:, None] / 4
         for count in GRIDS:
             steps = np.array(list(product(range(count), repeat=2))) / count
@@ -155,8 +152,7 @@ class ThetaMotion:
     @property
     def times(self) -> Array:
         """Complex times from the origin to the start."""
-        X = np.array([[complex_of(self.X[i, j]) for j in range(2)] for i in range(2)])
-        return np.asarray(X @ [complex_of(x) for x in self.start])
+        return np.asarray(matrix_of(self.X) @ [complex_of(x) for x in self.start])
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
         """Return zeta at the start to all digits, from times near it, less an even period if `reduced`."""
@@ -186,7 +182,7 @@ class ThetaMotion:
 
     def _near_real(self, zeta: Vector) -> Vector:
         """Return zeta less an even period of hat, which changes all forms by one factor, near the real times."""
-        Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
+        Y = matrix_of(self.hat).imag
         v = [2 * zeta[0], zeta[1]]
         m, n = (2 * round(float(x) / 2) for x in np.linalg.solve(Y, [complex_of(x).imag for x in v]))
         first, second = (v[k] - m * self.hat[0, k] - n * self.hat[1, k] for k in range(2))
@@ -196,7 +192,7 @@ class ThetaMotion:
         """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""
         b = arb(self.motion.square).sqrt()
         angles = [-b * T[2] for T in (*self.lattice.a, *self.lattice.b)]
-        tau, Y = self.tau, np.array([[complex_of(self.tau[j, k]).imag for k in range(2)] for j in range(2)])
+        tau, Y = self.tau, matrix_of(self.tau).imag
         # w = (angle_b - tau l)/(4 pi), and l may change by (2 pi m, pi n)
         l = [angles[0], angles[1] / 2]
         w = [(angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi()) for k in range(2)]
@@ -240,13 +236,12 @@ class Rough:
 
     def __init__(self, motion: ThetaMotion) -> None:
         self.moments = motion.motion.moments
-        self.hat, X = (
-            np.array([[complex_of(x[i, j]) for j in range(2)] for i in range(2)]) for x in (motion.hat, motion.X)
-        )
-        self.inverse, self.into = np.linalg.inv(self.hat.imag), np.linalg.inv(X) * np.array([[2], [1]])
+        self.hat: Array = matrix_of(motion.hat)
+        self.inverse, self.into = np.linalg.inv(self.hat.imag), np.linalg.inv(matrix_of(motion.X)) * [[2], [1]]
         cell = np.array([[x, y] for x in (-1, 0, 1) for y in (-1, 0, 1)])
         forms = [motion.denominator, *motion.M, *motion.K]
-        self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), 1j * np.pi * (cell @ self.hat.imag).T)
+        region = np.asarray(1j * np.pi * (cell @ self.hat.imag).T, complex)
+        self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), region)
 
     def states(self, times: Array) -> Array:
         """Return M and K at pairs of times (m, 2), shape (m, 6)."""

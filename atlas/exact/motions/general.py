@@ -150,8 +150,7 @@ class GeneralMotion(Nutating):
     def _half(self) -> arb:
         if self.kind == "free body" and any(self.omega):
             return arb.pi() / self.steady_rates()[0]
-        square = -arb(self.quartic.polynomial.derivative().derivative()(self.omega[2])) / 2
-        return arb.pi() / square.sqrt() if square > 0 and self.quartic.K2 else arb("inf")
+        return super()._half
 
     def _ball(self, sphere: Sphere, M: tuple[fmpq, fmpq, fmpq]) -> Solution:
         """Return the turn of the vector about M, which stands in the body."""
@@ -181,7 +180,7 @@ class GeneralMotion(Nutating):
         """Least and largest Omega3; on a separatrix one of them is approached and never reached."""
         q = self.quartic
         if self.is_steady or q.is_constant:
-            return q.u, q.u
+            return q.u.value, q.u.value
         roots = q.roots()
         return roots[q.low].value.real, roots[q.high].value.real
 

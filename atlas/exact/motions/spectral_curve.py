@@ -10,7 +10,7 @@ from functools import cached_property
 from math import log2
 from typing import TYPE_CHECKING, Any
 
-from flint import acb, acb_mat, arb, ctx, fmpq, fmpq_poly, fmpz_poly
+from flint import acb, acb_mat, arb, ctx, fmpq, fmpq_poly
 
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.digits import certified
@@ -44,27 +44,12 @@ class SpectralCurve:
         self.integrals: Integrals = motion.invariants
 
     @property
-    def quartic(self) -> fmpq_poly:
-        """g^2 - 4 c^2 P, of which the branch points are the roots; g itself, where c = 0."""
-        i = self.integrals
-        return i.g * i.g - 4 * i.c * i.c * i.P if i.c else i.g
-
-    @property
-    def branch_points(self) -> list[tuple[acb, acb]]:
-        """(z, v) of the four zeros of g + 2 c v, in balls."""
-        i, numerator = self.integrals, self.quartic
-        roots = [z for z, _ in fmpz_poly(numerator.numer()).complex_roots()]
-        if i.c:
-            return [(z, -_at(i.g, z) / arb(2 * i.c)) for z in roots]
-        return [(z, sign * _at(i.P, z).sqrt()) for z in roots for sign in (1, -1)]
-
-    @property
     def periods(self) -> list[list[arb]]:
         """(T_H, T_F, turn) of two periods: flowing H for T_H and F/2 for T_F brings M and K back; R is turned about B.
 
         The turn is that in Larmor's frame. NotCertifiedError where none are proved.
         """
-        periods = self.torus.periods(_bits())
+        periods = self.torus.periods(int(ctx.prec) + 32)
         return [[p.H / self.rate, p.F / (self.rate * self.unit), p.angle] for p in periods]
 
     @property
@@ -113,7 +98,7 @@ class SpectralCurve:
             less.setdefault("actions", str(reason))
         return {
             "curve": "eta^2 = g(z) + 2*c*v, v^2 = P(z)",
-            "g": _texts(i.g), "c": str(i.c), "P": _texts(i.P), "quartic": _texts(self.quartic),
+            "g": _texts(i.g), "c": str(i.c), "P": _texts(i.P), "quartic": _texts(i.quartic),
             "body_branch_points": [str(-i.D / I) for I in i.moments],
             **record,
             "not_proved": less,
@@ -121,7 +106,7 @@ class SpectralCurve:
 
     def _proven(self) -> dict[str, Any]:
         return {
-            "branch_points": [[[z.real, z.imag], [v.real, v.imag]] for z, v in self.branch_points],
+            "branch_points": [[[z.real, z.imag], [v.real, v.imag]] for z, v in self.integrals.zeros()],
             "periods": self.periods,
             "frequencies": self.motion.frequencies,
             "winding_numbers": self.winding_numbers,
@@ -140,18 +125,6 @@ class SpectralCurve:
             }
         except NotCertifiedError as reason:
             return {"missing": str(reason)}
-
-
-def _at(polynomial: fmpq_poly, z: acb) -> acb:
-    """Return the value of a polynomial, by Horner's rule."""
-    value = acb(0)
-    for x in reversed(polynomial.coeffs()):
-        value = value * z + arb(x)
-    return value
-
-
-def _bits() -> int:
-    return int(ctx.prec) + 32
 
 
 def _texts(polynomial: fmpq_poly) -> list[str]:

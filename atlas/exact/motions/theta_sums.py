@@ -17,7 +17,7 @@ import numpy as np
 from flint import acb, acb_mat, arb
 from numpy.typing import NDArray
 
-from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.exact.motions.clebsch_periods import complex_of, matrix_of
 
 CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Pairs (e, d): theta[c,e; 0,d] for c = 0, 1."""
@@ -229,8 +229,7 @@ def needed(
 
     `left_out` is the logarithm of what the others are smaller by than the largest.
     """
-    Y = np.array([[complex_of(hat[i, j]).imag for j in range(2)] for i in range(2)])
-    shifts = np.array([[complex_of(x) for x in form.shift] for form in forms])
+    Y, shifts = matrix_of(hat).imag, np.array([[complex_of(x) for x in form.shift] for form in forms])
     v0 = np.array([complex_of(x) for x in origin])
     away = (v0[:, None] + region / np.pi).imag[None] - shifts.imag[:, :, None]
     peaks = -2 * np.einsum("ij,fjm->fmi", np.linalg.inv(Y), away)  # where terms are largest

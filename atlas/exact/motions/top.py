@@ -149,11 +149,6 @@ class TopMotion(Nutating):
         return (q.across.of(w2) / q.across).value, (q.across.of(w3) - q.nu * w2 / q.across).value
 
     @property
-    def _half(self) -> arb:
-        square = -arb(self.quartic.curvature) / 2
-        return arb.pi() / square.sqrt() if square > 0 else arb("inf")
-
-    @property
     def roots(self) -> list[acb]:
         """Roots in nu of (dnu/dt)^2, each as often as it counts: the real ones ascending, then the complex pair."""
         finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]

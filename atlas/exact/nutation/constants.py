@@ -147,9 +147,9 @@ class Nutation:
         """Return the time since the turning point, positive where Omega3 moves away from it."""
         q = self.quartic
         if q.sense == 0:
-            return arb(0) if self.start.u.overlaps(arb(q.u)) else self.lattice.half
+            return arb(0) if self.start.u.overlaps(arb(q.u.value)) else self.lattice.half
         away = (q.sense > 0) == (self.start.place == q.low)
-        time = self.start.real_time(arb(q.u))
+        time = self.start.real_time(arb(q.u.value))
         return time if away else -time
 
     def _parameter(self, pole: int, origin: arb, initial: acb) -> Parameter:

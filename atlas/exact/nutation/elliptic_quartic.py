@@ -12,7 +12,8 @@ from itertools import combinations
 
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
-from atlas.exact.nutation.quartic import Quartic, Root, Vector
+from atlas.exact.arithmetic.surd import Surd, sign_of
+from atlas.exact.nutation.quartic import Quartic, Root, Vector, rational_polynomial
 from atlas.formulas.numbers import root, workprec
 
 
@@ -28,15 +29,10 @@ class EllipticQuartic(Quartic):
         self.h = sum((c * x * x for c, x in zip(e, K, strict=True)), fmpq(0))
         first = fmpq_poly([e[1] * self.N - self.h, 0, e[2] - e[1]])
         second = fmpq_poly([self.h - e[0] * self.N, 0, e[0] - e[2]])
-        self.polynomial = square * first * second
-        self.rate = sign * K[0] * K[1] * (e[1] - e[0])
-        self.u = -K[2]
+        self.polynomial = rational_polynomial((square * first * second).coeffs())
+        self.rate = Surd.rational(sign * K[0] * K[1] * (e[1] - e[0]))
+        self.u = Surd.rational(-K[2])
         self.torque = sign * (e[2] * self.N - self.h)
-
-    @property
-    def leading(self) -> fmpq:
-        """Leading coefficient of Q."""
-        return self.polynomial[4]
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots: of a quadratic in u^2."""
@@ -61,4 +57,4 @@ class EllipticQuartic(Quartic):
     def sign_beside(self, pole: int) -> int:
         """Return the sign of the torque, one and the same at both poles."""
         del pole
-        return int(self.torque > 0) - int(self.torque < 0)
+        return sign_of(self.torque)

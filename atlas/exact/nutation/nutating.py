@@ -99,7 +99,8 @@ class Nutating:
     @property
     def _half(self) -> arb:
         """Half the period of an infinitesimal nutation where theta is constant; infinite where that is unstable."""
-        raise NotImplementedError
+        square = -arb(self.quartic.curvature) / 2
+        return arb.pi() / square.sqrt() if square > 0 else arb("inf")
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""

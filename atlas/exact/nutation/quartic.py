@@ -16,13 +16,14 @@ A = 0 leaves a cubic, one of whose roots has gone to infinity, and a = A = 0 a q
 coefficients are x + y sqrt(n2^2 + n3^2) with rational x, y, so that a multiple root is known exactly too.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpq_poly
+from flint import acb, arb, ctx, fmpq
 
-from atlas.exact.arithmetic.surd import Polynomial, Surd, derivative, evaluated, roots, sign_of, squarefree, trimmed
+from atlas.exact.arithmetic.surd import Polynomial, Surd, derivative, evaluated, roots, squarefree, trimmed
 from atlas.exact.inputs import Real
 from atlas.formulas.integrals import along_field, integrals, quartic
 from atlas.formulas.numbers import by_precision, workprec
@@ -62,38 +63,48 @@ class Quartic:
 
     def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
         (w1, w2, w3), (K1, K2, _) = Omega, K
-        self.I, self.u, self.Omega, self.K = I, w3, Omega, K
+        self.I, self.u, self.Omega, self.K = I, Surd.rational(w3), Omega, K
         self.E, self.K2, self.c3, self.c5 = conserved = integrals(I, Omega, K)
         self.across = K1**2 + K2**2
         self.along = w1 * K1 + w2 * K2
-        self.rate = w1 * K2 - w2 * K1
+        self.rate = Surd.rational(w1 * K2 - w2 * K1)
         self.momentum = along_field(I, (w1 + K1, w2 + K2, self.c3), K)
-        self.polynomial = fmpq_poly([*quartic(I, *conserved)])
+        self.polynomial = rational_polynomial(quartic(I, *conserved))
 
     @property
-    def leading(self) -> fmpq:
-        """Leading coefficient of Q."""
-        return self.I - 1
+    def leading(self) -> Real:
+        """The leading coefficient of Q that is not zero."""
+        return self.polynomial[-1].value
 
     @property
     def bend(self) -> int:
-        """Sign of the leading coefficient: where in the plane of time Omega3 is infinite depends on it."""
-        return sign_of(self.leading)
+        """Sign of the coefficient of u^4: where in the plane of time u is infinite depends on it."""
+        return self.polynomial[4].sign if len(self.polynomial) == 5 else 0
 
     @property
     def sense(self) -> int:
-        """Sign of dOmega3/dt at t = 0."""
-        return sign_of(self.rate)
+        """Sign of du/dt at t = 0."""
+        return self.rate.sign
+
+    @cached_property
+    def slope(self) -> Surd:
+        """Q'(u) at t = 0, twice the second derivative of u."""
+        return evaluated(derivative(self.polynomial), self.u)
 
     @property
     def bias(self) -> int:
-        """Sign of the second derivative of Omega3 at t = 0."""
-        return sign_of(self.polynomial.derivative()(self.u))
+        """Sign of the second derivative of u at t = 0."""
+        return self.slope.sign
+
+    @property
+    def curvature(self) -> Real:
+        """Q''(u) at t = 0."""
+        return evaluated(derivative(derivative(self.polynomial)), self.u).value
 
     @cached_property
     def is_constant(self) -> bool:
-        """Whether Omega3 is constant: Q and its derivative vanish where it starts, or Q is zero throughout."""
-        return bool(self.polynomial(self.u) == 0 and self.polynomial.derivative()(self.u) == 0)
+        """Whether u is constant."""
+        return self.rate.is_zero and self.slope.is_zero
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
@@ -111,8 +122,7 @@ class Quartic:
     @cached_property
     def _factors(self) -> list[tuple[Polynomial, int]]:
         """Factors without multiple roots, each with the multiplicity of its roots."""
-        p = trimmed([Surd(c, fmpq(0), fmpq(1)) for c in self.polynomial.coeffs()])
-        return squarefree(p) if len(p) > 1 else []
+        return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots."""
@@ -127,7 +137,7 @@ class Quartic:
         precision = ctx.prec
         while True:
             with workprec(precision):
-                u = arb(self.u)
+                u = arb(self.u.value)
                 real = [root.value.real for root in self.roots() if root.is_real]
                 hits = [i for i, x in enumerate(real) if x.overlaps(u)]
                 if self.sense and not hits:
@@ -149,6 +159,11 @@ class Quartic:
         return self._interval[1]
 
 
+def rational_polynomial(coefficients: Iterable[fmpq]) -> Polynomial:
+    """Return a polynomial with rational coefficients, the constant one first."""
+    return trimmed([Surd.rational(c) for c in coefficients])
+
+
 INFINITY = acb(arb("inf"))
 
 
@@ -159,14 +174,12 @@ class TopQuartic(Quartic):
     they are equal, and name a multiple root, where theta is constant.
     """
 
-    rate: Surd
-    polynomial: Polynomial
-
     def __init__(self, I: fmpq, coupling: Any, direction: Any, omega: Any, potential: Any) -> None:
         (w1, w2, w3), (k2, k3), (n2, n3), (linear, quadratic) = omega, coupling, direction, potential
         N = n2 * n2 + n3 * n3
         size = Surd.root(N)
         self.across, self.nu = size * (n2 / N), size * (n3 / N)
+        self.u = -self.nu
         M2 = self.across * k2 + w2
         self.M3 = self.nu * k3 + I * w3
         self.p = M2 * self.across + self.M3 * self.nu
@@ -179,55 +192,10 @@ class TopQuartic(Quartic):
         h2 = M2 * M2 + w1 * w1 + 2 * a * self.nu + self.nu * self.nu * A
         self.polynomial = trimmed([h2 - p * p, 2 * a - 2 * p * M3, -A - h2 - M3 * M3, -2 * a, A])
 
-    @property
-    def u(self) -> Real:
-        """Value of u at t = 0."""
-        return (-self.nu).value
-
-    @cached_property
-    def slope(self) -> Surd:
-        """Q'(u) at t = 0, twice the second derivative of u."""
-        return evaluated(derivative(self.polynomial), -self.nu)
-
-    @cached_property
-    def is_constant(self) -> bool:
-        """Whether theta is constant."""
-        return self.rate.is_zero and self.slope.is_zero
-
-    @property
-    def leading(self) -> Real:
-        """The leading coefficient that is not zero."""
-        return self.polynomial[-1].value
-
-    @property
-    def bend(self) -> int:
-        """Sign of A."""
-        return sign_of(self.A)
-
-    @property
-    def sense(self) -> int:
-        """Sign of du/dt at t = 0."""
-        return self.rate.sign
-
-    @property
-    def bias(self) -> int:
-        """Sign of the second derivative of u at t = 0."""
-        return self.slope.sign
-
-    @property
-    def curvature(self) -> Real:
-        """Q''(u) at t = 0."""
-        return evaluated(derivative(derivative(self.polynomial)), -self.nu).value
-
     def sign_beside(self, pole: int) -> int:
         """Return the sign of p + M3 for `pole` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
         beside: Surd = self.p - self.M3 * pole
         return beside.sign
-
-    @cached_property
-    def _factors(self) -> list[tuple[Polynomial, int]]:
-        """Factors without multiple roots, each with the multiplicity of its roots."""
-        return squarefree(self.polynomial) if len(self.polynomial) > 1 else []
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots; those that have gone to infinity come last."""
