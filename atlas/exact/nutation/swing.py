@@ -155,7 +155,8 @@ def _across(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
         linear = lattice.form == "linear"
         odd, even = [x.real if linear else x.imag for x in function.odd], [x.real for x in function.even]
         even = [y] if linear else even
-    return _split(function, [x * factor for x in odd], even)
+    O, E = _split(function, [x * factor for x in odd], even)
+    return replace(O, bound=abs(factor) * O.bound), E
 
 
 def _split(like: Sum, odd: list[arb], even: list[arb]) -> tuple[Sum, Sum]:
