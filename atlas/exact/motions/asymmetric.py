@@ -285,8 +285,7 @@ class AsymmetricMotion:
     @property
     def invariants(self) -> Integrals:
         """The integrals H, F, (M, K) and K^2, exactly, theorem-clebsch."""
-        W = tuple(w + k for w, k in zip(self.omega, self.field, strict=True))
-        return Torus(self.inertia, W, self.field).integrals
+        return Integrals.of(self.inertia, self.omega, self.field)
 
     @property
     def H(self) -> fmpq:

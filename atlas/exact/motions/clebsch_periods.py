@@ -14,13 +14,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from flint import acb, acb_mat, acb_poly, arb, fmpq, fmpq_poly, fmpz_mat
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
+from atlas.formulas.integrals import clebsch
 from atlas.formulas.numbers import workprec
 
 BITS = 240
@@ -65,6 +66,13 @@ class Integrals:
     F: fmpq
     c: fmpq
     square: fmpq
+
+    @classmethod
+    def of(cls, moments: tuple[fmpq, ...], Omega: Sequence[fmpq], K: Sequence[fmpq]) -> Self:
+        """Return the integrals of a state, theorem-clebsch."""
+        J = [moments[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
+        H, F, c, square, _ = clebsch(*J, *Omega, *K)
+        return cls(moments, H / 2, F, c, square)
 
     @property
     def D(self) -> fmpq:

@@ -249,10 +249,7 @@ class Rough:
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # such places are no start
-            first, second = (
-                np.exp(1j * np.pi * np.outer(n, x)) for n, x in zip((self.sums.P, self.sums.Q), v.T, strict=True)
-            )
-            D, *values = ((self.sums.table @ second) * first).sum(axis=1)
+            D, *values = self.sums.at(np.pi * v.T, np.zeros_like(v.T), slice(0, 7))
             return np.asarray((np.array(values) / D).T)
 
     def near(self, times: Array, target: Array) -> Array | None:

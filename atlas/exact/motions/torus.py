@@ -60,11 +60,8 @@ class Torus:
     @property
     def integrals(self) -> Integrals:
         """H, F and the Casimirs, exactly."""
-        J, K = self.moments, self.K
-        M = [I * w for I, w in zip(J, self.W, strict=True)]
-        D = J[0] * J[1] * J[2]
-        H = sum((m * m / I + I * k * k for m, k, I in zip(M, K, J, strict=True)), fmpq(0)) / 2
-        return Integrals(J, H, dot(M, M) - dot(K, [D * k / I for k, I in zip(K, J, strict=True)]), dot(M, K), dot(K, K))
+        Omega = [w - k for w, k in zip(self.W, self.K, strict=True)]
+        return Integrals.of(self.moments, Omega, self.K)
 
     def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
         """Return the rates of (W, K) along the flows of H and of F/2."""
