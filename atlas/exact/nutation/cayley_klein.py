@@ -142,12 +142,12 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
     if lattice.form == "linear":
         return Sum(lattice, (acb(1),), (acb(0, -y),), arb(0))
     if lattice.form == "hyperbolic":
-        return _sum(lattice, arb(0), _along(zeta, doubled=beyond), doubled=beyond)
+        return theta_sum(lattice, arb(0), _along(zeta, doubled=beyond), doubled=beyond)
     shifted = lattice.oblique and bool(2 * abs(y).mid() > lattice.imaginary.mid())
     if shifted:
         cell = lattice.rate * lattice.imaginary
         zeta, beyond = zeta - (cell if y.mid() > 0 else -cell), not beyond
-    sums = _sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
+    sums = theta_sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
     return replace(sums, shifted=shifted)
 
 
@@ -181,12 +181,12 @@ def _beside(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
         sign = -sign
 
 
-def _sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], *, doubled: bool = False) -> Sum:
+def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], *, doubled: bool = False) -> Sum:
     """Add terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if doubled, until the rest is below the precision of the moment.
 
     The weights of a term are at most 2 exp(k depth).
     """
-    nome, growth = lattice.nome, (lattice.reach + 1 if lattice.form == "hyperbolic" else depth)
+    nome, growth = lattice.nome, depth + lattice.reach + int(lattice.form == "hyperbolic")
     size, odd, even, n = abs(nome), list[acb](), list[acb](), 0
     if not (size.is_finite() and growth.is_finite() and size < 1):  # the precision of the moment does not suffice
         return Sum(lattice, (acb(arb("nan")),), (acb(arb("nan")),), arb(0), doubled)

@@ -7,18 +7,22 @@ part of a theta function with its zero where nu is infinite: two simple poles fo
 double one, and O a multiple of sqrt(|A|): so O/sqrt(|A|) is what is kept, at A = 0 the derivative of E.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import count
 
 from flint import acb, arb, ctx
 
-from atlas.exact.nutation.cayley_klein import Lattice, Sum, infinite, vanishing_at
+from atlas.exact.nutation.cayley_klein import Lattice, Sum, infinite, theta_sum, vanishing_at
 from atlas.exact.nutation.constants import Nutation
 from atlas.exact.nutation.quartic import TopQuartic
 from atlas.formulas.numbers import workprec
 
 MODEST = 2
 """Half an angle that a double holds."""
+
+STEEP = arb("0.368")
+"""A k is at most exp(k STEEP), 1/e being less."""
 
 ROUGH = 80
 """Binary digits with which a size is found where they suffice."""
@@ -116,7 +120,7 @@ def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
     elif quartic.a.is_zero:
         amplitude = nutation.roots[nutation.other].value.real - nutation.start.u
         like = Sum(lattice, (), (), arb(0), doubled=True)
-        odd, even = _split(like, [arb(0), amplitude / (8 * lattice.rate)], [arb(1), arb(0)])
+        odd, even = _split(like, [arb(0), amplitude / (8 * lattice.rate)], [arb(1), arb(0)], arb(1))
     else:
         odd, even = _merged(lattice, lattice.rate / arb(quartic.a.value))
     # nu is that of the turning point at s = 0
@@ -135,14 +139,14 @@ def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
 def _apart(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
     """Return O, times a factor, and E for poles at s = x + i imaginary, `depth` being rate x."""
     if lattice.form == "trigonometric":
-        return _beside_imaginary(lattice, lambda k: ((depth * k).cos(), -factor * (depth * k).sin()))
-    return _beside_imaginary(lattice, lambda k: ((depth * k).cosh(), factor * (depth * k).sinh()))
+        return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())
+    return _beside_imaginary(lattice, depth, factor, lambda k: (depth * k).sinh_cosh())
 
 
 def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
     """Return O, less the derivative of E over rate times a factor, and E for a double pole at s = i imaginary."""
     sign = 1 if lattice.form == "trigonometric" else -1
-    return _beside_imaginary(lattice, lambda k: (arb(1), sign * factor * k))
+    return _beside_imaginary(lattice, STEEP, sign * factor, lambda k: (arb(k), arb(1)))
 
 
 def _across(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
@@ -155,41 +159,35 @@ def _across(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
         linear = lattice.form == "linear"
         odd, even = [x.real if linear else x.imag for x in function.odd], [x.real for x in function.even]
         even = [y] if linear else even
-    O, E = _split(function, [x * factor for x in odd], even)
-    return replace(O, bound=abs(factor) * O.bound), E
+    return _split(function, odd, even, factor)
 
 
-def _split(like: Sum, odd: list[arb], even: list[arb]) -> tuple[Sum, Sum]:
-    """Return the odd and the even part as sums."""
+def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum, Sum]:
+    """Return the odd part, times a factor, and the even part as sums."""
     none = (acb(0),) * len(odd)
     return (
-        replace(like, odd=tuple(acb(x) for x in odd), even=none),
+        replace(like, odd=tuple(acb(x * factor) for x in odd), even=none, bound=abs(factor) * like.bound),
         replace(like, odd=none, even=tuple(acb(x) for x in even)),
     )
 
 
-def _beside_imaginary(lattice: Lattice, weights: Callable[[int], tuple[arb, arb]]) -> tuple[Sum, Sum]:
-    """Return O and E for a zero beside i imaginary, from the weights of C(k rate s) and S(k rate s)."""
+def _beside_imaginary(
+    lattice: Lattice, depth: arb, factor: arb, weights: Callable[[int], tuple[arb, arb]]
+) -> tuple[Sum, Sum]:
+    """Return O, times a factor, and E for a zero beside i imaginary.
+
+    They are given by the weights of S(k rate s) and of C(k rate s), at most exp(k depth).
+    """
     doubled = lattice.form == "trigonometric"
-    alternating = -1 if doubled else 1
-    nome, odd, even, n = lattice.nome.real, list[arb](), list[arb](), 0
-    growth = 0 if doubled else 2 * lattice.reach + 1
-    if not (nome.is_finite() and arb(growth).is_finite() and nome < 1):
-        return _split(Sum(lattice, (), (), arb(0), doubled), [arb("nan")], [arb("nan")])
-    while True:
-        k, power = (2 * n, n * n) if doubled else (2 * n + 1, n * (n + 1))
-        a, b = weights(k)
-        first = nome**power * (arb(k) * growth).exp() * 4 * (1 + k)
-        falls = nome ** (2 * n + 1) * (2 * arb(growth)).exp() < 0.25
-        if n and (nome == 0 or (falls and first < arb(2) ** -(ctx.prec + 8))):
-            break
-        factor = alternating**n * nome**power * (2 if doubled and n else 1)
-        even.append(factor * a)
-        odd.append(factor * b)
-        n += 1
-    size = abs(b / k) + 1 if doubled else abs(b) + abs(a)
-    left = arb(0) if nome == 0 else 8 * nome**power * (1 + k) * size
-    return _split(Sum(lattice, (), (), left, doubled), odd, even)
+
+    def pairs() -> Iterator[tuple[acb, acb]]:
+        for n in count():
+            odd, even = weights(2 * n if doubled else 2 * n + 1)
+            sign = 1 if doubled else (-1) ** n  # terms of the turned lattice do not alternate
+            yield acb(sign * odd), acb(sign * even)
+
+    whole = theta_sum(lattice, depth, pairs(), doubled=doubled)
+    return _split(whole, [x.real for x in whole.odd], [x.real for x in whole.even], factor)
 
 
 def _inclined(lattice: Lattice, y: arb) -> Sum:
