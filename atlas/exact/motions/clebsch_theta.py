@@ -13,7 +13,7 @@ of that form rests on a count of dimensions; that they are the motion at hand is
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 
 import numpy as np
 from flint import acb, acb_mat, arb, fmpq
@@ -100,15 +100,13 @@ class ThetaMotion:
         pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]
         j = (axis + 1) % 3
         tried = list[tuple[float, Form]]()
-        for place in range(3):
-            for other in range(3):
-                if other != place:
-                    rows = [
-                        [state.K[j] * p[place][0], state.K[j] * p[place][1], -p[other][0], -p[other][1]]
-                        for p, (_, state) in zip(pairs, points, strict=True)
-                    ]
-                    null, error = _null(rows)
-                    tried.append((error, Form(place, (null[0], null[1]))))
+        for place, other in permutations(range(3), 2):
+            rows = [
+                [state.K[j] * p[place][0], state.K[j] * p[place][1], -p[other][0], -p[other][1]]
+                for p, (_, state) in zip(pairs, points, strict=True)
+            ]
+            null, error = _null(rows)
+            tried.append((error, Form(place, (null[0], null[1]))))
         error, denominator = min(tried, key=lambda x: x[0])
         D = [denominator.of(p) for p in pairs]
         free = [n for n in range(3) if n != denominator.place]

@@ -63,12 +63,9 @@ class GeneralMotion(Nutating):
             return "free body" if q.K2 == 0 else steady
         if self.I == 1:
             return "ball"
-        roots = q.roots()
-        first, second = sorted(roots[place].multiplicity for place in (q.low, q.high))
-        more = {(2, 2): " between B and -B", (1, 3): ", triple root", (1, 2): ""}.get((first, second))
-        if more is not None:
-            return f"separatrix{more}"
-        return f"nutation, {'four' if all(r.is_real for r in roots) else 'two'} real roots"
+        if name := self._separatrix("B and -B"):
+            return name
+        return f"nutation, {'four' if all(r.is_real for r in q.roots()) else 'two'} real roots"
 
     @property
     def is_steady(self) -> bool:

@@ -54,14 +54,11 @@ class TopMotion(Nutating):
             return "vertical spin" if q.across.is_zero else "steady precession"
         if len(q.polynomial) == 3:
             return "regular nutation"
-        roots = q.roots()
-        first, second = sorted(roots[place].multiplicity for place in (q.low, q.high))
-        more = {(2, 2): " between n and -n", (1, 3): ", triple root", (1, 2): ""}.get((first, second))
-        if more is not None:
-            return f"separatrix{more}"
+        if name := self._separatrix("n and -n"):
+            return name
         if len(q.polynomial) == 4:
             return "nutation, three real roots"
-        return f"nutation, {'two' if any(r.is_complex for r in roots) else 'four'} real roots"
+        return f"nutation, {'two' if any(r.is_complex for r in q.roots()) else 'four'} real roots"
 
     @property
     def is_steady(self) -> bool:

@@ -67,6 +67,13 @@ class Nutating:
         """Whether the precession in a period is exactly that of the frame."""
         return False
 
+    def _separatrix(self, poles: str) -> str | None:
+        """Return the kind of a separatrix, which may lead from pole to pole; None where no end is a multiple root."""
+        roots = self.quartic.roots()
+        ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))
+        more = {(2, 2): f" between {poles}", (1, 3): ", triple root", (1, 2): ""}.get((ends[0], ends[1]))
+        return None if more is None else f"separatrix{more}"
+
     @property
     def _is_ball(self) -> bool:
         """Whether seen from a frame that turns about the field the body is a ball without any force."""
