@@ -54,8 +54,3 @@ def sin_cos(angle: Real) -> tuple[Real, Real]:
         return fmpq(0), fmpq(1)
     sine, cosine = arb(angle).sin_cos()
     return sine, cosine
-
-
-def turn_time(rate: Real) -> arb:
-    """Return the time 2 pi/|rate| of one turn; infinite for a rate of zero."""
-    return 2 * arb.pi() / abs(rate) if rate != 0 else arb("inf")

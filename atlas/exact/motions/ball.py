@@ -51,7 +51,7 @@ class BallMotion:
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) = R^T m/I0 in the body, below (25): the turn by gamma t about k_hat, of m(0)/I0."""
-        size = self._size
+        size = self.gamma * self.inertia  # the root of m2^2 + (alpha I0 + m3)^2
         if size == 0:
             return [fmpq(0), self.m2 / self.inertia, self.m3 / self.inertia]
         s, c = sin_cos(self.gamma * rational(t, "the time"))
@@ -62,8 +62,3 @@ class BallMotion:
             c * self.m2 / self.inertia + along * x * v,
             c * self.m3 / self.inertia + along * y * v,
         ]
-
-    @property
-    def _size(self) -> Real:
-        """The root of m2^2 + (alpha I0 + m3)^2."""
-        return self.gamma * self.inertia

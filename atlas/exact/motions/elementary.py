@@ -7,7 +7,7 @@ from flint import arb, fmpq
 
 from atlas.exact.arithmetic.turns import AXES, Matrix, turned_back, turns
 from atlas.exact.bodies.body import ratio_of
-from atlas.exact.inputs import Real, rational, rationals, sin_cos, turn_time
+from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.formulas import elementary
 from atlas.formulas.domain import case_of, check_omega3
 from atlas.formulas.integrals import NAMES, along_field, integrals
@@ -43,7 +43,7 @@ class DoubleTurn:
     @property
     def period(self) -> arb:
         """Time 2 pi/|k| of one precession; infinite without one."""
-        return turn_time(self.k)
+        return 2 * arb.pi() / abs(self.k) if self.k != 0 else arb("inf")
 
     def rotation(self, t: Any) -> Matrix:
         """Return R(t), (84), as rows."""
