@@ -262,9 +262,9 @@ def test_the_roots_are_those_of_the_polynomial(ratio: Any, field: Any, omega: An
         quartic = GeneralMotion(ratio, field, omega).quartic
         roots = quartic.roots()
         assert sorted(root.multiplicity for root in roots) == multiplicities
-        lead = quartic.polynomial[quartic.polynomial.degree()]
-        product = acb_poly([acb(arb(lead))])
+        coefficients = [acb(arb(c.value)) for c in quartic.polynomial]
+        product = acb_poly(coefficients[-1:])
         for root in roots:
             product *= acb_poly([-root.value, 1]) ** root.multiplicity
-        for n in range(quartic.polynomial.degree() + 1):
-            assert product[n].contains(acb(arb(quartic.polynomial[n])))
+        for n, c in enumerate(coefficients):
+            assert product[n].contains(c)
