@@ -54,6 +54,11 @@ class DoubleDouble:
             self._halves = head, self.hi - head
         return self._halves
 
+    def __getitem__(self, index: Any) -> "DoubleDouble":
+        """Return some of an array of numbers; one bound for all stays that."""
+        parts = (x if x is None or np.ndim(x) == 0 else x[index] for x in (self.hi, self.lo, self.rel))
+        return DoubleDouble(*parts)
+
     def __add__(self, other: "DoubleDouble") -> "DoubleDouble":
         """Return the sum; exact inputs cancel without loss, and what inexact ones lose is in `rel`."""
         s = self.hi + other.hi
@@ -168,16 +173,11 @@ def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     return chosen(y.rel < x.rel, y, x)
 
 
-def stacked(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """Return two arrays of numbers as one, (2, m)."""
-    shape = np.broadcast_shapes(np.shape(first.hi), np.shape(second.hi))
-    pairs = zip(_three(first), _three(second), strict=True)
-    return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in pair]) for pair in pairs))
-
-
-def component(x: DoubleDouble, i: int) -> DoubleDouble:
-    """Return one of two stacked arrays."""
-    return DoubleDouble(x.hi[i], None if x.lo is None else x.lo[i], x.rel[i] if np.ndim(x.rel) else x.rel)
+def stacked(*rows: DoubleDouble) -> DoubleDouble:
+    """Return several arrays of numbers as one, (n, m)."""
+    shape = np.broadcast_shapes(*(np.shape(x.hi) for x in rows))
+    words = zip(*((x.hi, x.low, x.rel) for x in rows), strict=True)
+    return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in word]) for word in words))
 
 
 def constant(value: float, like: DoubleDouble) -> DoubleDouble:
@@ -185,24 +185,9 @@ def constant(value: float, like: DoubleDouble) -> DoubleDouble:
     return DoubleDouble(np.full_like(like.hi, value))
 
 
-def joined(pair: DoubleDouble, other: DoubleDouble) -> DoubleDouble:
-    """Return two stacked arrays and a third, (3, m)."""
-    words = ((x, np.broadcast_to(y, pair.hi.shape[1:])) for x, y in zip(_three(pair), _three(other), strict=True))
-    return DoubleDouble(*(np.concatenate([np.broadcast_to(x, pair.hi.shape), y[None]]) for x, y in words))
-
-
 def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
     """Return numbers times 1 or -1."""
     return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
-
-
-def _three(x: DoubleDouble) -> tuple[Any, Any, Any]:
-    return x.hi, x.low, x.rel
-
-
-def taken(x: DoubleDouble, rows: Any) -> DoubleDouble:
-    """Return some columns of an array."""
-    return DoubleDouble(*(y if np.ndim(y) == 0 else y[..., rows] for y in _three(x)))
 
 
 def over(

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen, constant, joined, stacked
+from atlas.core.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen, constant, stacked
 from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import Means
@@ -96,7 +96,7 @@ class Block:
         if not (self.roots.top and self.swing and self.swing_rate):
             return constants
         half = self.swing_rate.scaled(-1)
-        rates = self.pair.rates + joined(stacked(half, -half), constant(0.0, half))
+        rates = self.pair.rates + stacked(half, -half, constant(0.0, half))
         words, lack = in_half_turns(rates, self.exponents)
         twisted = self.roots.top.twisted
         return constants._replace(

@@ -18,7 +18,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import ONE, DoubleDouble, blocks, chosen, component, stacked
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, blocks, chosen, stacked
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.blocks import KNOWN, Block, Blocks, Constants
 from atlas.core.nutation.pair import Pair
@@ -221,7 +221,7 @@ def _scalars(block: Block) -> dict[str, Rounded]:
     """Return kind, period, moduli, nome, the angles of a period, v and Omega(0) of a block."""
     with np.errstate(all="ignore"):
         r, angles = cast("EllipticRoots", block.roots), block.pair.angles
-        mean = component(angles, 0) + component(angles, 1) + r.precession.scaled(1)
+        mean = angles[0] + angles[1] + r.precession.scaled(1)
         omega = [rounded(rate * K, block, 1) for rate, K in zip(r.rates, r.K, strict=True)]
         shape = r.elliptic.shape
         scalars = of_period(block) | {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, component, constant
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, constant
 from atlas.core.nutation.roots import Turning
 
 MEANS = 12
@@ -48,7 +48,7 @@ class Means:
     def __init__(self, roots: Turning) -> None:
         self.roots = roots
         r, (f0, f1, f2) = roots, roots.f
-        low, high = component(r.ends, 0), component(r.ends, 1)
+        low, high = r.ends[0], r.ends[1]
         self.N = (low * high).sqrt().scaled(-2)
         S = -(f0 + f1.scaled(-1) * (r.low + r.high) + f2 * r.low * r.high).scaled(-1)
         D = r.width * r.width * r.discriminant.scaled(-2)
@@ -111,7 +111,7 @@ class Means:
     def start(self) -> Circle:
         """Cosine and sine of M t, t the time since Omega3 was `low`, at the start: cot of twice it is (c - a g/c)/2."""
         r = self.roots
-        square, below = component(r.ends, 0).scaled(-2) * r.high, -r.low
+        square, below = r.ends[0].scaled(-2) * r.high, -r.low
         scaled = self.N * below
         C, D = square - scaled, (square * below).sqrt().scaled(1)
         whole = _unit(C, self.levels[0].a * D)

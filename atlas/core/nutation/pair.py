@@ -16,12 +16,9 @@ from atlas.core.arithmetic.double_double import (
     DoubleDouble,
     better,
     chosen,
-    component,
     constant,
-    joined,
     signed,
     stacked,
-    taken,
 )
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, Circle, Level, Means
@@ -83,7 +80,7 @@ class Pair:
         """p^2, and after the first step p and p - a, (2, m)."""
         m, k = self.means, self.sphere
         r, first = m.roots, m.levels[0]
-        square = stacked(component(r.ends, 0), component(r.ends, 1)).scaled(-2) * abs(k.near) / k.far
+        square = stacked(r.ends[0], r.ends[1]).scaled(-2) * abs(k.near) / k.far
         p = square.sqrt()
         after = (square + m.N) / p.scaled(1)
         both = (after + chosen(m.four, first.a, first.g)) * abs(k.near) * k.far
@@ -127,7 +124,8 @@ class Pair:
         Of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error.
         """
         M, own = self.means.rate, self.angles.scaled(-1)
-        return joined(self.sphere.frames + own - signed(M, self.zeros.sense), M)
+        pair = self.sphere.frames + own - signed(M, self.zeros.sense)
+        return stacked(pair[0], pair[1], M)
 
     @cached_property
     def sums(self) -> Sums:
@@ -191,7 +189,7 @@ class Pair:
         """Return |alpha|^2 + |beta|^2 where the sums are these."""
         x, y = self.sums.start
         both = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
-        return component(both, 0) + component(both, 1)
+        return both[0] + both[1]
 
     @cached_property
     def factors(self) -> tuple[Any, FloatArray]:
@@ -238,8 +236,8 @@ def _steps(
     if not going.any() or len(levels) == 2:
         return ended
     rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
-    rest = [Level(*(taken(y, rows) for y in level.parts)) for level in levels[1:]]
-    Q, term, p, d, x = (taken(y, rows) for y in (Q, term, p, d, x))
+    rest = [Level(*(y[..., rows] for y in level.parts)) for level in levels[1:]]
+    Q, term, p, d, x = (y[..., rows] for y in (Q, term, p, d, x))
     total, product = _steps(rest, p, d, x, Q)
     return _where(going, rows, Q + total, ended[0]), _where(going, rows, (term * product).sqrt(), ended[1])
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import DoubleDouble, chosen, component
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.nutation.blocks import Block, Blocks
 from atlas.core.nutation.roots import plus
 
@@ -150,7 +150,7 @@ def _angles(block: Block) -> dict[str, Rounded]:
     with np.errstate(all="ignore"):
         r = block.roots
         sphere, angles = block.pair.sphere, block.pair.angles
-        first, second = component(angles, 0), component(angles, 1)
+        first, second = angles[0], angles[1]
         half = (HALF_TURN / block.means.rate).scaled(-1)
         spin = half * (first - second + plus(block.swing_rate, r.less * r.c3).scaled(1))
         # the two angles of a ball are half a turn each, or none, and must not cancel

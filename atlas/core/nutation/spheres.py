@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import ONE, DoubleDouble, better, chosen, component, constant, stacked
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.roots import Roots, Turning
 
@@ -38,7 +38,7 @@ class Sphere:
     @cached_property
     def far(self) -> DoubleDouble:
         """Distances of the poles from the turning point that is farther away, (2, m)."""
-        return stacked(component(self.poles, 0) - self.roots.low, self.roots.high - component(self.poles, 1))
+        return stacked(self.poles[0] - self.roots.low, self.roots.high - self.poles[1])
 
     @cached_property
     def near(self) -> DoubleDouble:
@@ -47,7 +47,7 @@ class Sphere:
         Where that cancels, since the vector all but meets the pole, they are the square of the torque over -f far.
         """
         f0, f1, f2 = self.roots.f
-        plain = stacked(component(self.poles, 0) - self.roots.high, self.roots.low - component(self.poles, 1))
+        plain = stacked(self.poles[0] - self.roots.high, self.roots.low - self.poles[1])
         beyond = -((f2 * self.poles + f1) * self.poles + f0)
         by_torque = self.torques * self.torques / (beyond * self.far)
         return better(plain, by_torque)

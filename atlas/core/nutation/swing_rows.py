@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, component, constant, signed
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, constant, signed
 from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, Circle, Means
@@ -167,10 +167,10 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()
     roots = fourth * fourth
-    both = component(roots, 0) + component(roots, 1)
+    both = roots[0] + roots[1]
     p = both.scaled(-2)
     slope = r.f[1] + r.f[2] * (r.low + r.high)
-    lean = (abs(slope) * r.width / (both * (component(fourth, 0) + component(fourth, 1)))).scaled(-1)
+    lean = (abs(slope) * r.width / (both * (fourth[0] + fourth[1]))).scaled(-1)
     broad = r.width / (p + chosen(means.four, m[0].a, m[0].g)).sqrt().scaled(2)
     # a p is that of the larger mean plus A e^2 less than it, and that of the smaller one plus h^2
     e, h = chosen(means.four, broad, lean / size), chosen(means.four, lean, size * broad)
