@@ -18,7 +18,7 @@ from atlas.core.motions import general
 from atlas.core.motions.general import GeneralMotion
 from atlas.core.nutation import pair as nutation_pair
 from atlas.core.nutation.blocks import Blocks
-from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.rows import MotionsAtTimes, Rows
 from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.motions.general import GeneralMotion as Balls
@@ -220,7 +220,7 @@ def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
     I, B, omega = (x[..., rows] for x in inputs)
     blocks, found = Blocks((1.0, I, *B, *omega), I.shape), []
     for name in ("rotation", "angular_velocity"):
-        out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), GeneralRows(blocks).at
+        out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), Rows(blocks, MotionsAtTimes).at
         made = at(slice(None), t[rows])
         with np.errstate(all="ignore"):
             getattr(made, name)(t[rows], out)

@@ -8,7 +8,7 @@ from atlas.core.inputs import FloatArray, components, finite, kept, plain
 from atlas.core.motions.clebsch import conserved
 from atlas.core.motions.nutating import NutatingMotion
 from atlas.core.nutation.constants import FIRST
-from atlas.core.nutation.elliptic_rows import EllipticBlocks, EllipticRows, EllipticScalars
+from atlas.core.nutation.elliptic_rows import EllipticAtTimes, EllipticBlocks, EllipticScalars
 from atlas.core.nutation.scalars import IN_ARRAYS
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_elliptic import SingleElliptic
@@ -57,7 +57,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     family = "elliptic"
     _in_arrays, _kinds = (*(set(IN_ARRAYS) - {"turning_points"}), "v", "omega"), ("elliptic",)
-    _blocks_of, _rows_of, _scalars_of = EllipticBlocks, EllipticRows, EllipticScalars
+    _blocks_of, _motions_of, _scalars_of = EllipticBlocks, EllipticAtTimes, EllipticScalars
 
     def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
         parts = [

@@ -9,7 +9,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray, finite, kept, plain
 from atlas.core.motions.motion import Motion
 from atlas.core.nutation.blocks import Blocks
-from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.rows import MotionsAtTimes, Rows
 from atlas.core.nutation.scalars import Scalars
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
@@ -31,7 +31,7 @@ class NutatingMotion(Motion[Nutation]):
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
     _blocks_of: type[Blocks] = Blocks
-    _rows_of: type[GeneralRows] = GeneralRows
+    _motions_of: type[MotionsAtTimes] = MotionsAtTimes
     _scalars_of: type[Scalars] = Scalars
 
     @cached_property
@@ -45,9 +45,9 @@ class NutatingMotion(Motion[Nutation]):
         return self._scalars_of(self._blocks)
 
     @cached_property
-    def _rows(self) -> GeneralRows:
+    def _rows(self) -> Rows:
         """All motions in arrays, for a few times each."""
-        return self._rows_of(self._blocks)
+        return Rows(self._blocks, self._motions_of)
 
     @kept
     def kind(self) -> Any:

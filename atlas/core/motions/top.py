@@ -15,7 +15,7 @@ from atlas.core.inputs import FloatArray, components, finite, kept, number, plai
 from atlas.core.motions.nutating import SymmetricMotion
 from atlas.core.nutation.blocks import TopBlocks
 from atlas.core.nutation.constants import FIRST
-from atlas.core.nutation.rows import TopRows
+from atlas.core.nutation.rows import TopsAtTimes
 from atlas.core.nutation.scalars import IN_ARRAYS, TOP_KINDS
 from atlas.core.nutation.single import BITS, SingleTop
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
@@ -83,7 +83,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     family = "top"
     _in_arrays, _kinds = IN_ARRAYS, TOP_KINDS
-    _blocks_of, _rows_of = TopBlocks, TopRows
+    _blocks_of, _motions_of = TopBlocks, TopsAtTimes
 
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0

@@ -85,9 +85,10 @@ class Block:
         return chosen(top.twisted, top.kappa * self.swing.rate, top.kappa) if top and self.swing else top and top.kappa
 
     @property
-    def swings(self) -> Swings:
+    def swings(self) -> Swings | None:
         """What turns times into that turn of tops."""
-        return Swings.of(self.swing, self.means, self.roots, self.exponents)
+        top = self.roots.top
+        return top and Swings.of(self.swing, self.means, self.roots, top, self.exponents)
 
     @property
     def constants(self) -> Constants:
@@ -142,6 +143,10 @@ class Blocks:
     What is known of a single block is kept for whoever asks next; of many it would take too much memory.
     """
 
+    _unit = slice(2, None)
+    """Inputs that are frequencies."""
+    _block: type[Block] = Block
+
     def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
         self.inputs, self.shape, self.count = inputs, shape, prod(shape)
         self._kept: list[Block] = []
@@ -155,16 +160,16 @@ class Blocks:
     def each(self) -> Iterator[Block]:
         """Make the blocks."""
         columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape) for x in self.inputs]
+        for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
+            fine = _alike([abs(x.reshape(-1)[rows]) for x in columns[self._unit]])
+            power, ordinary = exponents or (0, True)
+            yield self._block(rows, roots, power, fine & ordinary)
 
-        def formula(I2: Any, I3: Any, B2: Any, B3: Any, *omega: Any) -> tuple[Roots]:
-            return (roots_of(I2, I3, (B2, B3), omega),)
-
-        for rows, _, exponents, (roots,) in blocks(formula, columns, self.shape, slice(2, None), bound=1.0):
-            fine = _alike([abs(x.reshape(-1)[rows]) for x in columns[2:]])
-            if exponents is not None:
-                yield Block(rows, roots, exponents[0], fine & exponents[1])
-            else:
-                yield Block(rows, roots, 0, fine)
+    @staticmethod
+    def _roots(*inputs: DoubleDouble) -> Any:
+        """Return the turning points and the rest."""
+        I2, I3, B2, B3, *omega = inputs
+        return roots_of(I2, I3, (B2, B3), omega)
 
 
 class TopBlocks(Blocks):
@@ -177,7 +182,7 @@ class TopBlocks(Blocks):
             rows_of_block = [x[start : start + BLOCK] for x in columns]
             scaled, exponents = _scaled(rows_of_block)
             shape = scaled[0].shape
-            for rows, _, extreme, (roots,) in blocks(lambda *x: (roots_of_tops(*x),), scaled, shape, slice(0)):
+            for rows, _, extreme, (roots,) in blocks(roots_of_tops, scaled, shape, slice(0)):
                 I2, _, k2, k3, n2, n3, *omega, linear, quadratic = map(abs, scaled)
                 potential = np.sqrt(linear / I2), np.sqrt(quadratic / I2)
                 fine = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])

@@ -11,19 +11,19 @@ of the middle e_i = 1/(I_i x_i) and p the third one,
 where nothing cancels but w, next to a separatrix. Kinds other than "elliptic" are not certain, and made by themselves.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import ONE, DoubleDouble, blocks, chosen, stacked
+from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, stacked
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.blocks import KNOWN, Block, Blocks, Constants
 from atlas.core.nutation.pair import Pair
 from atlas.core.nutation.roots import Turning, poles_of
-from atlas.core.nutation.rows import GeneralRows, MotionsAtTimes
+from atlas.core.nutation.rows import MotionsAtTimes, Pairs
 from atlas.core.nutation.scalars import HALF_TURN, Rounded, Scalars, of_period, rounded
 from atlas.core.nutation.spheres import Sphere, half_angles
 
@@ -197,16 +197,7 @@ class EllipticBlock(Block):
 class EllipticBlocks(Blocks):
     """Motions I1, I2, I3, B1, B2, B3, z, branch, which broadcast to a shape, by blocks."""
 
-    def each(self) -> Iterator[Block]:
-        """Make the blocks."""
-        columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape) for x in self.inputs]
-
-        def formula(*row: Any) -> tuple[EllipticRoots]:
-            return (roots_of_elliptic(*row),)
-
-        for rows, _, exponents, (roots,) in blocks(formula, columns, self.shape, slice(3, 6), bound=1.0):
-            power, ordinary = exponents or (0, np.ones(rows.stop - rows.start, dtype=bool))
-            yield EllipticBlock(rows, roots, power, ordinary)
+    _unit, _block, _roots = slice(3, 6), EllipticBlock, staticmethod(roots_of_elliptic)
 
 
 class EllipticScalars(Scalars):
@@ -242,50 +233,36 @@ def _scalars(block: Block) -> dict[str, Rounded]:
         }
 
 
-def _constants(block: Block) -> tuple[Any, ...]:
-    """Return the constants of the pair of a block, its axes (3, 3, m) in the body, and E - 1 (3, m)."""
-    with np.errstate(all="ignore"):
-        r = cast("EllipticRoots", block.roots)
-        rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
-        return *block.constants, r.frame, np.array(rates)
+class Axes(NamedTuple):
+    """Axes of the pair in the body, (3, 3, m), and the factors E - 1 from K to Omega, (3, m)."""
 
-
-class EllipticRows(GeneralRows):
-    """Elliptic motions in arrays, ready to be evaluated."""
-
-    @cached_property
-    def _constants(self) -> tuple[Constants, FloatArray, FloatArray]:
-        """Constants of the pair, its axes (3, 3, m) in the body, and E - 1 (3, m)."""
-        *columns, frames, rates = self._of(_constants)
-        return Constants(*columns), frames, rates
-
-    @property
-    def field(self) -> Constants:
-        """Constants of the axis and of the field."""
-        return self._constants[0]
-
-    def frames(self, index: Any) -> FloatArray:
-        """Return the axes of the pair in the body, (m, 3, 3)."""
-        return np.moveaxis(self._constants[1][..., index], -1, 0)
-
-    def rates(self, index: Any) -> FloatArray:
-        """Return E - 1, (m, 3)."""
-        return self._constants[2][:, index].T
-
-    def at(self, index: Any, t: FloatArray) -> "EllipticAtTimes":
-        """Return motions by their index at the times t that go with them."""
-        return EllipticAtTimes(self, index, t)
+    frames: FloatArray
+    rates: FloatArray
 
 
 class EllipticAtTimes(MotionsAtTimes):
     """Elliptic motions in a row, each at one time."""
 
-    _rows: EllipticRows
+    @staticmethod
+    def constants(block: Any) -> tuple[Any, ...]:
+        """Return the constants of the pair of a block, and its axes."""
+        r = block.roots
+        rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
+        return block.constants, Axes(r.frame, np.array(rates))
+
+    def _pair(self, constants: Constants, _: Any = None) -> Pairs:
+        """Return the pair, and keep which motions it does not hold."""
+        return super()._pair(constants)
+
+    @property
+    def _frames(self) -> FloatArray:
+        """The axes of the pair in the body, (m, 3, 3)."""
+        return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
         """Write R into (m, 3, 3)."""
         super().rotation(t, out)
-        C = self._rows.frames(self._index)
+        C = self._frames
         out[:] = C @ out @ C.mT
 
     def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
@@ -297,14 +274,14 @@ class EllipticAtTimes(MotionsAtTimes):
     def quaternion(self, t: FloatArray, out: FloatArray) -> None:
         """Write quaternions (x, y, z, w) into (m, 4)."""
         super().quaternion(t, out)
-        out[:, :3] = np.matvec(self._rows.frames(self._index), out[:, :3])
+        out[:, :3] = np.matvec(self._frames, out[:, :3])
 
     def field_in_body(self, t: FloatArray, out: FloatArray) -> None:
         """Write K into (m, 3)."""
         super().field_in_body(t, out)
-        out[:] = np.matvec(self._rows.frames(self._index), out)
+        out[:] = np.matvec(self._frames, out)
 
     def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
         """Write Omega = (E - 1) K into (m, 3)."""
         self.field_in_body(t, out)
-        out *= self._rows.rates(self._index)
+        out *= self._rows.field[1].rates[:, self._index].T

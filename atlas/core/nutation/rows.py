@@ -42,91 +42,114 @@ class Third(NamedTuple):
     start: FloatArray
 
 
-def _velocity(block: Block) -> tuple[Any, ...]:
-    """Return the constants of the angular velocity of a block, and those of its third component after them."""
-    with np.errstate(all="ignore"):
-        r = block.roots
-        pair = Pair(block.means, sphere_of_velocity(r))
-        constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
-        return *constants._replace(is_certain=constants.is_certain & (change.size.rel < KNOWN)), *Third(
-            np.ldexp(r.omega[2].hi, block.exponents),
-            np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
-            np.ldexp(change.size.hi, block.exponents),
-            change.weights,
-            np.array([(cos * cos - sin * sin).hi, (cos * sin).scaled(1).hi]),
-        )
+def _velocity(block: Block) -> tuple[Constants, Third]:
+    """Return the constants of the angular velocity of a block, and those of its third component."""
+    r = block.roots
+    pair = Pair(block.means, sphere_of_velocity(r))
+    constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
+    return constants._replace(is_certain=constants.is_certain & (change.size.rel < KNOWN)), Third(
+        np.ldexp(r.omega[2].hi, block.exponents),
+        np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
+        np.ldexp(change.size.hi, block.exponents),
+        change.weights,
+        np.array([(cos * cos - sin * sin).hi, (cos * sin).scaled(1).hi]),
+    )
 
 
-def _field(block: Block) -> Constants:
-    """Return the constants of the axis and the field of a block."""
-    with np.errstate(all="ignore"):
-        return block.constants
+class Rows:
+    """Motions in arrays, ready to be evaluated as `motions`."""
 
-
-class GeneralRows:
-    """Motions in arrays, ready to be evaluated."""
-
-    def __init__(self, blocks: Blocks) -> None:
-        self.blocks, self.indices = blocks, np.arange(blocks.count)
+    def __init__(self, blocks: Blocks, motions: "type[MotionsAtTimes]") -> None:
+        self.blocks, self.indices, self._motions = blocks, np.arange(blocks.count), motions
 
     @cached_property
-    def field(self) -> Constants:
-        """Constants of the axis and of the field."""
-        return Constants(*self._of(_field))
+    def field(self) -> tuple[Any, ...]:
+        """Constants of the axis and of the field, and what else there is of such motions."""
+        return self._of(self._motions.constants)
 
     @cached_property
-    def velocity(self) -> tuple[Constants, Third]:
-        """Constants of the angular velocity."""
-        columns, n = self._of(_velocity), len(Constants._fields)
-        return Constants(*columns[:n]), Third(*columns[n:])
+    def velocity(self) -> tuple[Any, ...]:
+        """Constants of the angular velocity, and of its third component."""
+        return self._of(_velocity)
 
-    def _of(self, constants: Callable[[Block], tuple[Any, ...]]) -> list[Any]:
-        of_blocks = map(constants, self.blocks)
-        return [np.concatenate(x, axis=-1) for x in zip(*of_blocks, strict=True)]
+    def _of(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
+        with np.errstate(all="ignore"):
+            kinds = zip(*map(constants, self.blocks), strict=True)
+            return tuple(
+                type(kind[0])(*(np.concatenate(x, axis=-1) for x in zip(*kind, strict=True))) for kind in kinds
+            )
 
     def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
         """Return motions by their index at the times t that go with them."""
-        return MotionsAtTimes(self, index, t)
+        return self._motions(self, index, t)
 
 
 class MotionsAtTimes:
     """Motions in a row, each at one time; `extreme` are the places of those that have to be made alone."""
 
-    def __init__(self, rows: GeneralRows, index: Any, t: FloatArray) -> None:
+    def __init__(self, rows: Rows, index: Any, t: FloatArray) -> None:
         self._rows, self._index, self._times = rows, index, t
         self.indices, self.extreme = rows.indices[index], np.arange(0)
 
+    @staticmethod
+    def constants(block: Any) -> tuple[Any, ...]:
+        """Return the constants of the axis and the field of a block."""
+        return (block.constants,)
+
     def rotation(self, _: FloatArray, out: FloatArray) -> None:
         """Write R into (m, 3, 3)."""
-        pair = self._pair(self._rows.field)
+        pair = self._pair(*self._rows.field)
         for j in range(3):
             pair.column(j + 1, out[:, :, j])
 
     def column(self, j: int, _: FloatArray, out: FloatArray) -> None:
         """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
-        self._pair(self._rows.field).column(j, out)
+        self._pair(*self._rows.field).column(j, out)
 
     def quaternion(self, _: FloatArray, out: FloatArray) -> None:
         """Write quaternions (x, y, z, w) into (m, 4)."""
-        self._pair(self._rows.field).quaternion(out)
+        self._pair(*self._rows.field).quaternion(out)
 
     def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
         """Write K into (m, 3)."""
-        self._pair(self._rows.field).vector(out)
+        self._pair(*self._rows.field).vector(out)
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
         """Write Omega into (m, 3): its pair is that of (Omega2, Omega1, -sqrt(I) Omega3)."""
         constants, third = self._rows.velocity
-        pair, third = self._pair(constants), Third(*(x[..., self._index] for x in third))
+        pair, third = self._pair(constants), self._taken(third)
         pair.vector(out, first=1)
         out[:, 2] = pair.third(third)
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * largest(out)))
 
-    def _pair(self, constants: Constants) -> "Pairs":
+    def _pair(self, constants: Constants, swings: Swings | None = None) -> "Pairs":
         """Return a pair, and keep which motions it does not hold."""
-        pair = Pairs(Constants(*(x[..., self._index] for x in constants)), self._times)
+        own = self._taken(swings) if swings and swings.twisted[self._index].any() else None
+        pair = Pairs(self._taken(constants), self._times, own)
         self.extreme = pair.extreme
         return pair
+
+    def _taken(self, constants: Any) -> Any:
+        """Return the constants of these motions."""
+        return type(constants)(*(x[..., self._index] for x in constants))
+
+
+class TopsAtTimes(MotionsAtTimes):
+    """Tops in a row, each at one time."""
+
+    @staticmethod
+    def constants(block: Any) -> tuple[Any, ...]:
+        """Return the constants of the axis and of n in the body, and of what the integral of nu adds."""
+        return block.constants, block.swings
+
+    def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
+        """Write Omega into (m, 3): twice the vector part of the quaternion's logarithmic derivative."""
+        constants, swings = self._rows.field
+        pair = self._pair(constants, swings)
+        bound = velocity(pair, out)
+        out *= np.stack([pair.constants.azimuth[0], pair.constants.azimuth[0], np.ones(len(out))], -1)
+        slow = bound > FAST * swings.fastest[self._index]
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(slow))
 
 
 class Pairs:
@@ -135,12 +158,14 @@ class Pairs:
     alpha and beta are known to 4 u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and
     sin y, 1/2 u for a weight, 3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below
     CANCELLING times the length of (alpha, beta), each entry of R is within 2 sqrt(2) 4 u CANCELLING + 10 u = 8.7e-15.
+    Of tops `swings` add what the integral of nu turns; `kappa` is as it is in Omega3.
     """
 
-    def __init__(self, constants: Constants, t: FloatArray) -> None:
-        self.constants = c = constants
+    def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None = None) -> None:
+        self.constants, self.kappa = constants, swings.kappa if swings else 0.0
+        c = constants
         with np.errstate(all="ignore"):
-            cos, sin, self.half = _circles(c.words, t)
+            cos, sin, half = _circles(c.words, t)
             start = cos[2] * c.start[0] - sin[2] * c.start[1], sin[2] * c.start[0] + cos[2] * c.start[1]
             self.turn = cos[2], sin[2]
             self.circle = start
@@ -154,6 +179,13 @@ class Pairs:
                 c.is_certain & (c.weight <= CANCELLING * np.sqrt(self.square)) & (abs(c.sizes) > 1 / REACH).all(axis=0)
             )
             good &= ((c.lack * abs(t) <= LOST) & (sizes * abs(t) <= LIMIT) & (sizes < REACH)).all(axis=0)
+            if swings:
+                turn, error = swings.half(half, t)
+                both = np.cos(turn).astype(float) + 1j * np.sin(turn).astype(float)
+                for x in (self.pair, self.turned):
+                    x[:] = np.where(swings.twisted, x * [both, both.conj()], x)
+                long = abs(c.words[0, :2] * t).max(axis=0) > LIMIT / np.pi
+                good &= ~(swings.twisted & (long | ~(error < TURN_ERROR)))
             self.extreme = np.flatnonzero(~good)
 
     def column(self, j: int, out: FloatArray) -> None:
@@ -210,87 +242,7 @@ def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
     return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])
 
 
-class TopRows(GeneralRows):
-    """Tops in arrays, ready to be evaluated."""
-
-    @cached_property
-    def _constants(self) -> tuple[Constants, Swings, FloatArray]:
-        """Constants of the pair, of what the integral of nu adds, and the largest rates: all of one pass."""
-        with np.errstate(all="ignore"):
-            of_blocks = [
-                (block.constants, block.swings, np.ldexp(block.roots.top.rates, block.exponents))
-                for block in self.blocks
-                if block.roots.top
-            ]
-        pairs, swings, largest = zip(*of_blocks, strict=True)
-        return (
-            Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
-            Swings(*(np.concatenate(x, axis=-1) for x in zip(*swings, strict=True))),
-            np.concatenate(largest),
-        )
-
-    @property
-    def field(self) -> Constants:
-        """Constants of the axis and of n in the body."""
-        return self._constants[0]
-
-    @cached_property
-    def swings(self) -> Swings | None:
-        """What the integral of nu adds; None where kappa is zero everywhere."""
-        swings = self._constants[1]
-        return swings if swings.twisted.any() else None
-
-    @property
-    def largest(self) -> FloatArray:
-        """Largest rate of each."""
-        return self._constants[2]
-
-    def at(self, index: Any, t: FloatArray) -> "TopsAtTimes":
-        """Return tops by their index at the times t that go with them."""
-        return TopsAtTimes(self, index, t)
-
-
-class TopsAtTimes(MotionsAtTimes):
-    """Tops in a row, each at one time."""
-
-    _rows: TopRows
-
-    def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
-        """Write Omega into (m, 3): twice the vector part of the quaternion's logarithmic derivative."""
-        pair = self._pair(self._rows.field)
-        bound = velocity(pair, out)
-        out *= np.stack([pair.constants.azimuth[0], pair.constants.azimuth[0], np.ones(len(out))], -1)
-        slow = bound > FAST * self._rows.largest[self._index]
-        self.extreme = np.union1d(self.extreme, np.flatnonzero(slow))
-
-    def _pair(self, constants: Constants) -> "TopPairs":
-        """Return the pair with the whole turn about the axis, and keep which tops it does not hold."""
-        swings = self._rows.swings
-        own = swings and Swings(*(x[..., self._index] for x in swings))
-        pair = TopPairs(Constants(*(x[..., self._index] for x in constants)), self._times, own)
-        self.extreme = pair.extreme
-        return pair
-
-
-class TopPairs(Pairs):
-    """Pairs of tops in a row, with the turn that the integral of nu adds; `kappa` as it is in Omega3."""
-
-    def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None) -> None:
-        super().__init__(constants, t)
-        self.kappa: Any = 0.0
-        if swings is None:
-            return
-        self.kappa = swings.kappa
-        with np.errstate(all="ignore"):
-            half, error = swings.half(self.half, t)
-            turn = np.cos(half).astype(float) + 1j * np.sin(half).astype(float)
-            long = abs(constants.words[0, :2] * t).max(axis=0) > LIMIT / np.pi
-        for x in (self.pair, self.turned):
-            x[:] = np.where(swings.twisted, x * [turn, turn.conj()], x)
-        self.extreme = np.union1d(self.extreme, np.flatnonzero(swings.twisted & (long | ~(error < TURN_ERROR))))
-
-
-def velocity(pair: TopPairs, out: FloatArray) -> FloatArray:
+def velocity(pair: Pairs, out: FloatArray) -> FloatArray:
     """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
     c, rates = pair.constants, pair.constants.rates
     with np.errstate(all="ignore"):

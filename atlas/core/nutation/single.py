@@ -187,9 +187,9 @@ class SingleGeneral(SingleMotion):
         out, left = np.empty((t.size, 3)), np.arange(t.size)
         if self._inputs and t.size > FEW:
             from atlas.core.nutation.blocks import Blocks
-            from atlas.core.nutation.rows import GeneralRows
+            from atlas.core.nutation.rows import MotionsAtTimes, Rows
 
-            rows = GeneralRows(Blocks(self._inputs, (1,))).at(np.zeros(t.size, dtype=int), t)
+            rows = Rows(Blocks(self._inputs, (1,)), MotionsAtTimes).at(np.zeros(t.size, dtype=int), t)
             rows.angular_velocity(t, out)
             left = rows.extreme
         for i in left.tolist():

@@ -19,7 +19,7 @@ from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, Circle, Means
 from atlas.core.nutation.pair import TERMS
-from atlas.core.nutation.roots import Roots
+from atlas.core.nutation.roots import Roots, Top
 
 STEPS = 60
 """Most steps of the means."""
@@ -55,7 +55,7 @@ class Swings(NamedTuple):
     """What turns times into half of the turn that is no multiple of time, of tops in a row, the last axis of each.
 
     `factor` is kappa/sqrt(|A|), `size` sqrt(|A|), where A = 0 kappa and 0; `start` (2, m) are cosine and sine of 2 y at
-    t = 0, `before` is half the turn there; `slope` is what a radian of y may make of it.
+    t = 0, `before` is half the turn there; `slope` is what a radian of y may make of it; `fastest` is the largest rate.
     """
 
     twisted: Any
@@ -70,19 +70,19 @@ class Swings(NamedTuple):
     slope: FloatArray
     lack: FloatArray
     known: FloatArray
+    fastest: FloatArray
 
     @classmethod
-    def of(cls, sums: SwingSums | None, means: Means, r: Roots, exponents: Any) -> Self:
+    def of(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
         """Return it for the tops of a block."""
-        A, (cos, sin) = r.A, means.start
-        kappa, twisted = (r.top.kappa, r.top.twisted) if r.top else (constant(0.0, A), np.zeros(A.hi.shape, dtype=bool))
+        A, kappa, (cos, sin) = r.A, top.kappa, means.start
         nothing = np.zeros((TERMS, *A.hi.shape), dtype=np.longdouble)
         sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))
         size = np.sqrt(abs(extended(A)))
         start = np.array([extended(cos * cos - sin * sin), extended((cos * sin).scaled(1))])
         turns = means.rate * PER_RADIAN
         swings = cls(
-            twisted=twisted,
+            twisted=top.twisted,
             kappa=np.ldexp((kappa * r.b).hi, exponents),
             factor=extended(kappa) / np.where(size == 0, 1, size),
             size=size,
@@ -94,6 +94,7 @@ class Swings(NamedTuple):
             slope=abs(kappa.hi) * r.width.hi / means.rate.hi,
             lack=np.ldexp(turns.hi * turns.rel, exponents),
             known=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < KNOWN, sums.known, np.inf),
+            fastest=np.ldexp(top.rates, exponents),
         )
         return swings._replace(before=swings.half_of(*start)[0])
 
