@@ -9,10 +9,11 @@ F_r being products of functions of k s and phi s. With tau = 0 that gives R(s) i
 """
 
 import reprlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
+from math import prod
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,21 +34,15 @@ SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
 """What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
 
 
-class Circling(Protocol):
-    """Phases, or a `Progression` of them."""
-
-    def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-        """Fill what `Phases.circle` does."""
-
-
 class Basis:
     """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
 
     In the order of `resolution`: cos kt, cos phi t, sin kt, sin phi t, 1 - cos kt; cos kt and sin kt times cos phi t,
-    the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t.
+    the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t. `phases` are `Phases` or a
+    `Progression` of them.
     """
 
-    def __init__(self, phases: Circling, size: int, count: int = 3) -> None:
+    def __init__(self, phases: Any, size: int, count: int = 3) -> None:
         self.phases = phases
         self.work = room(1 if count == 3 else 2, size)
         self.rows = np.empty((count, size))
@@ -176,13 +171,13 @@ class DoubleRotation:
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), (84), shape (..., 3, 3)."""
-        return evaluate(self.phases, self.entries, t, (3, 3), out)
+        return combinations(self.phases, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), j = 1, 2, 3: the body's axis j in the laboratory, shape (..., 3)."""
         if j == 3 and not self.inverse:
-            return evaluate(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
-        return evaluate(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
+            return combinations(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
+        return combinations(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
 
     @cached_property
     def _products(self) -> FloatArray:
@@ -196,7 +191,7 @@ class DoubleRotation:
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
-        return evaluate(self.phases, self._products, real(t, "The time") / 2, (4,), out)
+        return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
     def vector(self, name: str) -> tuple[float, ...]:
         """Return the components of a vector."""
@@ -208,39 +203,60 @@ class DoubleRotation:
             weights = self.rodrigues @ np.asarray(vector)
         if not np.isfinite(weights).all():
             raise AtlasError(f"The vector {vector} that is to be turned is too large for a float: choose larger units.")
-        return evaluate(self.precession, weights, t, (3,), out)
+        return combinations(self.precession, weights, t, (3,), out)
 
     def swung(self, vector: tuple[float, float, float], t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_z(-phi t) v for a constant v, shape (..., 3): how the body sees what precesses with it."""
         x, y, z = vector
         if max(abs(x), abs(y)) > LARGEST:
             raise AtlasError(f"The vector {vector} that turns is too large for a float: choose larger units.")
-        out = evaluate(self.proper, 2 * np.array([[x, y, 0], [y, -x, 0], [0, 0, 0]]), t, (3,), out)
+        out = combinations(self.proper, 2 * np.array([[x, y, 0], [y, -x, 0], [0, 0, 0]]), t, (3,), out)
         out[..., 2] = z
         return out
 
 
-def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None) -> FloatArray:
+def combinations(
+    phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None
+) -> FloatArray:
     """Return the sums over basis functions that `weights` (3, 9 or 11, prod(shape)) describe, at times of any shape."""
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
-    full = times.shape + shape
-    out = target(out, full)
-    rows = out.reshape(-1, weights.shape[1])
-    flat = times.reshape(-1) if times.flags.c_contiguous else times.flat
     if times.size <= PART:
-        np.matmul(Basis(phases, times.size, len(weights)).at(flat[:]).T, weights, out=rows)
+        out = target(out, times.shape + shape)
+        functions = Basis(phases, times.size, len(weights)).at(times.reshape(-1))
+        np.matmul(functions.T, weights, out=out.reshape(-1, weights.shape[1]))
         return out
 
-    def fill(low: int, high: int) -> None:
-        """Fill the rows low to high, a block at a time."""
-        basis = Basis(phases, min(high - low, BLOCK), len(weights))
+    def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
+        """Return what fills a block."""
+        basis = Basis(phases, size, len(weights))
+        return lambda times, rows: combined(basis.at(times), weights, rows)
+
+    return evaluate(times, shape, out, prepare)
+
+
+def combined(functions: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
+    """Write the linear combinations of functions (k, m) that `weights` (k, n) describe into (m, n)."""
+    for i in range(0, len(rows), PART):
+        np.matmul(functions[:, i : i + PART].T, weights, out=rows[i : i + PART])
+
+
+def evaluate(
+    times: FloatArray,
+    shape: tuple[int, ...],
+    out: FloatArray | None,
+    prepare: Callable[[int], Callable[[FloatArray, FloatArray], None]],
+) -> FloatArray:
+    """Return what ``prepare(size)(t, rows)`` writes, block by block, for times of any shape; rows (m, prod(shape))."""
+    out = target(out, times.shape + shape)
+    rows, flat = out.reshape(times.size, prod(shape)), np.ascontiguousarray(times).reshape(-1)
+
+    def part(low: int, high: int) -> None:
+        fill = prepare(min(high - low, BLOCK))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
-            functions, rows_of_block = basis.at(flat[i:j]), rows[i:j]
-            for k in range(0, j - i, PART):
-                np.matmul(functions[:, k : k + PART].T, weights, out=rows_of_block[k : k + PART])
+            fill(flat[i:j], rows[i:j])
 
-    shared(fill, times.size, BLOCK)
+    shared(part, times.size, BLOCK)
     return out
 
 

@@ -20,10 +20,10 @@ from atlas.core.arithmetic.circle import signs
 from atlas.core.arithmetic.grid import check_grid
 from atlas.core.arithmetic.phase import EVEN, Phases, room
 from atlas.core.arithmetic.quaternions import of_matrix, product
+from atlas.core.arithmetic.rotation import BLOCK, combined, evaluate
 from atlas.core.arithmetic.words import TURN, middle
-from atlas.core.inputs import FloatArray
+from atlas.core.inputs import FloatArray, real
 from atlas.core.motions.clebsch_rounding import Rounding
-from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
 from atlas.core.nutation.grid import moments
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.asymmetric import AsymmetricMotion
@@ -153,19 +153,20 @@ class ThetaKernel:
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
-        return evaluate(t, (3, 3), out, lambda _: self._attitude(self.entries))
+        return evaluate(real(t, "The time"), (3, 3), out, lambda _: self._attitude(self.entries))
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), shape (..., 3)."""
-        return evaluate(t, (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
+        return evaluate(real(t, "The time"), (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t), shape (..., 3)."""
-        return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
+        return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) = W - K, shape (..., 3)."""
-        return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 10), np.concatenate([-np.eye(3), np.eye(3)])))
+        weights = np.concatenate([-np.eye(3), np.eye(3)])
+        return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 10), weights))
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
         """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
@@ -214,7 +215,7 @@ class ThetaKernel:
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
-        return evaluate(t, (4,), out, lambda _: self._fill_quaternions)
+        return evaluate(real(t, "The time"), (4,), out, lambda _: self._fill_quaternions)
 
     def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
         """Fill rows with quaternions: that of R, of the sign which continues it over the torus."""

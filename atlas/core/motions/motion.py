@@ -6,7 +6,7 @@ from functools import cached_property, partial
 from importlib import import_module
 from math import prod
 from numbers import Integral
-from typing import Any, Generic, Protocol, Self, TypeVar
+from typing import Any, Generic, Self, TypeVar
 from weakref import proxy
 
 import numpy as np
@@ -28,20 +28,9 @@ OTHERS = {
 """What takes an argument that a class of motions does not."""
 
 
-class Evaluated(Protocol):
-    """One motion, which gives its matrix and the columns of it."""
+Single = TypeVar("Single")
+"""One motion made by itself: it has the functions of time of its class, which take times and an array to fill."""
 
-    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), shape (..., 3, 3)."""
-
-    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the column R_j(t), shape (..., 3)."""
-
-    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
-
-
-Single = TypeVar("Single", bound=Evaluated)
 Turning = TypeVar("Turning", bound=DoubleRotation)
 
 MANY = 1000

@@ -4,24 +4,13 @@ alpha and beta, up to a common real factor, are sums of the functions of time of
 The matrix is linear in the ten products of their four real parts, once the squares of these sum to one.
 """
 
-from collections.abc import Callable
-from math import prod
-from typing import Any
-
 import numpy as np
 
 from atlas.core.arithmetic.circle import WHOLE
-from atlas.core.arithmetic.machine import shared
 from atlas.core.arithmetic.phase import room
-from atlas.core.arithmetic.rotation import target
-from atlas.core.inputs import FloatArray, real
+from atlas.core.inputs import FloatArray
 from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.functions import Hyperbolic, Steady, Trigonometric
-
-BLOCK, PART = 6000, 3000
-"""Times evaluated at once, so that what they need stays in the second-level cache and NumPy copies no array that it
-broadcasts; and matrices made from them at once, so few that the library does not thread the product."""
-
 
 PAIRS = tuple((i, j) for i in range(4) for j in range(i, 4))
 """The ten products of Re alpha, Re beta, Im alpha, Im beta."""
@@ -145,12 +134,6 @@ class Evaluation:
         return self.products.of_pair(self.parts(t, low))
 
 
-def combined(products: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
-    """Write the linear combinations of products (10, m) that `weights` (10, n) describe into (m, n)."""
-    for i in range(0, len(rows), PART):
-        np.matmul(products[:, i : i + PART].T, weights, out=rows[i : i + PART])
-
-
 class Products:
     """The ten products of `PAIRS` of up to `size` quadruples, whose squares are made to sum to one."""
 
@@ -196,24 +179,3 @@ ENTRIES = _entries()
 def entries(left: FloatArray, right: FloatArray) -> FloatArray:
     """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
     return (left @ ENTRIES @ right).reshape(10, 9)
-
-
-def evaluate(
-    times: Any,
-    shape: tuple[int, ...],
-    out: FloatArray | None,
-    prepare: Callable[[int], Callable[[FloatArray, FloatArray], None]],
-) -> FloatArray:
-    """Return what ``prepare(size)(t, rows)`` writes, block by block, for times of any shape; rows (m, prod(shape))."""
-    times = real(times, "The time")
-    out = target(out, times.shape + shape)
-    rows, flat = out.reshape(times.size, prod(shape)), np.ascontiguousarray(times).reshape(-1)
-
-    def part(low: int, high: int) -> None:
-        fill = prepare(min(high - low, BLOCK))
-        for i in range(low, high, BLOCK):
-            j = min(i + BLOCK, high)
-            fill(flat[i:j], rows[i:j])
-
-    shared(part, times.size, BLOCK)
-    return out

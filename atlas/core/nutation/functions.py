@@ -30,8 +30,6 @@ RAISED = 2.0**500
 class Steady:
     """One function: one."""
 
-    twist = None
-
     def __init__(self, _found: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 1
 
@@ -46,8 +44,6 @@ class Steady:
 
 class Trigonometric:
     """sin v and cos v times powers of F = 2 cos 2v, and 1 where one of the sums is constant, up to a common factor."""
-
-    twist = None
 
     def __init__(self, _found: Solution, sums: Sequence[Sum]) -> None:
         self.terms = max(_terms(sum_) for sum_ in sums)
@@ -182,9 +178,6 @@ class Hyperbolic:
 
 class Linear:
     """x and 1, over the larger of |x| and 1; x is the time since the turning point."""
-
-    twist = None
-    periodic = False
 
     def __init__(self, solution: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 2

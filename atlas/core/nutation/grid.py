@@ -20,8 +20,9 @@ from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.grid import check_grid
 from atlas.core.arithmetic.machine import shared
 from atlas.core.arithmetic.phase import Phases, room
+from atlas.core.arithmetic.rotation import BLOCK, combined
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.cayley_klein import BLOCK, Evaluation, Products, combined
+from atlas.core.nutation.cayley_klein import Evaluation, Products
 from atlas.core.nutation.exponentials import FINE, Exponentials
 from atlas.core.nutation.single import SingleMotion
 from atlas.formulas.numbers import rational

@@ -12,8 +12,9 @@ import numpy as np
 from flint import arb
 
 from atlas.core.arithmetic.quaternions import between
+from atlas.core.arithmetic.rotation import combined, evaluate
 from atlas.core.inputs import FloatArray, largest, real
-from atlas.core.nutation.cayley_klein import Evaluation, combined, entries, evaluate
+from atlas.core.nutation.cayley_klein import Evaluation, entries
 from atlas.core.nutation.constants import FIRST, CayleyKlein
 from atlas.core.nutation.exponentials import Exponentials, exponentials
 from atlas.errors import DomainError
@@ -106,7 +107,7 @@ class SingleMotion:
 
             return fill
 
-        return evaluate(t, (4,), out, prepare)
+        return evaluate(real(t, "The time"), (4,), out, prepare)
 
     @cached_property
     def _sides(self) -> FloatArray:
@@ -139,7 +140,7 @@ class SingleMotion:
             evaluation = Evaluation(parts or self.parts, size)
             return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
 
-        return evaluate(t, shape, out, prepare)
+        return evaluate(real(t, "The time"), shape, out, prepare)
 
 
 NEAR, SLENDER = 2.3, 1.45
@@ -230,4 +231,4 @@ class SingleTop(SingleMotion):
 
             return fill
 
-        return evaluate(t, (3,), out, prepare)
+        return evaluate(real(t, "The time"), (3,), out, prepare)
