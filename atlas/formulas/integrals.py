@@ -1,6 +1,6 @@
 """What a body conserves, (36) to (41) and theorem-clebsch, and the cubic and quartic of Omega3 that follow.
 
-The cubic and the quartic are for exact rationals. In floats and in two words their sums cancel: there
+The cubic and the quartic are for exact rationals, and for floats where no values of them are wanted: these cancel, and
 `pseudo_oscillator` and `nutation.roots` write them from the state at t = 0, in forms that don't.
 """
 
@@ -56,13 +56,26 @@ def _times(matrix: Sequence[Vector], vector: Vector) -> list[Number]:
     return [dot(row, vector) for row in matrix]
 
 
-def cubic(I: Number, E: Number, K2: Number, c3: Number, c5: Number) -> tuple[Number, ...]:
-    """Return a0..a3 of (48), with ``I - (2-I)^2`` in a1 where the paper prints ``I - (2-1)^2``."""
-    a1 = -2 * c5 + (I - (2 - I) ** 2) * c3**2 - E - I * K2
-    return ((2 - I) * c5 + E) * c3, a1, 6 * (1 - I) * c3, -2 * (1 - I)
+def cubic(
+    I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: tuple[Number, Number] | None = None
+) -> tuple[Number, ...]:
+    """Return a0..a3 of (47), by (48) with its slip set right; `factors` as for `integrals`.
+
+    a0 = [(2-I) c5 + E'] c3,  a1 = -2 c5 - (1-I)(4-I) c3^2 - E' - I K^2,  a2 = 6 (1-I) c3,  a3 = -2 (1-I).
+    The printed a1 has [I - (2-1)^2] c3^2; true is [I - (2-I)^2] = -(1-I)(4-I), which does not cancel near I = 1.
+    """
+    less, further = factors or (1 - I, 2 - I)
+    a1 = -2 * c5 - less * (2 + further) * (c3 * c3) - E - I * K2
+    return (further * c5 + E) * c3, a1, 6 * less * c3, -2 * less
 
 
-def quartic(I: Number, E: Number, K2: Number, c3: Number, c5: Number) -> tuple[Number, ...]:
-    """Return q0..q4 of Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2; Q' is twice (47)."""
-    a0, a1, a2, a3 = cubic(I, E, K2, c3, c5)
-    return E * (K2 - c3**2) - c5**2, 2 * a0, a1, 2 * a2 / 3, a3 / 2
+def quartic(
+    I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: tuple[Number, Number] | None = None
+) -> tuple[Number, ...]:
+    """Return q0..q4 of Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, (dOmega3/dt)^2 at Omega3 = u.
+
+    Q' is twice the cubic of (47): so q4 = a3/2 = I - 1. Not in the paper: it follows from (36), (37), (40), (41) and
+    (38), as (Omega1 K2 - Omega2 K1)^2 + (Omega1 K1 + Omega2 K2)^2 = (Omega1^2 + Omega2^2)(K1^2 + K2^2).
+    """
+    a0, a1, a2, a3 = cubic(I, E, K2, c3, c5, factors)
+    return E * (K2 - c3 * c3) - c5 * c5, 2 * a0, a1, 2 * a2 / 3, a3 / 2

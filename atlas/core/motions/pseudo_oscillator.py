@@ -1,5 +1,6 @@
 """The cubic pseudo-oscillator that Omega3 obeys, (46) to (49), and its first integral, a quartic."""
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -9,31 +10,7 @@ from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.inputs import FloatArray, common_shape, finite, kept, plain, real, vectors
 from atlas.core.motions.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
-
-
-def cubic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any]:
-    """Coefficients (a0, a1, a2, a3) of (47), by (48) with its slip set right.
-
-    a0 = [(2-I) c5 + E'] c3,  a1 = -2 c5 - (1-I)(4-I) c3^2 - E' - I K^2,  a2 = 6 (1-I) c3,  a3 = -2 (1-I).
-    The printed a1 has [I - (2-1)^2] c3^2; true is [I - (2-I)^2] = -(1-I)(4-I), which does not cancel near I = 1.
-    """
-    I, one_less, two_less = shape_factors(ratio)
-    E, K2, c3, c5 = conserved.E, conserved.K2, conserved.c3, conserved.c5
-    a0 = (two_less * c5 + E) * c3
-    a1 = -2 * c5 - one_less * (2 + two_less) * (c3 * c3) - E - I * K2
-    return a0, a1, 6 * one_less * c3, -2 * one_less
-
-
-def quartic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any, Any]:
-    """Coefficients (q0, ..., q4) of Q(u) = q0 + q1 u + ... + q4 u^4 with (dOmega3/dt)^2 = Q(Omega3).
-
-    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, and Q' = 2 (a0 + a1 u + a2 u^2 + a3 u^3) with
-    the cubic of (47): so q4 = a3/2 = I - 1. Not in the paper: it follows from (36), (37), (40), (41) and (38), as
-    (Omega1 K2 - Omega2 K1)^2 + (Omega1 K1 + Omega2 K2)^2 = (Omega1^2 + Omega2^2)(K1^2 + K2^2).
-    """
-    E, K2, c3, c5 = conserved.E, conserved.K2, conserved.c3, conserved.c5
-    a0, a1, a2, a3 = cubic(ratio, conserved)
-    return E * (K2 - c3 * c3) - c5 * c5, 2 * a0, a1, 2 * a2 / 3, a3 / 2
+from atlas.formulas.integrals import cubic, quartic
 
 
 class PseudoOscillator:
@@ -61,19 +38,20 @@ class PseudoOscillator:
         return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
 
     @kept
-    def coefficients(self) -> tuple[Any, Any, Any, Any]:
+    def coefficients(self) -> tuple[Any, ...]:
         """Coefficients (a0, a1, a2, a3) of the cubic, (48)."""
-        with np.errstate(over="ignore", invalid="ignore"):
-            values = cubic(self.ratio, self.integrals)
-        finite(values, "A coefficient of the cubic (47)")
-        return values
+        return self._of_integrals(cubic, "A coefficient of the cubic (47)")
 
     @kept
-    def quartic_coefficients(self) -> tuple[Any, Any, Any, Any, Any]:
+    def quartic_coefficients(self) -> tuple[Any, ...]:
         """Coefficients (q0, ..., q4) of the first integral Q."""
+        return self._of_integrals(quartic, "A coefficient of the quartic")
+
+    def _of_integrals(self, formula: Callable[..., tuple[Any, ...]], name: str) -> tuple[Any, ...]:
+        I, *factors = shape_factors(self.ratio)
         with np.errstate(over="ignore", invalid="ignore"):
-            values = quartic(self.ratio, self.integrals)
-        finite(values, "A coefficient of the quartic")
+            values = formula(I, *vars(self.integrals).values(), factors)
+        finite(values, name)
         return values
 
     def acceleration(self, u: Any) -> Any:
