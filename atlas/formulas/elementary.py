@@ -5,6 +5,7 @@ Each formula takes I2, I3, B2, B3, omega2, and `omega3` where it is free, or the
 
 from atlas.formulas.domain import CASES, FREE
 from atlas.formulas.hyperbola import ordinate, precession, proper
+from atlas.formulas.integrals import along_field, integrals
 from atlas.formulas.numbers import Number, Vector, length
 
 
@@ -33,6 +34,14 @@ def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
 def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, Number]:
     """Return a vector along the axis, k and phi."""
     return constants(case, *inputs)[1:]
+
+
+def conserved(case: str, *inputs: Number) -> tuple[Number, ...]:
+    """Return E', (36), K^2, (37), c3, (40), c5, (41), and (m, B')/I2, (88), of the motion from (0, omega2, omega3)."""
+    I2, I3, B2, B3, omega2, _ = inputs
+    zero, omega3 = B2 - B2, constants(case, *inputs)[0]
+    state, factors = (I3 / I2, (zero, omega2, omega3), (zero, B2, B3)), ((I2 - I3) / I2, (I2 + I2 - I3) / I2)
+    return *integrals(*state, factors), along_field(*state)
 
 
 def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:

@@ -18,7 +18,7 @@ TOPICS = [path for path in sorted(Path(__file__).parent.glob("test_agreement_*.p
 TIES: list[Tie] = [tie for path in TOPICS for tie in runpy.run_path(str(path))["TIES"]]
 
 FORMULAS = {
-    "core": {"body", "euler_poisson", "inertia", "integrals", "pseudo_oscillator", "units"},
+    "core": {"body", "euler_poisson", "inertia", "integrals", "units"},
     "exact": {"body"},
 }
 """Modules whose functions are public quantities; of the others the classes are."""
@@ -137,8 +137,6 @@ UNTIED = {
     "inertia.inertia_tensor": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
     "units.system": NAME,
-    "integrals.invariants": "of a motion's exact inputs, tied by the invariants of motions",
-    "integrals.exact_invariants": "of a motion's exact inputs, tied by the invariants of motions",
 }
 """Public names without a tie, and why."""
 

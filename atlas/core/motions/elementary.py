@@ -1,5 +1,6 @@
 """Motions of a symmetric body in elementary functions, (58) to (88), and the free body beside them, (87)."""
 
+from collections.abc import Callable
 from functools import cached_property, partial
 from math import prod
 from typing import Any
@@ -13,12 +14,12 @@ from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ZERO, exact
 from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.inputs import FloatArray, components, kept, plain, real, turn_time
-from atlas.core.motions.integrals import integrals, invariants, shape_factors
+from atlas.core.motions.integrals import integrals, shape_factors
 from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.domain import CASES, FREE, case_of, check_omega3
-from atlas.formulas.elementary import constants, free, quotient, scalars, turning
+from atlas.formulas.elementary import conserved, constants, free, quotient, scalars, turning
 from atlas.formulas.integrals import NAMES
 from atlas.formulas.numbers import direction, nearest, workprec
 
@@ -139,13 +140,16 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         if not self.shape:
             k, phi = self._single().frequencies
             return self._single().omega3, nearest(k), nearest(phi), self._single().vector("m")[2]
-        table = np.empty((4, prod(self.shape)))
+        return self._table(scalars, (1,) * 4)
+
+    def _table(self, formula: Callable[..., Any], degree: tuple[int, ...]) -> FloatArray:
+        """Return results of a formula of the case and the inputs, each rounded once, (n, ...)."""
+        table = np.empty((len(degree), prod(self.shape)))
         for case, index, inputs in self._cases():
-            for row, value in zip(
-                table, over(partial(scalars, case), *inputs, unit=self._frequencies, degree=(1,) * 4), strict=True
-            ):
+            values = over(partial(formula, case), *inputs, unit=self._frequencies, degree=degree)
+            for row, value in zip(table, values, strict=True):
                 row[index] = np.ravel(value)
-        return table.reshape(4, *self.shape)
+        return table.reshape(-1, *self.shape)
 
     @cached_property
     def _codes(self) -> NDArray[np.intp]:
@@ -158,7 +162,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
         """Return each case that there is, its rows and their inputs; omega2 = 0 is on the curve like any other."""
         codes = np.where(self._codes == CASES.index("at rest"), CASES.index("precession"), self._codes).ravel()
-        *inputs, omega3 = self._inputs
+        *inputs, omega3 = map(np.asarray, self._inputs)
         inputs.append(np.zeros(()) if omega3.dtype == object else omega3)
         present = np.unique(codes)
         if present.size == 1:
@@ -206,8 +210,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
-            values = invariants(self.shape, *moments(self.ratio), *self.field, self.omega2, self.omega3)
-            return dict(zip(NAMES, map(plain, np.moveaxis(values, -1, 0)), strict=True))
+            return dict(zip(NAMES, map(plain, self._table(conserved, (2, 2, 1, 2, 2))), strict=True))
         Omega, K = self.angular_velocity(t), self.field_in_body(t)
         four = integrals(self.ratio, Omega, K)
         along = Omega * K * np.stack(np.broadcast_arrays(1.0, 1.0, shape_factors(self.ratio)[0]), -1)
