@@ -20,7 +20,7 @@ from atlas.exact.bodies.body import Moments
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.integrals import NAMES, constants
-from atlas.formulas.numbers import nearest, rational, workprec
+from atlas.formulas.numbers import nearest, quaternion_products, rational, workprec
 
 CONSTANTS = (*NAMES[:4], "(M,B')")
 """What a motion conserves, in this order."""
@@ -153,14 +153,7 @@ def exact_attitude(attitude: Any) -> list[list[fmpq]]:
         raise DomainError(f"The attitude must be a rotation matrix (3, 3), not of shape {R.shape}.")
     if np.abs(R.T @ R - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(R) < 0:
         raise DomainError("The attitude must be a rotation matrix: R^T R = 1 to 1e-9, and det R = 1.")
-    trace = np.trace(R)
-    table = np.array([
-        [trace, R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
-        [0, 2 * R[0, 0] - trace, R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
-        [0, 0, 2 * R[1, 1] - trace, R[1, 2] + R[2, 1]],
-        [0, 0, 0, 2 * R[2, 2] - trace],
-    ])  # fmt: skip
-    table = table + np.triu(table, 1).T + np.eye(4)
+    table: FloatArray = np.roll(quaternion_products(R.tolist()), 1, axis=(0, 1))  # the scalar first
     return matrix([rational(v) for v in table[np.argmax(np.diag(table))].tolist()])
 
 
