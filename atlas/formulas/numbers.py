@@ -135,8 +135,13 @@ def unit(vector: Vector) -> list[Number]:
 
 def alone(formula: Callable[..., Any], *inputs: float) -> Any:
     """Evaluate a formula on floats, which are taken as exact; each result is rounded once."""
+    return rounded(lambda *x: formula(*map(rational, x)), *inputs)
+
+
+def rounded(function: Callable[..., Any], *inputs: Any) -> Any:
+    """Return a number, or several, in 256 digits, each rounded once."""
     with workprec():
-        values = formula(*map(rational, inputs))
+        values = function(*inputs)
         return [nearest(x) for x in values] if isinstance(values, tuple | list) else nearest(values)
 
 

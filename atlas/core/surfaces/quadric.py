@@ -1,5 +1,6 @@
 """The quadric of initial data with constant Omega3, (51), its canonical form (54) to (57), and that of every top."""
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
 from atlas.formulas import quadric, top
 from atlas.formulas.domain import check_a2, check_a3, check_beta, check_D
-from atlas.formulas.numbers import nearest, workprec
+from atlas.formulas.numbers import rounded
 
 if TYPE_CHECKING:
     from atlas.exact.surfaces.top_quadric import TopQuadric as Exact
@@ -205,7 +206,7 @@ class TopQuadric(Quadric):
     def D(self) -> Any:
         """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once."""
         self._needs_finite()
-        return self._over(top.D, lambda exact: (exact.D,))
+        return self._over(top.D, lambda exact: exact.D)
 
     @kept
     def semi_axes(self) -> Any:
@@ -227,19 +228,14 @@ class TopQuadric(Quadric):
         Zero on the surface only. Raises AtlasError for what are no vectors.
         """
         points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
-        return self._over(top.residual, lambda exact, *w: (exact.residual(w),), *points)
+        return self._over(top.residual, lambda exact, *w: exact.residual(w), *points)
 
     def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:
         """Return what a formula gives in two words, and where these leave a doubt, its exact value, rounded once."""
-
-        def alone(*row: float) -> Any:
-            with workprec():
-                values = [nearest(x) for x in exact(_exactly(row[:8]), *row[8:])]
-            return values if isinstance(degree, tuple) else values[0]
-
         inputs = list(self._top)
         if along:
             inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])
+        alone = partial(rounded, lambda *row: exact(_exactly(row[:8]), *row[8:]))
         return over(top.of_given(formula), *inputs, *more, degree=degree, alone=alone)
 
     def _needs_finite(self) -> None:

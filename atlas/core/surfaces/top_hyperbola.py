@@ -1,6 +1,7 @@
 """The hyperbola of steady precessions of a symmetric top, theorem-top-hyperbola, and their stability."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.surfaces.top_quadric import TopHyperbola as Exact
 from atlas.formulas import top
-from atlas.formulas.numbers import nearest, workprec
+from atlas.formulas.numbers import nearest, rounded
 
 Branch = tuple[FloatArray, FloatArray]
 """Points (omega2, omega3) of one branch."""
@@ -65,7 +66,7 @@ class TopHyperbola(Shown):
 
     def omega3(self, omega2: Any) -> Any:
         """Ordinate omega3 at omega2, rounded once. DomainError at the pole; AtlasError for what is no number."""
-        return self._over(top.omega3, lambda w2: (self._exact.omega3(w2),), omega2)
+        return self._over(top.omega3, self._exact.omega3, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
         """Rates k = omega2/n2 of precession about n and phi = omega3 - n3 k of the turn about the axis.
@@ -80,7 +81,7 @@ class TopHyperbola(Shown):
 
         Where it is zero see `stable`. DomainError at the pole; AtlasError for what is no number.
         """
-        return self._over(top.stability, lambda w2: (self._exact.stability(w2),), omega2)
+        return self._over(top.stability, self._exact.stability, omega2)
 
     def stable(self, omega2: Any) -> Any:
         """Whether the motion at omega2 is stable against nutation, decided exactly: True, or an array of booleans.
@@ -141,11 +142,5 @@ class TopHyperbola(Shown):
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
         """Return what a formula gives at omega2, rounded once. DomainError at the pole."""
-
-        def alone(*row: float) -> Any:
-            with workprec():
-                values = [nearest(x) for x in exact(row[8])]
-            return values if isinstance(degree, tuple) else values[0]
-
-        values = real(omega2, "omega2", RATE)
+        values, alone = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
         return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=alone)
