@@ -260,15 +260,7 @@ class Charge:
             with workprec():
                 return [rounded(x) for x in _sequence(formula(*map(rational, row)))]
 
-        if not np.ndim(self.mu):
-            with workprec():
-                return np.array([rounded(x) for x in _sequence(formula(*self._row))])
         return np.array(over(lambda *x: _sequence(formula(*x)), *self.safe, degree=(0,) * count, alone=alone))
-
-    @cached_property
-    def _row(self) -> list[Number]:
-        """What one particle is made of, as exact numbers."""
-        return [rational(float(x)) for x in self.safe]
 
 
 def _any(components: Any) -> Any:
