@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import DomainError
 
 if TYPE_CHECKING:
     from atlas.formulas.numbers import Number
@@ -74,15 +74,6 @@ def check_direction(n2: Number, n3: Number) -> None:
 def check_ball(inertia: Number) -> None:
     """Raise DomainError for an inertia that is not positive."""
     refuse(inertia <= 0, "The inertia of a ball must be positive, not {}.", inertia)
-
-
-def check_shape(name: str, shapes: Any, names: Any, dimensions: Any) -> None:
-    """Raise AtlasError for a shape that there is not, and for other dimensions than its `names(name)`."""
-    if name not in shapes:
-        raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(shapes)}.")
-    if set(dimensions) != set(names(name)):
-        dimensions_given = ", ".join(dimensions) or "nothing"
-        raise AtlasError(f"The shape {name} is given by {', '.join(names(name))}, not by {dimensions_given}.")
 
 
 def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> str:

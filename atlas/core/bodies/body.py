@@ -17,7 +17,8 @@ from atlas.core.inputs import FloatArray, common_shape, matrix, plain, real
 from atlas.core.quantities import INERTIA, LENGTH, MASS
 from atlas.core.shown import notebook
 from atlas.errors import AtlasError, DomainError
-from atlas.formulas.domain import NO_SUCH_BODY, ROD, check_ratio, check_shape
+from atlas.formulas import shapes as formulas
+from atlas.formulas.domain import NO_SUCH_BODY, ROD, check_ratio
 
 __all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
 
@@ -110,9 +111,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2 = _sizes(mass, ("The radius", radius))
-        across = m * R2 / 2
-        return cls(across, 2 * across)
+        return cls(*_of_shape("ring", mass, radius))
 
     @classmethod
     def disk(cls, mass: Any, radius: Any) -> Self:
@@ -120,9 +119,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2 = _sizes(mass, ("The radius", radius))
-        across = m * R2 / 4
-        return cls(across, 2 * across)
+        return cls(*_of_shape("disk", mass, radius))
 
     @classmethod
     def cylindrical_shell(cls, mass: Any, radius: Any, height: Any) -> Self:
@@ -130,8 +127,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = _sizes(mass, ("The radius", radius), ("The height", height))
-        return cls(m * (R2 / 2 + h2 / 12), m * R2)
+        return cls(*_of_shape("cylindrical_shell", mass, radius, height))
 
     @classmethod
     def solid_cylinder(cls, mass: Any, radius: Any, height: Any) -> Self:
@@ -139,8 +135,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = _sizes(mass, ("The radius", radius), ("The height", height))
-        return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
+        return cls(*_of_shape("solid_cylinder", mass, radius, height))
 
     @classmethod
     def thin_rod(cls, mass: Any, length: Any) -> Self:
@@ -148,8 +143,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, l2 = _sizes(mass, ("The length", length))
-        return cls(m * l2 / 12, 0.0)
+        return cls(*_of_shape("thin_rod", mass, length))
 
     @classmethod
     def sphere(cls, mass: Any, radius: Any) -> Self:
@@ -157,9 +151,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2 = _sizes(mass, ("The radius", radius))
-        moment = 2 * m * R2 / 5
-        return cls(moment, moment)
+        return cls(*_of_shape("sphere", mass, radius))
 
     @classmethod
     def spherical_shell(cls, mass: Any, radius: Any) -> Self:
@@ -167,9 +159,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2 = _sizes(mass, ("The radius", radius))
-        moment = 2 * m * R2 / 3
-        return cls(moment, moment)
+        return cls(*_of_shape("spherical_shell", mass, radius))
 
     @classmethod
     def spheroid(cls, mass: Any, equatorial: Any, polar: Any) -> Self:
@@ -177,8 +167,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, a2, c2 = _sizes(mass, ("The equatorial radius", equatorial), ("The polar radius", polar))
-        return cls(m * (a2 / 5 + c2 / 5), 2 * m * (a2 / 5))
+        return cls(*_of_shape("spheroid", mass, equatorial, polar))
 
     @classmethod
     def from_point_masses(cls, masses: Any, positions: Any, *, tolerance: float = 1e-9) -> Self:
@@ -226,39 +215,33 @@ class SymmetricBody:
 
 
 SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
-    "ring": (SymmetricBody.ring, ("mass", "radius")),
-    "disk": (SymmetricBody.disk, ("mass", "radius")),
-    "cylindrical_shell": (SymmetricBody.cylindrical_shell, ("mass", "radius", "height")),
-    "solid_cylinder": (SymmetricBody.solid_cylinder, ("mass", "radius", "height")),
-    "thin_rod": (SymmetricBody.thin_rod, ("mass", "length")),
-    "sphere": (SymmetricBody.sphere, ("mass", "radius")),
-    "spherical_shell": (SymmetricBody.spherical_shell, ("mass", "radius")),
-    "spheroid": (SymmetricBody.spheroid, ("mass", "equatorial", "polar")),
+    name: (getattr(SymmetricBody, name), names) for name, (names, _) in formulas.SHAPES.items()
 }
 """Shapes by name: the constructor and the names of its dimensions."""
 
 
 def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
     """Make the body `SHAPES[name]` from its dimensions, all of them and no others."""
-    check_shape(name, SHAPES, lambda name: SHAPES[name][1], dimensions)
+    formulas.check_shape(name, dimensions)
     return SHAPES[name][0](**dimensions)
 
 
-FLAT = ("The height", "The polar radius")
-"""Lengths that may be zero."""
+WORDS = {"equatorial": "equatorial radius", "polar": "polar radius"}
+"""Dimensions whose names are other words."""
 
 
-def _sizes(mass: Any, *lengths: tuple[str, Any]) -> list[Any]:
-    """Return a mass and the squares of lengths, numbers or arrays. Raises AtlasError unless they are positive."""
-    named = [("The mass", mass, MASS), *((name, length, LENGTH) for name, length in lengths)]
-    sizes = [real(value, name, unit) for name, value, unit in named]
-    for (name, _, _), value in zip(named, sizes, strict=True):
-        for impossible in value[(value < 0) if name in FLAT else (value <= 0)].flat[:1]:
-            raise DomainError(f"{name} must be positive, not {impossible}.")
+def _of_shape(name: str, *given: Any) -> Any:
+    """Return I2 and I3 of a shape of these sizes, numbers or arrays. Raises AtlasError unless they are positive."""
+    names, formula = formulas.SHAPES[name]
+    named = {key: f"The {WORDS.get(key, key)}" for key in names}
+    sizes = [real(x, named[key], MASS if key == "mass" else LENGTH) for key, x in zip(names, given, strict=True)]
+    for key, value in zip(names, sizes, strict=True):
+        for impossible in value[(value < 0) if key in formulas.FLAT else (value <= 0)].flat[:1]:
+            raise DomainError(f"{named[key]} must be positive, not {impossible}.")
     common_shape(*(value.shape for value in sizes))
-    m, *rest = map(plain, sizes)
+    m, *lengths = map(plain, sizes)
     with np.errstate(over="ignore"):  # what is too large is refused as a moment
-        return [m, *(length * length for length in rest)]
+        return formula(m, *(x * x for x in lengths))
 
 
 def _frame(axis: FloatArray) -> FloatArray:

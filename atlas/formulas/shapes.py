@@ -1,0 +1,31 @@
+"""Moments of inertia of homogeneous shapes, (8), from their mass and the squares of their dimensions."""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from atlas.errors import AtlasError
+
+SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[Any, Any]]]] = {
+    "ring": (("mass", "radius"), lambda m, R2: (m * R2 / 2, m * R2 / 2 * 2)),
+    "disk": (("mass", "radius"), lambda m, R2: (m * R2 / 4, m * R2 / 4 * 2)),
+    "cylindrical_shell": (("mass", "radius", "height"), lambda m, R2, h2: (m * (R2 / 2 + h2 / 12), m * R2)),
+    "solid_cylinder": (("mass", "radius", "height"), lambda m, R2, h2: (m * (R2 / 4 + h2 / 12), m * (R2 / 2))),
+    "thin_rod": (("mass", "length"), lambda m, l2: (m * l2 / 12, 0 * m)),
+    "sphere": (("mass", "radius"), lambda m, R2: (2 * m * R2 / 5, 2 * m * R2 / 5)),
+    "spherical_shell": (("mass", "radius"), lambda m, R2: (2 * m * R2 / 3, 2 * m * R2 / 3)),
+    "spheroid": (("mass", "equatorial", "polar"), lambda m, a2, c2: (m * (a2 / 5 + c2 / 5), 2 * m * (a2 / 5))),
+}
+"""Shapes by name: their dimensions and their two moments, I3 = 2 I2 to the last bit where they are plane."""
+
+FLAT = ("height", "polar")
+"""Dimensions that may be zero."""
+
+
+def check_shape(name: str, dimensions: Iterable[str]) -> None:
+    """Raise AtlasError for a shape that there is not, and for other dimensions than its own."""
+    if name not in SHAPES:
+        raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
+    names, given = SHAPES[name][0], list(dimensions)
+    if set(given) != set(names):
+        dimensions_given = ", ".join(given) or "nothing"
+        raise AtlasError(f"The shape {name} is given by {', '.join(names)}, not by {dimensions_given}.")
