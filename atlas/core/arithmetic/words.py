@@ -1,17 +1,25 @@
 """Numbers of flint cut into doubles: axes and frequencies are made in 256 digits, and kept in words."""
 
+from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 from flint import arb, fmpq
 
+from atlas.core.inputs import FloatArray
 from atlas.formulas.numbers import BITS, Number, nearest, rational, workprec
 
-__all__ = ["BITS", "ONE", "TURN", "ZERO", "exact", "magnitude", "middle", "scaled", "turn_of", "words"]
+__all__ = ["BITS", "ONE", "TURN", "ZERO", "exact", "floats", "magnitude", "middle", "scaled", "turn_of", "words"]
 
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
     """Return each double as the number it is."""
     return tuple(rational(float(x)) for x in numbers)
+
+
+def floats(numbers: Iterable[Number]) -> FloatArray:
+    """Return numbers, each rounded once."""
+    return np.array([nearest(x) for x in numbers])
 
 
 def middle(x: Number) -> arb:

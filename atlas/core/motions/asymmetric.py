@@ -7,6 +7,7 @@ import numpy as np
 from flint import arb
 
 from atlas.core.arithmetic.rotation import target
+from atlas.core.arithmetic.words import floats
 from atlas.core.inputs import FloatArray, components, finite, kept, plain, real
 from atlas.core.motions.certified import Certified
 from atlas.core.motions.clebsch_theta import LOST, ThetaKernel, closed_form
@@ -17,7 +18,7 @@ from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.motions.elliptic import EllipticMotion, EulerTop
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import nearest
 
 BITS = 60
 """Relative accuracy of a frequency before it is rounded, once."""
@@ -76,7 +77,7 @@ class SingleAsymmetric:
         """Return the closed form by Jacobi's functions, and what is known of it, or why it is not taken."""
         try:
             if isinstance(exact, EulerTop):
-                single: SingleElliptic = SingleEulerTop(exact, _floats(self.exact.field))
+                single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
             else:
                 single = SingleElliptic(exact)
             single.parts  # noqa: B018  what floats do not hold is refused here
@@ -141,11 +142,11 @@ class SingleAsymmetric:
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
-        return self._started("angular_velocity", _floats(self.exact.omega), t, out)
+        return self._started("angular_velocity", floats(self.exact.omega), t, out)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t), shape (..., 3)."""
-        return self._started("field_in_body", _floats(self.exact.field), t, out)
+        return self._started("field_in_body", floats(self.exact.field), t, out)
 
     def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *which: int) -> FloatArray:
         """Return the values of a function of time, which is known at zero, without a closed form."""
@@ -224,22 +225,22 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     @kept
     def H(self) -> Any:
         """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson. DomainError beyond all floats."""
-        return finite(self._of_each(lambda single: _float(single.exact.H)), "H")
+        return finite(self._of_each(lambda single: nearest(single.exact.H)), "H")
 
     @kept
     def F(self) -> Any:
         """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch. DomainError beyond all floats."""
-        return finite(self._of_each(lambda single: _float(single.exact.F)), "F")
+        return finite(self._of_each(lambda single: nearest(single.exact.F)), "F")
 
     @kept
     def MK(self) -> Any:
         """The Casimir (M, K), |B'| times the canonical momentum along B. DomainError beyond all floats."""
-        return finite(self._of_each(lambda single: _float(single.exact.MK)), "(M, K)")
+        return finite(self._of_each(lambda single: nearest(single.exact.MK)), "(M, K)")
 
     @kept
     def energy(self) -> Any:
         """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy. DomainError beyond all floats."""
-        return finite(self._of_each(lambda single: _float(single.exact.energy)), "The energy")
+        return finite(self._of_each(lambda single: nearest(single.exact.energy)), "The energy")
 
     @kept
     def agreement(self) -> Any:
@@ -264,9 +265,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
         Raises DomainError for other motions.
         """
-        frequencies = self._of_each(
-            lambda single: [_float(x) for x in enclosed(lambda: single.exact.frequencies, BITS)]
-        )
+        frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
     @property
@@ -320,14 +319,3 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         (single.closed or single.certified).fill_grid(start, step, out)
         if step and (start / step).is_integer() and 0 <= -start / step < len(out):
             out[round(-start / step)] = np.eye(3)
-
-
-def _float(x: Any) -> float:
-    """Return the float nearest to a rational number."""
-    with workprec():
-        return float(arb(x).mid())
-
-
-def _floats(vector: Any) -> FloatArray:
-    """Return the floats nearest to rational numbers."""
-    return np.array([_float(x) for x in vector])

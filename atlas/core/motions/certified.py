@@ -8,13 +8,14 @@ from flint import arb
 
 from atlas.core.arithmetic.quaternions import of_matrix, product
 from atlas.core.arithmetic.rotation import target
+from atlas.core.arithmetic.words import floats
 from atlas.core.inputs import FloatArray, real
 from atlas.core.motions.euler_poisson import angular_acceleration, field_rate
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.exact.digits import numbers
 from atlas.exact.inputs import rational
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.formulas.numbers import nearest, workprec
+from atlas.formulas.numbers import workprec
 
 FIRST = 80
 """Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
@@ -61,9 +62,7 @@ class Certified:
 
     def _followed(self, times: FloatArray) -> FloatArray:
         """Return quaternions (m, 4) at times (m,) by Runge and Kutta's steps from t = 0, good to some digits."""
-        inertia, K, Omega = (
-            np.array([nearest(arb(x)) for x in v]) for v in (self.exact.inertia, self.exact.field, self.exact.omega)
-        )
+        inertia, K, Omega = map(floats, (self.exact.inertia, self.exact.field, self.exact.omega))
         quaternions = np.empty((times.size, 4))
         for side in (times >= 0, times < 0):
             y, now = np.concatenate([K, Omega, [0.0, 0.0, 0.0, 1.0]]), 0.0

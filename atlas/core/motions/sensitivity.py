@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import fmpq
 
+from atlas.core.arithmetic.words import floats
 from atlas.core.inputs import FloatArray, common_shape, real
 from atlas.core.motions.sensitivity_inputs import (
     Inputs,
-    floats,
     of_asymmetric,
     of_ball,
     of_elementary,

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import arb, fmpq
 
+from atlas.core.arithmetic.words import floats
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.motions.clebsch_variations import TorusVaried
@@ -24,7 +25,7 @@ from atlas.exact.nutation.differences import Differences
 from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.variations import Constants, TooNearError, constants, variations
 from atlas.formulas import ball, elementary
-from atlas.formulas.numbers import direction, rational, workprec
+from atlas.formulas.numbers import direction, rational
 
 NUTATION = ("period", "precession_per_period", "spin_per_period", "precession_rate", "spin_rate", "modulus", "nome")
 """Scalars of motions that nutate, and of the others."""
@@ -114,12 +115,6 @@ class Turns(NamedTuple):
 def _size(*rates: fmpq) -> fmpq:
     """Return the largest, 1 if all are zero."""
     return max((abs(x) for x in rates), default=fmpq(0)) or fmpq(1)
-
-
-def floats(values: Sequence[fmpq]) -> FloatArray:
-    """Return numbers rounded once."""
-    with workprec():
-        return np.array([float(arb(x).mid()) for x in values])
 
 
 def _nutation() -> dict[str, Callable[[Nutating], Any]]:

@@ -4,7 +4,7 @@ The steps of the means make, of the distances p^2 = |f(far)| near/(4 far) of a p
 kind (Gauss), and, of p = M coth y, the depth y of the zero: p' = (p^2 + a g)/(2 p) = M coth 2y.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -130,16 +130,15 @@ class Pair:
     @cached_property
     def sums(self) -> Sums:
         """The sums, of exp(i k y) times the depth's exponential to the power k, and of its inverse."""
-        zeros, circle, square = self.zeros, self.means.start, self.means.nome * self.means.nome
+        zeros, square = self.zeros, self.means.nome * self.means.nome
         up, sign = zeros.growth, np.where(zeros.beside, -1.0, 1.0)
         down, weight, power = ONE / up, constant(1.0, self.means.nome), constant(1.0, self.means.nome)
-        more, less, before = up * up, down * down, (circle[0], -circle[1])
-        twice = (circle[0] * circle[0] - circle[1] * circle[1]).scaled(1)
+        more, less = up * up, down * down
         even, odd = np.zeros((2, TERMS, *up.hi.shape))
         terms, matters = np.ones(weight.hi.shape, dtype=int), np.ones(weight.hi.shape, dtype=bool)
         zero = constant(0.0, up)
         sums, ends = (zero, zero), (zero, zero)
-        for n in range(TERMS):
+        for n, circle in zip(range(TERMS), multiples(*self.means.start), strict=False):
             flip = self._signs[n] * np.where(zeros.beside, (-1.0) ** n, 1.0)
             weights, lower = signed(weight, flip), signed(down, sign)
             # a term that does not matter in a row is none of it, whatever the rows beside it need
@@ -149,8 +148,6 @@ class Pair:
             ends = ends[0] + a, ends[1] + signed(b, (-1.0) ** n)
             power = power * square
             up, down, weight = up * more, down * less, weight * power
-            first, second = circle
-            circle, before = (twice * first - before[0], twice * second - before[1]), circle
             size = weight.hi * np.maximum(up.hi, down.hi)
             matters &= (size > NEGLIGIBLE * np.maximum(abs(even[0]), abs(odd[0]))).any(axis=0)
             terms[matters] = n + 2
@@ -167,20 +164,17 @@ class Pair:
     def change(self) -> Change:
         """What Omega3 changes by."""
         r, square = self.means.roots, self.means.nome * self.means.nome
-        circle = self.means.start
-        before, twice = (circle[0], -circle[1]), (circle[0] * circle[0] - circle[1] * circle[1]).scaled(1)
         weight, power = constant(1.0, square), constant(1.0, square)
         zero = constant(0.0, square)
         weights, at_low, at_high = np.zeros((TERMS, *square.hi.shape)), zero, zero
-        for n in range(min(int(self.sums.terms.max(initial=1)), TERMS)):
-            cos, sin = circle
+        count = min(int(self.sums.terms.max(initial=1)), TERMS)
+        for n, (cos, sin) in zip(range(count), multiples(*self.means.start), strict=False):
             signs = self._signs[n]
             weight = chosen(self.sums.terms > n, weight, zero)
             weights[n] = weight.hi * signs * (-1.0) ** n
             at_low, at_high = at_low + signed(weight, signs * (-1.0) ** n) * sin, at_high + signed(weight, signs) * cos
             power = power * square
             weight = weight * power
-            circle, before = (twice * cos - before[0], twice * sin - before[1]), circle
         by_low, by_high = (self._length(x) for x in self.sums.ends)
         below, above = -r.low * by_low / (at_low * at_low), r.high * by_high / (at_high * at_high)
         return Change(chosen(abs(at_low.hi) > abs(at_high.hi), below, above), weights)
@@ -204,18 +198,18 @@ class Pair:
     def _by_slopes(self) -> Any:
         """The same where alpha or beta is zero at the start: by its derivative."""
         cos, sin = (x.hi for x in self.means.start)
-        terms = zip(range(1, 2 * TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin, TERMS), strict=True)
+        terms = zip(range(1, 2 * TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
         slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
         return self.sphere.slopes / (2 * self.means.rate.hi * slopes)
 
 
-def multiples(cos: FloatArray, sin: FloatArray, count: int) -> list[tuple[FloatArray, FloatArray]]:
-    """Return cosines and sines of an angle times 1, 3, 5 ..."""
-    twice, circles = 2 * (cos * cos - sin * sin), [(cos, -sin), (cos, sin)]
-    while len(circles) <= count:
-        (x, y), (u, v) = circles[-2:]
-        circles.append((twice * u - x, twice * v - y))
-    return circles[1:]
+def multiples(cos: Any, sin: Any) -> Iterator[tuple[Any, Any]]:
+    """Yield cosines and sines of an angle times 1, 3, 5 ..., in doubles or in two words."""
+    cosine = cos * cos - sin * sin
+    twice, before, circle = cosine + cosine, (cos, -sin), (cos, sin)
+    while True:
+        yield circle
+        circle, before = (twice * circle[0] - before[0], twice * circle[1] - before[1]), circle
 
 
 def _steps(
