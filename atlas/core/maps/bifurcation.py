@@ -52,7 +52,7 @@ class Conserved:
 
 def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
     """Return (M3, p, h) of states, theorem-top; `Omega`, `K` (..., 3) in the body, 1/time, K not 0."""
-    I = _ratio(ratio)
+    I = number(shape_factors(ratio)[0], "The ratio I")
     spin, field = vectors(Omega, "Omega"), vectors(K, "K")
     invariants, b = clebsch(I, spin, field), np.linalg.norm(field, axis=-1)
     if not np.all(b):
@@ -71,11 +71,6 @@ def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
     I, less, _ = shape_factors(ratio)
     b, M3 = real(b, "b"), real(M3, "M3")
     return plain(M3 * M3 / I + b * b + Wells(M3, -less * b * b).potential(p, nu))
-
-
-def _ratio(ratio: Any) -> float:
-    """Return I as one float."""
-    return number(shape_factors(ratio)[0], "The ratio I")
 
 
 Oval = Literal["bounded", "unbounded"]

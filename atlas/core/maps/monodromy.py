@@ -16,8 +16,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from flint import arb, fmpq
+from flint import arb
 
+from atlas.core.arithmetic.words import exact
 from atlas.core.bodies.symmetric_top import inputs_of_top
 from atlas.core.inputs import FloatArray, whole
 from atlas.core.maps.bifurcation import Bifurcation
@@ -201,11 +202,8 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
     step = 0.0
     for F, H in [*loop.tolist(), loop[0].tolist()]:
         state = _with_values(bifurcation, state, np.array([H, F, bifurcation.b * bifurcation.b, bifurcation.c]))
-        W, K = (
-            [fmpq(*x.as_integer_ratio()) for x in half.tolist()]
-            for half in (state[:3] / bifurcation.inertia, state[3:])
-        )
-        torus = Torus(tuple(fmpq(*I.as_integer_ratio()) for I in bifurcation.inertia.tolist()), tuple(W), tuple(K))
+        I, W, K = (exact(*x) for x in (bifurcation.inertia, state[:3] / bifurcation.inertia, state[3:]))
+        torus = Torus(I, W, K)
         basis = np.array([[float(period.H), float(period.F)] for period in torus.periods(64)])
         if bases:
             part = bases[-1] @ np.linalg.inv(basis)

@@ -65,13 +65,15 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned
 
 def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) -> tuple[Any, FloatArray]:
     """Return the motion, and the axes of its class, as rows, in those of the body."""
-    I, different = body.moments, _different(body.moments)
+    I = body.moments
+    first, last, outer = (I[..., i] == I[..., j] for i, j in ((0, 1), (1, 2), (0, 2)))
+    different = ~(first | last | outer)
     if different.any():
         if not different.all():
             raise DomainError("Some of these bodies are symmetric and some are not: make one array of each.")
         own = AsymmetricMotion(_parts(I), _parts(np.matvec(body.axes, K)), _parts(np.matvec(body.axes, w)))
         return own, body.axes
-    third = np.where(_equal(I, 0, 1), 2, np.where(_equal(I, 1, 2), 0, 1))
+    third = np.where(first, 2, np.where(last, 0, 1))
     order = (third[..., None] + np.array([1, 2, 3])) % 3
     axes = np.take_along_axis(np.broadcast_to(body.axes, (*I.shape, 3)), order[..., None], axis=-2)
     I2, I3 = (plain(np.take_along_axis(I, order[..., i : i + 1], axis=-1)[..., 0]) for i in (0, 2))
@@ -174,14 +176,6 @@ def _joined(I: FloatArray) -> FloatArray:
         close = abs(I[..., i] - I[..., j]) <= EQUAL * abs(I).max(axis=-1)
         I[..., j] = np.where(close, I[..., i], I[..., j])
     return I
-
-
-def _equal(I: FloatArray, i: int, j: int) -> Any:
-    return I[..., i] == I[..., j]
-
-
-def _different(I: FloatArray) -> Any:
-    return ~(_equal(I, 0, 1) | _equal(I, 1, 2) | _equal(I, 0, 2))
 
 
 def _parts(v: FloatArray) -> tuple[Any, Any, Any]:

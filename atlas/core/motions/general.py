@@ -31,12 +31,9 @@ ORTHOGONAL = 1e-9
 
 def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> SingleGeneral:
     """Return the motion with R(0) = 1 in the field (0, B2, B3)."""
-    return SingleGeneral(_balls(I2, I3, B2, B3, *omega), np.eye(3), (I2, I3, B2, B3, *omega))
-
-
-def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
     with workprec(FIRST):
-        return Balls(Moments(I2, I3), (B2, B3), omega)
+        exact = Balls(Moments(I2, I3), (B2, B3), omega)
+    return SingleGeneral(exact, np.eye(3), (I2, I3, B2, B3, *omega))
 
 
 class GeneralMotion(SymmetricMotion[SingleGeneral]):

@@ -165,13 +165,10 @@ class SymmetricMotion(NutatingMotion[Nutation]):
     @kept
     def turning_points(self) -> tuple[Any, Any]:
         """Least and largest Omega3, of tops nu = cos theta; on a separatrix one is approached and never reached."""
-        ends = self._each("turning_points", ends_of)
+        ends = self._each(
+            "turning_points", lambda exact: [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
+        )
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
-
-
-def ends_of(exact: Any) -> list[float]:
-    """Return the turning points as floats."""
-    return [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
 
 
 def padded(roots: list[Any]) -> Any:

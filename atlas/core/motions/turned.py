@@ -74,7 +74,8 @@ class Turned(Motion[Any]):
         """Column j = 1, 2, 3 of R(t), as `Motion.column`."""
         left, right = self._sides
         if right is None:
-            return _by(left, self.own.column(j, t))
+            column = self.own.column(j, t)
+            return column if left is None else np.asarray(np.matvec(left, column))
         check_column(j)
         return np.ascontiguousarray(self.rotation(t)[..., j - 1])
 
@@ -131,10 +132,6 @@ def _copied(value: Any) -> Any:
     if isinstance(value, tuple | list):
         return type(value)(map(_copied, value))
     return value.copy() if isinstance(value, np.ndarray) else value
-
-
-def _by(left: FloatArray | None, v: FloatArray) -> FloatArray:
-    return v if left is None else np.asarray(np.matvec(left, v))
 
 
 @cache
