@@ -7,6 +7,7 @@ different sizes.
 
 from collections.abc import Callable
 from functools import cached_property
+from itertools import islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -169,8 +170,8 @@ class Pairs:
             start = cos[2] * c.start[0] - sin[2] * c.start[1], sin[2] * c.start[0] + cos[2] * c.start[1]
             self.turn = cos[2], sin[2]
             self.circle = start
-            terms = zip(range(c.terms.max(initial=1)), c.even, c.odd, multiples(*start), strict=False)
-            sums = sum(a * x + 1j * (b * y) for _, a, b, (x, y) in terms)
+            circles = [*islice(multiples(*start), c.terms.max(initial=1))]
+            sums = sum(a * x + 1j * (b * y) for a, b, (x, y) in zip(c.even, c.odd, circles, strict=False))
             self.turned = (cos[:2] + 1j * sin[:2]) * c.factor
             self.pair = sums * self.turned
             self.square = (self.pair.real**2 + self.pair.imag**2).sum(axis=0)
@@ -219,8 +220,8 @@ class Pairs:
         count, (cos, sin), (c, s) = self.constants.terms.max(initial=1), self.turn, third.start
         product = third.size / self.square
         for start in ((cos, sin), (cos * c - sin * s, sin * c + cos * s)):
-            terms = zip(range(count), third.weights, multiples(*start), strict=False)
-            product = product * sum(a * x for _, a, (_, x) in terms)
+            circles = [*islice(multiples(*start), count)]
+            product = product * sum(a * x for a, (_, x) in zip(third.weights, circles, strict=False))
         return np.asarray(third.value + product)
 
     def _entry(self, i: int, j: int) -> FloatArray:
@@ -247,7 +248,8 @@ def velocity(pair: Pairs, out: FloatArray) -> FloatArray:
     """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
     c, rates = pair.constants, pair.constants.rates
     with np.errstate(all="ignore"):
-        terms = zip(range(1, 2 * c.terms.max(initial=1), 2), c.even, c.odd, multiples(*pair.circle), strict=False)
+        circles = [*islice(multiples(*pair.circle), c.terms.max(initial=1))]
+        terms = zip(range(1, 2 * len(circles), 2), c.even, c.odd, circles, strict=False)
         rising = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
         slope = 1j * rates[:2] * pair.pair + rates[2] * rising * pair.turned
         sizes = (abs(c.even) + abs(c.odd)) * (2 * np.arange(len(c.even)) + 1)[:, None, None]
