@@ -163,8 +163,8 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
 def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 3000 ordinary motions, and as many that start at a turning point, none is made alone for kind and period."""
     made = []
-    balls = general._balls
-    monkeypatch.setattr(general, "_balls", lambda *row: made.append(row) or balls(*row))
+    balls = general.Balls
+    monkeypatch.setattr(general, "Balls", lambda *row: made.append(row) or balls(*row))
     inputs = ordinary(3000, 3)
     motions = GeneralMotion(*inputs)
     assert motions.kind.shape == motions.period.shape == motions.nome.shape == (3000,)
