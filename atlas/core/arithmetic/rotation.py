@@ -248,7 +248,8 @@ def evaluate(
 ) -> FloatArray:
     """Return what ``prepare(size)(t, rows)`` writes, block by block, for times of any shape; rows (m, prod(shape))."""
     out = target(out, times.shape + shape)
-    rows, flat = out.reshape(times.size, prod(shape)), np.ascontiguousarray(times).reshape(-1)
+    rows = out.reshape(times.size, prod(shape))
+    flat: Any = times.reshape(-1) if times.flags.c_contiguous else times.flat
 
     def part(low: int, high: int) -> None:
         fill = prepare(min(high - low, BLOCK))
