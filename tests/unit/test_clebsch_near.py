@@ -73,6 +73,24 @@ def test_real_periods_have_no_imaginary_part(case: tuple[tuple[float, ...], ...]
             assert abs(float(x.imag.mid())) < 1e-30 * max(abs(float(y.real.mid())) for y in period[:2])
 
 
+@pytest.mark.parametrize("apart", [1e-10, 1e-6])
+def test_a_start_far_from_the_real_times_keeps_its_attitude(apart: float) -> None:
+    """There a factor of N, exp(i l zeta), is below all floats; the motion is the certified one."""
+    single = SingleAsymmetric(AsymmetricMotion((1.0, 1 + apart, 1.5), (0.832, -0.546, 0.101), (-0.127, -0.716, -0.105)))
+    t = np.array([2.0, -5.0])
+    assert single.theta.fits
+    np.testing.assert_allclose(single.theta.rotation(t), single.certified.rotation(t), atol=single.accuracy)
+
+
+@pytest.mark.slow
+def test_motions_whose_periods_are_too_long_are_held_against_the_twin_where_it_is() -> None:
+    """Each attempt at such a period takes seconds: it is made once."""
+    motion = atlas.AsymmetricMotion((1.0, 1.000001, 1.5), (0.832, -0.546, 0.101), (-0.127, -0.716, -0.105))
+    assert "agrees with the certified twin" in motion.agreement
+    assert "at 2 times up to |t| = 74.2" in motion.agreement
+    assert abs(motion.rotation(1e6) @ motion.rotation(1e6).T - np.eye(3)).max() < 1e-14
+
+
 @pytest.mark.slow
 def test_periods_too_long_to_be_gone_are_an_error_in_one_line() -> None:
     """Moments of a ball but for a billionth: times up to a limit have an answer, and it is said why no others have."""

@@ -58,16 +58,20 @@ class SingleAsymmetric:
         closed, known = self._first
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, known
-        times = CHECKED if closed.proved is None else CHECKED[-1:]
-        try:
-            worst = max(self._difference(closed, t / self.size) for t in times)
-        except NotCertifiedError as reason:
-            return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
+        times, differences = [t / self.size for t in (CHECKED if closed.proved is None else CHECKED[-1:])], []
+        for t in times:
+            try:
+                differences.append(self._difference(closed, t))
+            except NotCertifiedError as reason:  # its periods are too long to be proved
+                if not differences:
+                    return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
+                break
+        worst, times = max(differences), times[: len(differences)]
         if not worst <= min(closed.accuracy, WORST):
             return None, f"certified at each time: theta functions differ from the certified twin by {worst:.1e}."
         known = (
             f"not proved; agrees with the certified twin within {worst:.1e} at {len(times)} times up to |t| = "
-            f"{max(map(abs, times)) / self.size:.3g}"
+            f"{max(map(abs, times)):.3g}"
             if closed.proved is None
             else f"proved for this motion, at all times within {closed.proved:.1e}"
         )

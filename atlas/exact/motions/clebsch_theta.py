@@ -283,10 +283,9 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
     adjoint = A.transpose().conjugate()
     solution = (adjoint * A).solve(adjoint * B)
     rest = A * solution - B
-    size = max(abs(complex_of(x)) for x in values) or 1.0
-    return [centre(solution[i, 0]) for i in range(A.ncols())], max(
-        abs(complex_of(rest[i, 0])) for i in range(A.nrows())
-    ) / size
+    size = max(abs(x).mid() for x in values) or arb(1)  # they may be too small for a float
+    error = max(abs(rest[i, 0]).mid() for i in range(A.nrows())) / size
+    return [centre(solution[i, 0]) for i in range(A.ncols())], float(error.mid())
 
 
 def _null(rows: list[Vector]) -> tuple[Vector, float]:

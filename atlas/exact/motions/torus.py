@@ -56,6 +56,7 @@ class Torus:
         self.flow = Flow(moments, W, K)
         self._starts: list[tuple[fmpq, fmpq]] | None = None
         self._known: dict[int, tuple[Period, Period]] = {}
+        self._lost = 0, ""
 
     @property
     def integrals(self) -> Integrals:
@@ -75,13 +76,16 @@ class Torus:
         """Return two periods with so many bits; NotCertifiedError where none are found."""
         bits = min((known for known in self._known if known >= bits), default=-(-bits // 32) * 32)
         if bits not in self._known:
-            starts = self._approximate()
+            lost, reason = self._lost
+            if bits <= lost:  # a long way, which no fewer bits go
+                raise NotCertifiedError(reason)
             try:
-                first, second = (self._enclosed(start, bits) for start in starts)
-            except NotCertifiedError:  # near an unstable spin errors may grow beyond the bounds of so few bits
-                if 2 * bits > GOOD:
+                first, second = (self._enclosed(start, bits) for start in self._approximate())
+            except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
+                if bits >= GOOD:
+                    self._lost = bits, str(why)
                     raise
-                first, second = self.periods(2 * bits)
+                first, second = self.periods(GOOD)
             self._known[bits] = first, second
         return self._known[bits]
 
