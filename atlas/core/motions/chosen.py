@@ -170,11 +170,15 @@ def _of_moments(moments: Any, axes: FloatArray) -> Body:
 
 
 def _joined(I: FloatArray) -> FloatArray:
-    """Return moments, those equal but for the rounding of a diagonalization made equal."""
+    """Return moments, those equal but for the rounding of a diagonalization made equal, those of plane bodies plane."""
     I = I.copy()
     for i, j in ((0, 1), (1, 2)):
         close = abs(I[..., i] - I[..., j]) <= EQUAL * abs(I).max(axis=-1)
         I[..., j] = np.where(close, I[..., i], I[..., j])
+    first, second, largest = np.moveaxis(np.sort(I), -1, 0)
+    plane = abs(largest - (first + second)) <= EQUAL * largest
+    most = np.where(plane, np.minimum(largest, first + second), largest)
+    np.put_along_axis(I, I.argmax(axis=-1)[..., None], most[..., None], axis=-1)
     return I
 
 
