@@ -1,13 +1,14 @@
 """The templates of pages and of what is typeset, opened where nothing of a report is loaded."""
 
 from collections.abc import Callable
-from typing import Any, Literal
-
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from typing import TYPE_CHECKING, Any, Literal
 
 import atlas
 from atlas import libraries
 from atlas.places import folder
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 _TYPESET: dict[str, Any] = {
     f"{part}_{end}_string": sign
@@ -22,8 +23,10 @@ def versions() -> dict[str, str]:
     return {"atlas": atlas.__version__} | libraries.versions()
 
 
-def templates(kind: Literal["html", "typst", "latex"], **filters: Callable[..., Any]) -> Environment:
+def templates(kind: Literal["html", "typst", "latex"], **filters: Callable[..., Any]) -> "Environment":
     """Return the templates for a language, with filters of their own; `versions` is known in all of them."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / kind),
         autoescape=kind == "html",  # noqa: S701  what else is filled in is escaped for its language

@@ -111,6 +111,13 @@ def test_the_class_that_fits_is_found() -> None:
         assert np.abs(m.angular_velocity(0.0) - given[2]).max() <= 16 * EPS
 
 
+def test_a_disk_is_a_body_in_any_axes() -> None:
+    """The rounding of its tensor makes I3 more than 2 I2, or I2 other than I1, by an ulp or two."""
+    for turn in Rotation.random(20, random_state=1).as_matrix():
+        tensor = turn @ np.diag([1.0, 1.0, 2.0]) @ turn.T
+        assert atlas.motion((tensor + tensor.T) / 2, (0.0, 0.0, 1.0), (0.1, 0.2, 0.3)).family == "general"
+
+
 def test_arrays_have_each_motion_of_their_own() -> None:
     """Ratios, fields, starts and attitudes broadcast, with each other and with times."""
     rng, t = np.random.default_rng(4), np.linspace(-2, 2, 5)

@@ -149,7 +149,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             values = over(partial(formula, case), *inputs, unit=self._frequencies, degree=degree)
             for row, value in zip(table, values, strict=True):
                 row[index] = np.ravel(value)
-        return table.reshape(-1, *self.shape)
+        return table.reshape(len(degree), *self.shape)
 
     @cached_property
     def _codes(self) -> NDArray[np.intp]:

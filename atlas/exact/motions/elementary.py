@@ -125,7 +125,7 @@ class ElementaryMotion(DoubleTurn):
 
     @property
     def invariants(self) -> dict[str, fmpq]:
-        """The constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88)."""
+        """The constants E' of (36), K^2 of (37), c3 of (40), c5 of (41) and (m, B')/I2 of (88)."""
         state = self.I, (fmpq(0), self.omega2, self.omega3), (fmpq(0), self.B2, self.B3)
         return dict(zip(NAMES, (*integrals(*state), along_field(*state)), strict=True))
 

@@ -29,9 +29,6 @@ SAME = 1e-3
 MANY = 12
 """Numbers for each parameter from which on a motion that follows data of unknown noise is taken for theirs."""
 
-CLOSE = 0.02
-"""Part of the spread of few data up to which a motion is taken for theirs: the false ones are several times as far."""
-
 ROBUST = 1.5
 """Reduced chi square, from the median, up to which a motion with outliers is the one."""
 
@@ -138,7 +135,7 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
             continue  # no motion of the family starts so
         again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
         minima.append((centre, (chi, x)))
-        if (sure or _misfit(problem, x) < CLOSE) and (again or _good(problem, x)):
+        if sure and (again or _good(problem, x)):
             break
     if not minima:
         raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
@@ -153,10 +150,5 @@ def _good(problem: Problem, x: Any) -> bool:
         return problem.reduced(r) < (
             1 + allowed * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST
         )
-    return bool(_misfit(problem, x) < FOLLOWED and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))
-
-
-def _misfit(problem: Problem, x: Any) -> float:
-    """Return how far data are off a motion, the median of them, in parts of their spread."""
-    off = problem.residuals(x).reshape(problem.data.t.size, -1) * problem.data.sigma
-    return float(np.median(np.linalg.norm(off, axis=1)) / problem.data.spread)
+    small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
+    return bool(small and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))
