@@ -130,6 +130,7 @@ def test_rest_and_spin_along_the_field_are_told_in_arrays() -> None:
     none, push = np.zeros(20), np.array([[0.0], [1e-3], [0.0]])
     for field, omega, kind in (
         (B, np.array([none, none, none]), "at rest"),
+        (np.array([none, none]), np.array([none, none, none]), "at rest"),
         (np.array([none, B[1]]), np.array([none, none, B[0]]), "spin along the field"),
     ):
         motion = GeneralMotion(I, field, omega)
@@ -143,8 +144,9 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
         (1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
         (0.75, (20.0, 15.0), (6.0, -24.5, -7.0)),  # a separatrix
         (0.5, (1.0, -3.0), (0.0, 1.5, 2.0)),  # that of a triple root
-        (0.5, (3.0, 1.0), (0.0, -1.5, -2.0)),  # an unstable precession
+        (0.5, (3.0, 1.0), (0.0, -1.5, -2.0)),  # an unstable precession, at a triple root
         (2.0, (1.0, 0.5), (1.0, -1.0, -0.5)),  # from B to -B
+        (1.5, (0.0, 0.0), (0.0, 0.0, 0.0)),  # at rest without a field
     ]
     I, B, omega = zip(*rows, strict=True)
     motions, lacking = GeneralMotion(np.array(I), np.array(B).T, np.array(omega).T), 0
@@ -157,7 +159,7 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
             except DomainError:
                 lacking += 1
                 assert np.isnan(getattr(motions, name)[i])
-    assert lacking == 2 * 4 + 3
+    assert lacking == 5 * 2 + 3 * 3
 
 
 def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:

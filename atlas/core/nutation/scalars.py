@@ -124,7 +124,8 @@ def _kinds(block: Block) -> dict[str, Rounded]:
     """Return the kind as its place in KINDS."""
     r = block.roots
     steady = np.select([r.still, r.along], [3, 5], 4)
-    codes = np.select([r.free, r.steady, r.ball], [6, steady, 2], np.where(r.discriminant.hi > 0, 1, 0))
+    free, moving = np.where(r.still, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
+    codes = np.select([r.free, r.steady, r.ball], [free, steady, 2], moving)
     apart = r.exact & (r.discriminant.rel < 0.5)
     return {"kind": Rounded(codes, block.fine & (r.free | r.steady | (r.moving & (r.ball | apart))))}
 

@@ -60,7 +60,7 @@ class GeneralMotion(Nutating):
         if q.K2 == 0 or q.is_constant:
             rest = all(w == 0 for w in self.omega)
             steady = "at rest" if rest else "precession" if q.across != 0 else "spin along the field"
-            return "free body" if q.K2 == 0 else steady
+            return "free body" if q.K2 == 0 and not rest else steady
         if self.I == 1:
             return "ball"
         if name := self._separatrix("B and -B"):
@@ -115,8 +115,8 @@ class GeneralMotion(Nutating):
 
     @cached_property
     def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
-        """Vector along the axis of precession, in the body at t = 0: the field, or the momentum of a free body."""
-        if self.kind != "free body":
+        """Vector along the axis of precession, in the body at t = 0: the field, else the momentum, at rest e3."""
+        if self.quartic.K2 != 0:
             K1, K2, K3 = self.field
             return K1, K2, K3
         w1, w2, w3 = self.omega
@@ -145,7 +145,7 @@ class GeneralMotion(Nutating):
 
     @property
     def _half(self) -> arb:
-        if self.kind == "free body" and any(self.omega):
+        if self.kind == "free body":
             return arb.pi() / self.steady_rates()[0]
         return super()._half
 
@@ -168,7 +168,7 @@ class GeneralMotion(Nutating):
     @property
     def roots(self) -> list[acb]:
         """Roots of Q, each as often as it counts: the real ones ascending, then the complex pair; none for B = 0."""
-        if self.kind == "free body":
+        if self.quartic.K2 == 0:
             return []
         return [root.value for root in self.quartic.roots() for _ in range(root.multiplicity)]
 

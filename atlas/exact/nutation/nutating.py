@@ -148,10 +148,12 @@ class Nutating:
         return self._moduli()[1]
 
     def _periods(self) -> tuple[arb, arb]:
-        """Return half the real and half the imaginary period; DomainError at a triple root, where both are infinite."""
+        """Return half the real and half the imaginary period; DomainError where both are infinite."""
         lattice = self.solution.lattice
-        if infinite(lattice.half) and infinite(lattice.imaginary) and not self.is_steady:
-            raise DomainError("At a triple root of Q both periods are infinite: modulus and nome have no limit.")
+        unstable = self.is_steady and self.quartic.curvature != 0
+        if infinite(lattice.half) and infinite(lattice.imaginary) and not unstable:
+            where = "At a triple root of Q, as at rest without a field,"
+            raise DomainError(f"{where} both periods are infinite: modulus and nome have no limit.")
         return lattice.half, lattice.imaginary
 
     def _moduli(self) -> tuple[arb, arb]:
@@ -165,7 +167,7 @@ class Nutating:
         solution = self.solution
         T, pi = solution.period, arb.pi()
         if infinite(T):
-            raise DomainError(f"A motion of the kind {self.kind!r} has no period: no angle belongs to one.")
+            raise DomainError(f"This motion, of the kind {self.kind!r}, has no period: no angle belongs to one.")
         # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
         first, second = (
             T * x.own + pi * x.turn if self.is_steady or self.quartic.sign_beside(pole) else arb(0)
