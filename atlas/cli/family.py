@@ -26,6 +26,7 @@ from atlas.cli.options import (
 )
 from atlas.cli.present import (
     IN_DOUBLES,
+    NOT_ASKED,
     TABLE_DIGITS,
     Line,
     Printout,
@@ -221,7 +222,7 @@ def _shown_otherwise(
         return False
     motion = motion_in_given_axes(options)
     if motion is not None:
-        _in_doubles(motion, options, parameters, times)
+        _in_doubles(motion, options, parameters, times, NOT_ASKED if along_own else IN_DOUBLES)
     return motion is not None
 
 
@@ -338,8 +339,10 @@ def in_principal_axes(motion: Any, unit: str = "") -> Principal:
     return Principal(family, words, values, axes)
 
 
-def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
-    """Print a motion in given axes, which is certified in no twin."""
+def _in_doubles(
+    motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float], worth: str
+) -> None:
+    """Print a motion in given axes, which is certified in no twin but that of any body."""
     from atlas.core.motions.chosen import body_of
 
     if options["digits"] is not None or options["decimal"]:
@@ -359,7 +362,7 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
-        printout = _printout(family, described, texts, options, IN_DOUBLES, _in_hertz(family, texts, options))
+        printout = _printout(family, described, texts, options, worth, _in_hertz(family, texts, options))
         axes, third = in_principal_axes(motion).axes, THIRD.get(motion.family, "")
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
@@ -542,7 +545,7 @@ def _quantities(
             if not q.missing:
                 values[q.name] = None
         else:
-            if q.unit == TIME and not values[q.name] < float("inf"):
+            if q.unit == TIME and values[q.name] == float("inf"):
                 values[q.name] = "infinite"
     return (
         values | ({"missing": missing} if missing else {}) | ({"samples": samples(times, **columns)} if columns else {})

@@ -180,6 +180,7 @@ def _inputs(options: dict[str, Any]) -> str:
 
 
 IN_DOUBLES = "Computed in doubles: no digit is proven in axes that are not principal ones, or from another attitude."
+NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 
 def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:

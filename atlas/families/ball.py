@@ -21,8 +21,8 @@ FAMILY = Family(
     (
         Quantity("gamma", "frequency of the turn about k_hat", RATE, "(29)", checked="ball gamma", certified=True),
         Quantity(
-            "k_hat", "its axis", "", "(29)", columns=("k2", "k3"), text=lambda parts: in_brackets(("0", *parts)),
-            checked="ball k_hat", certified=True,
+            "k_hat", "its axis, B along the third", "", "(29)", columns=("k2", "k3"),
+            text=lambda parts: in_brackets(("0", *parts)), checked="ball k_hat", certified=True,
         ),
     ),
     (
@@ -36,7 +36,7 @@ FAMILY = Family(
         "Rotate a charged ball (26) to (29).",
         "General motion of a charged ball: R(t) and m(t) (26) to (29).",
         ("atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",),
-        "charged ball, B along e3",
+        "charged ball",
     ),
     figures=("ball_motion", "ball"),
 )  # fmt: skip

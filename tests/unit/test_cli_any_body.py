@@ -186,6 +186,8 @@ def test_a_symmetric_body_in_any_field_is_turned_into_the_plane_of_the_paper() -
     assert pytest.approx(R, abs=1e-14) == Rotation.from_quat(late["q"]).as_matrix()
     soon = [numbers(*words, "1", "--json", *more)["samples"][0]["R"] for more in ([], ["--digits", "12"])]
     assert np.array(soon[0]) == pytest.approx(np.array(soon[1], float), abs=1e-12)
+    assert "no digit is proven without --digits" in run(*words, "1")[1]
+    assert "from another attitude" in run(*words, "1", *"--attitude 0 1 0 0".split())[1]
 
 
 def test_units_are_those_of_si() -> None:
