@@ -3,7 +3,7 @@
 `certified` computes a quantity at rising precision until the digits asked for are proven, and returns their text.
 `printed` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
 number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven; `NOT_CERTIFIED`
-stands where not even the first is.
+stands where not even the first is, and `INFINITE` for what is exactly so.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ from atlas.formulas.numbers import workprec
 Layout: TypeAlias = Literal["plain", "scientific", "fixed", "tex"]
 LAYOUTS = ("plain", "scientific", "fixed", "tex")
 MARK = "?"
-NOT_CERTIFIED = "not certified"
+NOT_CERTIFIED, INFINITE = "not certified", "infinite"
 BITS_A_DIGIT = 3.3220
 NO_FLOAT = arb(2) ** -4000  # less than half of the least float
 SPARE = 1 << 16  # bits of precision beyond those asked for at which the search for a proof ends
@@ -68,6 +68,8 @@ def enclosed(function: Callable[[], Any], bits: int) -> Any:
 
 def printed(value: Real, digits: int, layout: Layout) -> Printed:
     """Return one number with as many of its digits as are proven."""
+    if isinstance(value, arb) and value == arb("inf"):
+        return Printed(INFINITE, digits, complete=True)
     if isinstance(value, arb) and not value.is_finite():
         return Printed(NOT_CERTIFIED, 0, complete=False)
     lower, upper = _ends(value)

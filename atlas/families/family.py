@@ -156,7 +156,8 @@ class Family:
 
     `source` is where both `atlas.core` and `atlas.exact` have its class. `promises` holds the largest errors, in ulps,
     by the names of a stress run: of quantities and of what else is checked. Tables make so many motions `at_once`.
-    `figures` are recipes that draw one, from parameters by the same names.
+    `figures` are recipes that draw one, from parameters by the same names. `typed` is what asks for one at the command
+    line, before its parameters, where the family has no `command` of its own.
     """
 
     name: str
@@ -169,6 +170,16 @@ class Family:
     command: Command | None = None
     at_once: int = 50_000
     figures: tuple[str, ...] = ()
+    typed: tuple[str, ...] = ()
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """What is typed after `atlas`, before its parameters."""
+        return (self.command.name,) if self.command else self.typed
+
+    def case(self, thing: Any) -> str:
+        """Return the name of the case that an object is, by which words differ; "" in a family without cases."""
+        return str(getattr(thing, self.command.named)) if self.command and self.command.named else ""
 
     def kernels(self) -> Any:
         """Import and return the class of `atlas.core`."""

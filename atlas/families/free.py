@@ -19,4 +19,5 @@ FAMILY = Family(
     ),
     {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},
     figures=("free_motion",),
+    typed=("motion", "--field", "0", "0"),
 )

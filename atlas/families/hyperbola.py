@@ -21,4 +21,5 @@ FAMILY = Family(
         "points of the hyperbola": 4,
     },
     figures=("hyperbola", "frequencies", "stability"),
+    typed=("hyperbola",),
 )  # fmt: skip

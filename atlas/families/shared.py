@@ -53,16 +53,20 @@ def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
 def nutation(axis: str) -> tuple[Quantity, ...]:
     """Return the period of a motion that nutates, its turns in one and its mean rates."""
     turns = (("precession", axis), ("spin", "the body's axis"))
+
+    def of(words: str) -> dict[str, Any]:
+        return {"says": words, "cases": {"free body": (words.replace(f"about {axis}", "about the momentum"), "")}}
+
     return (
         Quantity("period", "period of nutation", TIME, certified=True),
         *(
-            Quantity(f"{name}_per_period", f"turn about {what} in one period", "rad", missing="no period",
-                     certified=True)
+            Quantity(f"{name}_per_period", unit="rad", missing="no period", certified=True,
+                     **of(f"turn about {what} in one period"))
             for name, what in turns
         ),
         *(
-            Quantity(f"{name}_rate", f"mean, about {what}", RATE, exact=partial(_mean, f"{name}_per_period"),
-                     missing="no period", certified=True)
+            Quantity(f"{name}_rate", unit=RATE, exact=partial(_mean, f"{name}_per_period"), missing="no period",
+                     certified=True, **of(f"mean, about {what}"))
             for name, what in turns
         ),
     )  # fmt: skip

@@ -77,6 +77,7 @@ def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
 def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
     """Yield the quantities of a family, each with how sure it is: balls where they have it and it is asked for."""
     family, kernels = subject.family, subject.kernels(values)
+    case = family.case(kernels)
     balls = family.balls()(*subject.arguments(values).values()) if proven else None
     for q in family.quantities:
         try:
@@ -88,7 +89,8 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
                 text, certain = _double(q, kernels, family.promises.get(q.checked, 0.0))
         except DomainError as reason:
             text, certain = "none", str(reason)
-        yield {"name": letters(q.symbol or q.name), "says": q.says, "value": text, "sure": certain, "unit": q.unit}
+        says, _ = q.cases.get(case, (q.says, q.equation))
+        yield {"name": letters(q.symbol or q.name), "says": says, "value": text, "sure": certain, "unit": q.unit}
 
 
 def _has(balls: Any, q: Quantity) -> bool:

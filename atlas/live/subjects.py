@@ -66,12 +66,8 @@ class OfFamily:
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
 
     def command(self, values: Mapping[str, float]) -> str:
-        """Return the command line that gives the same numbers, or the line of Python where there is none."""
-        arguments = self.arguments(values)
-        if self.family.command is None:
-            call = ", ".join(f"{key}={value!r}" for key, value in arguments.items() if value is not None)
-            return f"atlas.{self.family.kernels().__name__}({call})"
-        words = ["atlas", self.family.command.name]
+        """Return the command line that gives the same numbers."""
+        arguments, words = self.arguments(values), ["atlas", *self.family.words]
         for p in self.family.parameters:
             value = arguments[p.name]
             if p.default and p.name != "c":

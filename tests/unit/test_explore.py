@@ -126,7 +126,7 @@ def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
     assert b"{%" not in ask(server, f"/{server.token}/style.css")[1]
 
 
-@pytest.mark.parametrize("name", ["elementary", "general", "top", "elliptic", "quadric", "ball", "particle"])
+@pytest.mark.parametrize("name", [*FAMILIES])
 def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
     """The command that is shown, asked for as many digits, prints what the page shows as proven."""
     found = own(server, "state", subject=name, proven=1)
@@ -150,6 +150,16 @@ def test_doubles_are_the_kernels_and_say_what_is_promised(server: Explorer) -> N
     assert {one["sure"] for one in found["numbers"]} <= {"decided exactly", "double, no promise"}
     assert numbers["kind"]["sure"] == "decided exactly"
     assert own(server, "state", subject="ball")["numbers"][0]["sure"] == "double, within 4 ulp"
+
+
+def test_an_infinite_period_is_certain_and_a_free_body_turns_about_its_momentum(server: Explorer) -> None:
+    """A sleeping top that may fall has no period: that is decided. Without a field there is no B to turn about."""
+    for name, given in (("top", {"n2": 0, "n3": 1, "omega3": 0.2}), ("free", {"omega3": 0})):
+        found = own(server, "state", subject=name, proven=1, **{"omega1": 0, "omega2": 0} | given)
+        numbers = {one["name"]: one for one in found["numbers"]}
+        assert (numbers["period"]["value"], numbers["period"]["sure"]) == ("infinite", "decided exactly")
+    found = own(server, "state", subject="general", B2=0, B3=0)
+    assert {one["says"] for one in found["numbers"]} >= {"mean, about the momentum"}
 
 
 def test_a_proof_waits_until_the_sliders_rest(server: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -398,6 +398,10 @@ def test_why_a_quantity_has_no_value_stands_below() -> None:
     data = compute("properties", Request([body_and_field(None, None)], {"family": "asymmetric", **given}, 6))
     assert {row[1]: (row[2], row[5]) for row in data.rows}["`frequencies`"] == ("–", "")
     assert any("frequencies" in note and "Euler" in note for note in data.notes)
+    given = {"inertia": [1.0, 0.5], "direction": [0.0, 1.0], "omega": [0.0, 0.0, 0.2], "linear": 3.0}
+    data = compute("properties", Request([body_and_field(None, None)], {"family": "top", **given}, 6))
+    without = "`precession_per_period`, `spin_per_period`, `precession_rate`, `spin_rate`: "
+    assert [note.startswith(without) for note in data.notes if "no period" in note] == [True]
 
 
 def test_each_root_has_a_row_of_its_own() -> None:

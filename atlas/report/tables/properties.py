@@ -109,7 +109,11 @@ def properties(request: Request, thing: Thing) -> Data:
     """
     rows = [*_rows_given(thing)] if thing.described else []
     rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
-    reasons = [f"{name}: {reason}." for _, name, value, _, _, reason in rows if value is NONE]
+    names: dict[str, list[str]] = {}
+    for _, name, value, _, _, reason in rows:
+        if value is NONE:
+            names.setdefault(reason, []).append(name)
+    reasons = [f"{', '.join(of)}: {reason}." for reason, of in names.items()]
     rows = [(*row[:5], "") if row[2] is NONE else row for row in rows]
     says, heading = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
     return Data(
@@ -142,11 +146,9 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     if texts is None:
         yield lettered(q.says), f"`{q.name}`", "none", "", cited(q.equation), "exactly"
         return
-    case = getattr(thing.kernels(), "case", "") if q.cases else ""
+    case = thing.family.case(thing.kernels()) if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
     says = f"{q.name} {says}" if says.startswith("of ") else says
-    if not any(thing.given.get("field", (1,))):
-        says = says.replace("about B", "about the momentum")
     for place, (name, words, text) in enumerate(_parts(q, texts)):
         value, certain = _printed(thing, q, text, place if isinstance(texts, list | tuple) else None, digits)
         unit = thing.unit(q.unit) if isinstance(value, Number) else ""
@@ -167,12 +169,7 @@ def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
     if not (q.certified or q.printed or q.checked):
         return q.value(thing.kernels())  # of kernels alone
     exact = thing.balls()
-    return certified(lambda: _plain(q.value(exact, exact=True)), digits, spare=SPARE)
-
-
-def _plain(value: Any) -> Any:
-    """Return a ball, and a word where it is infinite."""
-    return "infinite" if str(value) in {"inf", "+inf", "[+/- inf]"} else value
+    return certified(lambda: q.value(exact, exact=True), digits, spare=SPARE)
 
 
 def _parts(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:

@@ -108,7 +108,7 @@ def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> 
     """Return the proven digits of a number; an exact zero has no decimals."""
     from flint import fmpq
 
-    from atlas.exact.digits import MARK, NOT_CERTIFIED, printed
+    from atlas.exact.digits import INFINITE, MARK, NOT_CERTIFIED, printed
 
     if isinstance(value, Number):
         return value
@@ -117,5 +117,6 @@ def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> 
     if isinstance(value, float):
         value = fmpq(*value.as_integer_ratio())
     number = printed(value, digits, layout)
-    digits_proven = "" if number.text == NOT_CERTIFIED else number.text.removesuffix(MARK)
-    return Number(digits_proven, proven=number.complete)
+    if number.text in {NOT_CERTIFIED, INFINITE}:
+        return Number("", proven=False)
+    return Number(number.text.removesuffix(MARK), proven=number.complete)
