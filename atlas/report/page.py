@@ -10,7 +10,7 @@ from itertools import chain
 from math import pi
 from typing import Any
 
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, DomainError
 from atlas.families import FAMILIES, Family
 from atlas.report import toml
 from atlas.report.body_and_field import Body, Field, body_and_field
@@ -120,10 +120,10 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     """Return the report as the values of its file. Raises AtlasError where there is no such object."""
     family, left_out = asked.family, list[str]()
     thing = Thing.of(Request([_case(asked)], {"family": family.name, **asked.values}, asked.digits))
-    thing.kernels(), thing.balls()
+    made, _ = thing.kernels(), thing.balls()
     parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
     figures = list(figures_of(asked, left_out))
-    left_out += _too_slow(thing.kernels(), asked.time)
+    left_out += _too_slow(made, asked.time)
     beside = [
         other for other in FAMILIES.values() if other is not family and other.name != "free" and _holds(family, other)
     ]
@@ -135,7 +135,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
         *_closed(asked, left_out),
         *_neighbours(asked, there),
-        {"kind": "prose", "text": _reproduce(asked)},
+        {"kind": "prose", "text": _reproduce(asked, made)},
         *([{"kind": "prose", "text": "\n- ".join(["## Left out\n", *left_out])}] if left_out else []),
     ]
     case = f"{family.says[:1].upper()}{family.says[1:]}"
@@ -296,7 +296,7 @@ def _of_other_bodies(asked: Asked) -> Iterator[tuple[str, Asked]]:
             yield words, asked.changed(asked.family.name, **shape, ratio=border)
 
 
-def _reproduce(asked: Asked) -> str:
+def _reproduce(asked: Asked, made: Any) -> str:
     """Say how to get the same numbers from the command line and from Python."""
     family = asked.family
     kernels = family.kernels()
@@ -304,7 +304,7 @@ def _reproduce(asked: Asked) -> str:
         inspect.signature(kernels).parameters, (_python(asked, p.name) for p in family.parameters), strict=True
     )
     arguments = ", ".join(f"{name}={value}" for name, value in values if value)
-    shown = [q for q in family.quantities if not q.get and (q.certified or q.printed)]
+    shown = [q for q in family.quantities if not q.get and (q.certified or q.printed) and _known(made, q.name)]
     digits = ["--digits", str(asked.digits)]
     lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})", *(f"print(it.{q.name})" for q in shown)]
     return "\n".join(
@@ -314,6 +314,15 @@ def _reproduce(asked: Asked) -> str:
             "In Python, as doubles next to them:", "", "```python", *lines, "```",
         ]
     )  # fmt: skip
+
+
+def _known(made: Any, name: str) -> bool:
+    """Whether a quantity of an object has a value."""
+    try:
+        getattr(made, name)
+    except DomainError:
+        return False
+    return True
 
 
 def _python(asked: Asked, name: str) -> str:
