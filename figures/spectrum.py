@@ -82,12 +82,13 @@ def stems(
         for i, n in enumerate(chosen):
             layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i else kind))
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
-    written: list[float] = []
+    written: list[int] = []
     for n in np.argsort(-size):
-        if len(written) < names and all(abs(f[n] - x) > BESIDE * top for x in written):
-            written.append(float(f[n]))
-            text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
-            layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
+        if len(written) < names and all(abs(f[n] - f[other]) > BESIDE * top for other in written):
+            written.append(int(n))
+    for n in sorted(written, key=lambda n: float(f[n])):  # what gives way to a name on its left goes to the right
+        text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
+        layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
     return Plane(
         tuple(layers), f"frequency (1/{unit})" if unit else "", "amplitude", (-0.1 * top, top), (least / 2, 3.0),
         y_scale="log", legend=True, title=heading,
