@@ -72,7 +72,7 @@ def picture(
         caption=(
             rf"The flight of a point $\mathbf{{x}}_N={tex_vector(point)}$ of {setting[0]}; the centre of mass "
             rf"circles with $2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. "
-            r"(b) Along $\mathbf{B}$. Thin lines join centre and point at equal steps of time."
+            r"(b) Seen along $\mathbf{B}$. Thin lines join centre and point at equal steps of time."
         ),
         alt=(
             f"Two panels with the path of a point of {setting[1]}: a curve that winds round the path of the centre of "
