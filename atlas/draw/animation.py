@@ -16,7 +16,7 @@ from atlas.core.inputs import positive
 from atlas.draw.panels import laid_out, to_figure
 from atlas.draw.style import context
 from atlas.draw.view import Held, hold, named
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, unknown
 from atlas.scene import any_motion, movement, recipes
 from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space, frame, seen
 
@@ -145,6 +145,9 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
         raise AtlasError(f"say through which values {over} goes")
     if over in parameters:
         raise AtlasError(f"{over} is what the animation goes over; it can't have the value {parameters[over]!r} too")
+    if over not in recipe.parameters:
+        time = ["t"] if recipe.scene(**parameters).paths else []
+        raise unknown("parameter", over, [*recipe.parameters, *time], f"in the figure {recipe.name!r}")
 
     def make(k: int) -> Scene:
         try:

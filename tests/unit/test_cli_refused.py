@@ -256,6 +256,7 @@ CASES = [
     (f"{OVER} azimuth=0:90:1", "from 2 to 2000 frames, not 1"),
     (f"{OVER} azimuth=0:90:\u0663", "KEY=START:STOP:COUNT"),
     (f"{OVER} tilt=0:90:4", "no parameter 'tilt'"),
+    ("animate film_strip --over tilt=0:1:3 --out {place}/new", "azimuth, elevation, t"),
     (f"{OVER} azimuth=0:90:4 --set azimuth=3", "it can't have the value 3 too"),
     (f"{OVER} azimuth=0:90:4 --fps 55", "gif has from 1 to 50 frames a second, not 55"),
     ("figure nosuchfigure", "nosuchfigure"),
