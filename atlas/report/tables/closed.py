@@ -84,8 +84,11 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
 def convergents(value: Any) -> Iterator[tuple[int, int]]:
     """Yield the first convergents of the continued fraction of a ball, as far as its radius tells them.
 
-    A value that is a fraction ends with it.
+    A value that is a fraction ends with it; those of a negative value are those of its size, with the sign.
     """
+    if value < 0:
+        yield from ((-p, q) for p, q in convergents(-value))
+        return
     before, now = (0, 1), (1, 0)
     for _ in range(MANY):
         whole = value.floor().unique_fmpz()
