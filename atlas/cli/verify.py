@@ -125,13 +125,18 @@ def _details(verdict: Any, *, named: bool) -> str:
     from atlas.paper import EQUATIONS
 
     says = {"says": EQUATIONS[verdict.name].says, "tried from": verdict.follows} if named else {}
-    words = {name: plain(text) for name, text in says.items()}
-    said = verdict.said if named else {}
-    words |= {f"not read: {phrase}": line or "supposed, or tried in a further line" for phrase, line in said.items()}
-    words |= {"as printed": verdict.printed, "counterexample": verdict.example, "corrected": verdict.corrected}
-    words |= {"note": plain(verdict.note)} if named else {}
-    lines = [f"  {name + ':':16}{text}" for name, text in words.items() if text]
+    words = [(name, plain(text)) for name, text in says.items()]
+    words += [("also says", _reading(*pair)) for pair in verdict.said.items() if named]
+    words += [("as printed", verdict.printed), ("counterexample", verdict.example), ("corrected", verdict.corrected)]
+    words += [("note", plain(verdict.note))] if named else []
+    lines = [f"  {name + ':':16}{text}" for name, text in words if text]
     return "\n".join([verdict.name, *lines, *(_proof(verdict) if named else ())])
+
+
+def _reading(phrase: str, line: str) -> str:
+    """Return what became of a phrase of the formula that is more than a relation."""
+    said = " ".join(plain(f"${phrase}$").split())
+    return f"{said}: {f'tried as {line}' if line else 'supposed, or tried in a further line'}"
 
 
 def _proof(verdict: Any) -> list[str]:

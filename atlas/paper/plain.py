@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from pylatexenc.latex2text import LatexNodes2Text
 
 _CITATION = re.compile(r"(?<!\w)@(?=[\w(])")
-_MISSING = {"ne": "≠", "bot": "⊥", "det": "det", "operatorname": "%s", "mathbf": "%s"}
+_MISSING = {"ne": "≠", "bot": "⊥", "iff": " ⇔ ", "implies": " ⇒ ", "det": "det", "operatorname": "%s", "mathbf": "%s"}
 """What pylatexenc has no text for, and upright bold letters, which it would write with letters few fonts have."""
 
 

@@ -255,7 +255,7 @@ TRIALS = {
         slip="(52)",
         note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "
         "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "
-        "is missing.",
+        "is missing. What the lines call condition is the left side of @(50).",
     ),
     "(72)": Trial(model=frequency_model, follows="@(63) on the hyperbola @(71)"),
 }

@@ -232,7 +232,7 @@ TRIALS = {
         grade="missing case",
         note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @(50): for $I \le 1$ the "
         r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
-        "1$ nothing is missing.",
+        "1$ nothing is missing. What the lines call condition is the left side of @(50).",
     ),
     "(53)": Trial(
         model=coordinates_model,

@@ -98,3 +98,10 @@ def test_the_command_shows_both_sides() -> None:
     """Of an equation that is named, the sides stand as one function of free parameters."""
     shown = CliRunner().invoke(command, ["verify", "(39)"]).stdout
     assert "d(K1) = Omega3*K2 - Omega2*K3: each side is K2*Omega3 - K3*Omega2" in shown
+
+
+def test_the_command_shows_no_tex() -> None:
+    """What a formula says beside its relations stands in plain letters, and what became of it."""
+    shown = CliRunner().invoke(command, ["verify", "71"]).stdout
+    assert "also says:      if ω_2≠-B'_2: supposed, or tried in a further line" in shown
+    assert "\\" not in shown
