@@ -11,6 +11,7 @@ import msgspec
 
 from atlas.build.cache import Cache
 from atlas.errors import AtlasError
+from atlas.report.texts import title_words
 from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def manifest_of(document: "Document") -> bytes:
     from atlas.report.templates import versions
 
     report = document.report
-    manifest = {"report": report.name, "title": report.title, "versions": versions()}
+    manifest = {"report": report.name, "title": title_words(report.title), "versions": versions()}
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
 
 

@@ -17,7 +17,7 @@ from atlas.report.blocks.ledger import SECTIONS, Ledger
 from atlas.report.body_and_field import parameters
 from atlas.report.definition import Page, Report
 from atlas.report.document import THEOREMS, Document, PageView
-from atlas.report.texts import citations
+from atlas.report.texts import citations, title, title_words
 
 
 def compose(
@@ -48,20 +48,24 @@ def compose(
     for name, one in document.related.items():
         for used, uses in one.uses.items():
             document.uses[used] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
+    document.title = document.texts.add(title(report.title), "the title", inline=True)
+    document.subtitle = document.texts.add(title(report.subtitle), "the subtitle", inline=True)
     document.abstract = document.texts.add(report.abstract, "the abstract")
     document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
     composer = Composer(document, recorded or Appendices())
     chapters = map(str, count(1))
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
-        composer.begin(page.slug, page.title)
+        composer.begin(page.slug, title_words(page.title))
+        composer.where = f"page {page.slug!r}, its title"
+        heading = composer.text(title(page.title), inline=True)
         blocks = tuple(_views(composer, page, outline=outline))
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
         templates = tuple(KINDS[kind_of(block)].template for block in page.blocks)
         document.pages.append(
             PageView(
                 next(appendices if page.appendix else chapters),
-                *(page.slug, page.title, blocks, templates, page.part, page.appendix),
+                *(page.slug, composer.title, heading, blocks, templates, page.part, page.appendix),
             )
         )
     _cite_formulas(composer)

@@ -23,7 +23,7 @@ from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.digits import MINUS, THIN
 from atlas.report.document import Document
 from atlas.report.templates import versions
-from atlas.report.texts import citations
+from atlas.report.texts import citations, title_words
 
 if TYPE_CHECKING:
     from atlas.report.blocks.figure import FigureView
@@ -78,7 +78,7 @@ def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = Tru
     report = document.report
     described = {
         "name": report.name.lower().replace("_", "-"),
-        "title": report.title,
+        "title": title_words(report.title),
         "description": words(report.abstract or report.subtitle),
         "version": versions()["atlas"],
         "sources": SOURCES,

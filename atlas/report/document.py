@@ -31,12 +31,14 @@ THEOREMS = {
 class PageView:
     """A page: its place in the contents, the views of its blocks and the names of their templates.
 
-    `number` is that of the chapter, or the letter of the appendix.
+    `number` is that of the chapter, or the letter of the appendix; `title` is in plain words, `heading` the number of
+    the text that is set.
     """
 
     number: str
     slug: str
     title: str
+    heading: int
     blocks: tuple[Any, ...]
     templates: tuple[str, ...]
     part: str = ""
@@ -77,10 +79,10 @@ class Document:
 
     `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
     that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
-    ledger; `errata` the page of the errata; `abstract`, `given`, `symbols` and `formulas`, the equations that are cited
-    here and stand in no page of this report, are numbers of texts. `related` holds the reports beside this one, in
-    outline; a citation of what is not here leads there. `bibliography` holds the works that can be cited, `listed_on`
-    is the page of their list.
+    ledger; `errata` the page of the errata; `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas`, the
+    equations that are cited here and stand in no page of this report, are numbers of texts. `related` holds the reports
+    beside this one, in outline; a citation of what is not here leads there. `bibliography` holds the works that can be
+    cited, `listed_on` is the page of their list.
     """
 
     report: Report
@@ -88,6 +90,8 @@ class Document:
     texts: Texts = field(default_factory=Texts)
     pages: list[PageView] = field(default_factory=list)
     targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    title: int = 0
+    subtitle: int = 0
     abstract: int = 0
     given: list[int] = field(default_factory=list)
     symbols: list[tuple[int, list[str]]] = field(default_factory=list)

@@ -25,6 +25,7 @@ from atlas.report.definition import Thumbnail
 from atlas.report.document import Document, PageView
 from atlas.report.fonts import FACES
 from atlas.report.templates import templates
+from atlas.report.texts import title_words
 
 SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
@@ -48,7 +49,7 @@ class Card(NamedTuple):
 
 def pages(document: Document) -> dict[str, str]:
     """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
-    environment = templates("html", plain=plain)
+    environment = templates("html", plain=plain, title_words=title_words)
     texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
     common: dict[str, Any] = {

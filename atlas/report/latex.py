@@ -23,6 +23,7 @@ from atlas.report.data_package import ascii_name, digits, unique, value
 from atlas.report.digits import MINUS
 from atlas.report.document import Document
 from atlas.report.templates import templates
+from atlas.report.texts import title_words
 from atlas.targets import TARGETS
 
 ANY = 99
@@ -31,6 +32,12 @@ NUMBERS, PAPER, REFERENCES = "atlas-numbers.tex", "paper.tex", "references.bib"
 _CELL = re.compile(r"\\atlascell\{([^{}]*)\}\{([^{}]*)\}")
 _TITLE = re.compile(r"(title\s*=\s*)(\{[^\n]*\})(,\n(?:(?!^@|^\}).*\n)*?\s*langid)", re.MULTILINE)
 _POWER = re.compile(r"\$?10\^\{?(-?\d+)\}?\$? *")
+
+
+_ESCAPES = str.maketrans(
+    {mark: f"\\{mark}" for mark in "#$%&_{}"}
+    | {"\\": r"\textbackslash{}", "^": r"\^{}", "~": r"\textasciitilde{}", "’": "'"}
+)
 
 
 @dataclass(frozen=True)
@@ -65,7 +72,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
         files[f"figures/{figure.id.removeprefix('fig-')}.tex"] = _figure(figure, texts, pictures)
     files[REFERENCES] = _references(document)
     files[PAPER] = environment.get_template("paper.tex").render(
-        title=_escaped(document.report.title),
+        title=_heading(texts[document.title], document.report.title),
         authors=[_escaped(author) for author in document.report.authors],
         abstract=texts[document.abstract],
         body="\n\n".join(_body(document, texts, {name for name, text in files.items() if "*}" in text[:20]})),
@@ -145,7 +152,7 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
     columns, come last, so that the others fill the columns before them.
     """
     for page in document.pages:
-        text = rf"\section{{{_escaped(page.title)}}}" + "\n"
+        text = rf"\section{{{_heading(texts[page.heading], page.title)}}}" + "\n"
         displayed = False
         for equations, run in groupby(page.placed, lambda pair: isinstance(pair[1], EquationView)):
             parts = [_block(name, block, texts) for name, block in run]
@@ -186,9 +193,14 @@ def _in_lines(tex: str) -> str:
     return r"\begin{gathered}" + r" \\ ".join(tex.split(r"\qquad")) + r"\end{gathered}"
 
 
+def _heading(text: str, title: str) -> str:
+    """Return a title that is set; in a bookmark its formulas are in plain words."""
+    return rf"\texorpdfstring{{{text}}}{{{_escaped(title_words(title))}}}" if r"\(" in text else text
+
+
 def _escaped(text: str) -> str:
     """Escape plain text for LaTeX."""
-    return re.sub(r"([#$%&_{}])", r"\\\1", text).replace("’", "'")
+    return text.translate(_ESCAPES)
 
 
 LETTERS, TIGHT, BOTH, LONG, LEAST = 46, 84, 115, 30, 24

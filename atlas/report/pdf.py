@@ -10,6 +10,7 @@ from atlas.report import fonts
 from atlas.report.blocks.table import Cell
 from atlas.report.document import Document
 from atlas.report.templates import templates
+from atlas.report.texts import title_words
 
 TEXT_FONT = "STIXGeneral"
 MATH_FONT = "STIX Two Math"
@@ -19,7 +20,12 @@ MATH_FONT = "STIX Two Math"
 def source(document: Document) -> str:
     """Write the Typst source of a document whose texts are set."""
     environment = templates(
-        "typst", string=_string, content=_content, bool=lambda value: str(bool(value)).lower(), number=_number
+        "typst",
+        string=_string,
+        content=_content,
+        bool=lambda value: str(bool(value)).lower(),
+        number=_number,
+        title_words=title_words,
     )
     return environment.get_template("report.typ").render(
         document=document,

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from atlas.errors import AtlasError
+from atlas.paper.plain import words as plain_words
 from atlas.report import pandoc
 from atlas.report.pandoc import FormulaError, Target, Tree, mend_all, with_leading
 
@@ -31,6 +32,10 @@ _COUNT = re.compile(r"\d|[IVX]+\b")
 _UNIT = re.compile(r"(?:s|m|T|V|J|C|K|W|kg|mm|rad|[kM]?Hz|degrees|V/m|C/kg)\b[.,;:)]*")
 _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 """Where in a node of a tree its attributes are."""
+
+
+_FORMULA = re.compile(r"((?<!\\)\$(?=\S)[^$]+(?<=\S)\$(?!\d))")
+"""A formula of a title, as pandoc finds it."""
 
 
 class Link(NamedTuple):
@@ -146,6 +151,17 @@ def deepest(markdown: str) -> int:
     return most
 
 
+def title(text: str) -> str:
+    """Return a title as Markdown: its formulas are set, and all else in it is plain words."""
+    words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(text)
+    return "".join(part if k % 2 else re.sub(words, r"\\\1", part) for k, part in enumerate(formulas))
+
+
+def title_words(text: str) -> str:
+    """Return a title in plain words, for bookmarks and navigation."""
+    return _FORMULA.sub(lambda formula: plain_words(formula[1]), text)
+
+
 def citations(markdown: str) -> list[str]:
     """Return the names that a text cites, in their order; what stands in code or in a formula is none."""
     return [name for name in _CITED.findall(markdown) if name]
@@ -226,7 +242,8 @@ class _Checked:
 
     def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
         """Return one link of a citation, at its anchor where it is the first to the name."""
-        name, words = work["citationId"], _words(link.bracketed if bracketed and link.bracketed else link.words)
+        name = work["citationId"]
+        words = self.tree(_words(link.bracketed if bracketed and link.bracketed else link.words))
         if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
             if name.startswith("cell:"):  # a number of a table is written by its key
                 return [{"t": "RawInline", "c": ["latex", rf"\atlascell{{{name[5:]}}}{{{link.words}}}"]}]
@@ -282,12 +299,17 @@ def _said(node: Any) -> str:
 
 
 def _words(text: str) -> Tree:
-    """Return plain words as nodes, a number tied to its word; what stands between two carets is raised."""
+    """Return words as nodes, a number tied to its word and a formula set; what stands between two carets is raised."""
     text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
-    low, *raised = re.split(r"\^([^^]+)\^", text)
-    nodes: Tree = [{"t": "Str", "c": low}]
-    for up, after in zip(raised[::2], raised[1::2], strict=True):
-        nodes += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
+    nodes: Tree = []
+    for k, part in enumerate(_FORMULA.split(text)):
+        if k % 2:
+            nodes.append({"t": "Math", "c": [{"t": "InlineMath"}, part[1:-1]]})
+            continue
+        low, *raised = re.split(r"\^([^^\s]+)\^", part)
+        nodes.append({"t": "Str", "c": low})
+        for up, after in zip(raised[::2], raised[1::2], strict=True):
+            nodes += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
     return nodes
 
 

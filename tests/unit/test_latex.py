@@ -20,7 +20,7 @@ from atlas.report.latex import _numbers, _with_unit, table_of
 
 REPORT = r"""
 name = "small"
-title = "Numbers & Figures"
+title = "Numbers & Figures for r^2, $\\nu\\in\\mathbb{R}$ and a~b"
 authors = ["A. Author"]
 abstract = "One body, $I=3/2$; see @fig:curves."
 bibliography = "references.bib"
@@ -31,7 +31,7 @@ sets.one = { omega2 = 0.7 }
 sets.two = { omega2 = 0.7, times = [0, 2.5] }
 [[pages]]
 slug = "index"
-title = "Motions"
+title = "Motions at x^2"
 blocks = [
   { kind = "prose", text = '''
 As in @clebsch1871, by @(72) in @tab:numbers: $k$ is @cell:numbers-3-3, 5 % off. A body of 1 µm:
@@ -100,7 +100,8 @@ def test_words_formulas_and_citations_are_latex(made: Path) -> None:
     """
     paper = (made / "paper.tex").read_text("utf-8")
     for piece in (
-        r"\title{Numbers \& Figures}", r"\citet{clebsch1871}", r"Table~\ref{tab-numbers}", r"Figure~\ref{fig-curves}",
+        r"\title{\texorpdfstring{Numbers \& Figures for r\^{}2, \(\nu\in\mathbb{R}\) and a\textasciitilde b}{Numbers",
+        r"\section{Motions at x\^{}2}", r"\citet{clebsch1871}", r"Table~\ref{tab-numbers}", r"Figure~\ref{fig-curves}",
         r"by (72) in", r"5 \%", r"\atlasequation{(72)}{eq-72}", r"\input{tables/numbers}", r"\input{figures/curves}",
     ):  # fmt: skip
         assert piece in paper, piece

@@ -124,6 +124,15 @@ def test_markup_in_a_text_is_shown_and_not_obeyed(text: str, tmp_path: Path) -> 
     assert all(word in printed for word in words if word not in {"html", "typst"})
 
 
+def test_a_formula_in_a_title_is_set_and_stands_elsewhere_in_plain_words(tmp_path: Path) -> None:
+    """The rest of a title is letters; bookmarks and what names a page have no markup."""
+    report = definition(r"The *rate* $\nu^2$ & a~b for $5")
+    page, printed = visible(document(report), tmp_path)
+    assert [node.text_content() for node in page.xpath("//h1/math | //p[@class='h']/math")] == ["ν2", "ν2"]
+    assert page.xpath("string(//title)") == "The *rate* ν^2 & a~b for $5"
+    assert "The *rate* 𝜈2 & a~b for $5" in printed
+
+
 @pytest.mark.parametrize(
     "block", [pytest.param(block, marks=[pytest.mark.slow] * (k % 2)) for k, block in enumerate(BLOCKS)]
 )
