@@ -23,7 +23,8 @@ class Thumbnail(StrictStruct, frozen=True):
 class Page(StrictStruct, frozen=True):
     """One page of the HTML, one chapter of the PDF; pages of one part stand together in the contents.
 
-    An appendix is lettered and set in small type. ``thumbnail`` stands for the page on the front page.
+    An appendix is lettered and set in small type. ``thumbnail`` stands for the page on the front page. Formulas between
+    dollars are set in titles; all else in them is plain words.
     """
 
     slug: Slug
