@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from atlas.cli.options import Typed, parts_of
 from atlas.errors import DomainError
@@ -14,11 +14,17 @@ STEP = 1 / 8
 BENT = 0.03
 """Part of the uncertainty of a number by which second and third derivatives may change it; beyond, it is sampled."""
 
+LOST = 0.05
+"""Part of the draws that may lie where a number is not there: the scatter of the others is still right to a tenth."""
+
 NONE = 1e-12
 """Part of a number, or of the largest component of a vector or a matrix, that is rounding and no uncertainty."""
 
 DRAWS, NUMBERS, LEAST = 500, 2_000_000, 25
 """Draws of the inputs; numbers in all of them, which fewer draws do not exceed; and draws that a deviation needs."""
+
+BY_SAMPLING = "by sampling, {}, since they are not of first order."
+BY_NEITHER = "no deviation: they are not of first order, and by sampling there are {}."
 
 Numbers = dict[tuple[Any, ...], float]
 """Numbers of an answer by their place in it."""
@@ -48,7 +54,8 @@ class Spread:
 
     def record(self) -> dict[str, Any]:
         """Return the answer, and under sigma the same with the standard deviations in the place of its numbers."""
-        return self.found | {"sigma": mapped(self.found, lambda _, place: self.sigma.get(place)), "notes": self.notes}
+        known = {place: x for place, x in self.sigma.items() if x < math.inf}
+        return self.found | {"sigma": mapped(self.found, lambda _, place: known.get(place)), "notes": self.notes}
 
 
 def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
@@ -65,8 +72,9 @@ def _parts(value: Any) -> tuple[Any, ...]:
 def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str, Any]) -> Spread:
     """Return the answer to options with uncertainties, which are independent of one another.
 
-    They are carried to first order, by derivatives, and by sampling to a number whose deviation terms of second and
-    third order would change, or that is not there where one input, or all together, are a standard deviation off.
+    They are carried to first order, by derivatives, on one side where a number is there only on that a standard
+    deviation off; and by sampling to a number whose deviation terms of second and third order would change, or that is
+    not there on either side of one input, or of all together. Where draws are lost by that it has none.
     """
     inputs = uncertain(options)
     answers = answer(options)
@@ -74,39 +82,74 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     sizes = _sizes(middle)
     ways: list[Mapping[tuple[str, int, Typed], float]] = [{name: 1.0} for name in inputs]
     together = [dict.fromkeys(inputs, len(inputs) ** -0.5)] if len(inputs) > 1 else []
-    lines, parts, curved = list[Numbers](), list[Numbers](), set[tuple[Any, ...]]()
-    for way in [*ways, *together]:
-        try:
-            four = [
-                _numbers(answer(_moved(options, {name: step * x for name, x in way.items()})))
-                for step in (STEP, -STEP, 1.0, -1.0)
-            ]
-        except DomainError:
-            curved |= set(middle)
-            continue
-        known = {key: [numbers[key] for numbers in four] for key in middle if all(key in numbers for numbers in four)}
-        curved |= middle.keys() - known.keys()
-        parts.append({key: (after + before - 2 * middle[key]) / 2**0.5 for key, (_, _, after, before) in known.items()})
-        if way not in together:
-            lines.append({key: (near - far) / (2 * STEP) for key, (near, far, _, _) in known.items()})
-            parts.append({key: 1.5 * (x[2] - x[3]) - 2 * lines[-1][key] for key, x in known.items()})
+    terms = [_terms(answer, options, way, middle) for way in [*ways, *together]]
+    lines, parts = (
+        [x.line for x in terms[: len(ways)]],
+        [x.second for x in terms] + [x.third for x in terms[: len(ways)]],
+    )
     sigma, bent = (
         {key: math.hypot(*(part.get(key, 0.0) for part in several)) for key in middle} for several in (lines, parts)
     )
-    curved |= {key for key in middle if abs(bent[key] - sigma[key]) > BENT * sigma[key] + NONE * sizes[key]}
+    curved = {key for key in middle if abs(bent[key] - sigma[key]) > BENT * sigma[key] + NONE * sizes[key]}
+    curved |= {key for key in middle if not all(key in x.line for x in terms)}
+    ended = {key for x in terms for key in x.ended if sigma[key] > NONE * sizes[key]} - curved
+    says = {"by derivatives on one side: on the other they have no value a standard deviation off.": ended}
     error = Numbers()
-    notes = ["In brackets one standard deviation, in the last digits; of first order, by derivatives."]
     if curved:
         count = min(DRAWS, max(NUMBERS // len(middle), 4 * LEAST))
-        draws, failed = _draws(answer, options, inputs, curved, count)
+        draws = _draws(answer, options, inputs, curved, count)
+        lost = {key for key, values in draws.items() if len(values) < count - LOST * count}
         for key, values in draws.items():
-            sigma[key], error[key] = _deviation(values)
-        names = ", ".join(
-            dict.fromkeys(str(key[2] if key[0] == "samples" else key[0]) for key in middle if key in curved)
-        )
-        lost = f", of which {failed} had no answer" if failed else ""
-        notes.append(f"Of {names} by sampling, {count} draws{lost}, since they are not of first order.")
+            sigma[key], error[key] = (math.inf, math.inf) if key in lost else _deviation(values)
+        for keys, text in ((curved - lost, BY_SAMPLING), (lost, BY_NEITHER)):
+            most = count - min((len(draws[key]) for key in keys), default=count)
+            says[text.format(f"{count} draws" + f", {most} of them without a value" * bool(most))] = keys
+    notes = ["In brackets one standard deviation, in the last digits; of first order, by derivatives."]
+    for text, keys in says.items():
+        names = dict.fromkeys(str(key[2] if key[0] == "samples" else key[0]) for key in middle if key in keys)
+        notes += [f"Of {', '.join(names)} {text}"] * bool(names)
     return Spread(answers, {key: x if x > NONE * sizes[key] else 0.0 for key, x in sigma.items()}, error, notes)
+
+
+class Terms(NamedTuple):
+    """How numbers change along one way, and which are there only on one side of it.
+
+    `line` is the term of first order, `second` that of second, `third` that of first with what third order adds.
+    """
+
+    line: Numbers
+    second: Numbers
+    third: Numbers
+    ended: set[tuple[Any, ...]]
+
+
+def _terms(
+    answer: Callable[[dict[str, Any]], dict[str, Any]],
+    options: dict[str, Any],
+    way: Mapping[tuple[str, int, Typed], float],
+    middle: Numbers,
+) -> Terms:
+    """Return the terms of numbers along one way, a standard deviation long, of those that are there on a side of it."""
+
+    def off(step: float) -> Numbers:
+        try:
+            return _numbers(answer(_moved(options, {name: step * x for name, x in way.items()})))
+        except DomainError:
+            return {}
+
+    terms, sides = Terms({}, {}, {}, set()), [[off(sign * step) for step in (STEP, 1.0)] for sign in (1.0, -1.0)]
+    for key, x in middle.items():
+        known = [[numbers[key] - x for numbers in side] for side in sides if all(key in numbers for numbers in side)]
+        if len(known) == 2:
+            (near, after), (far, before) = known
+            terms.line[key], terms.second[key] = (near - far) / (2 * STEP), (after + before) / 2**0.5
+            terms.third[key] = 1.5 * (after - before) - 2 * terms.line[key]
+        elif known:  # of the parabola through three points; the sign does not matter
+            terms.ended.add(key)
+            ((near, after),) = known
+            terms.line[key] = terms.third[key] = (near - STEP**2 * after) / (STEP - STEP**2)
+            terms.second[key] = (after - terms.line[key]) * 2**0.5
+    return terms
 
 
 def _sizes(numbers: Numbers) -> Numbers:
@@ -133,11 +176,11 @@ def _draws(
     inputs: list[tuple[str, int, Typed]],
     places: set[tuple[Any, ...]],
     count: int,
-) -> tuple[dict[tuple[Any, ...], list[float]], int]:
-    """Return the numbers at these places for normal draws of the inputs, and how many draws had no answer."""
+) -> dict[tuple[Any, ...], list[float]]:
+    """Return the numbers at these places for normal draws of the inputs, where they are there."""
     import random
 
-    normal, failed = random.Random(1).gauss, 0  # noqa: S311
+    normal = random.Random(1).gauss  # noqa: S311
     draws: dict[tuple[Any, ...], list[float]] = {key: [] for key in places}
     for _ in range(count):
         try:
@@ -145,8 +188,8 @@ def _draws(
             for key in draws.keys() & numbers.keys():
                 draws[key].append(numbers[key])
         except DomainError:
-            failed += 1
-    return draws, failed
+            continue
+    return draws
 
 
 def _deviation(values: list[float]) -> tuple[float, float]:

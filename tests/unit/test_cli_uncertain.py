@@ -91,6 +91,18 @@ def test_what_is_not_of_first_order_is_sampled_and_named() -> None:
     assert "modulus" in sampled[1]
 
 
+def test_where_the_domain_ends_the_derivative_is_that_on_its_side() -> None:
+    """By (71) omega3 = omega2 B3 (3 - I)/(2 I B2), of slope -3/I^2 here, and no body has I > 2; the modulus is bent."""
+    found = numbers("motion --ratio 2.00(1) --field 1 2 --omega2 1")
+    assert found["sigma"]["omega3"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
+    assert found["sigma"]["phi"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
+    assert "on one side" in found["notes"][1]
+    found = numbers("motion --ratio 1.995(10) --field 1.00(1) 2 --omega 0.3 0.7 0.2")
+    assert found["sigma"]["period"] > 0
+    assert found["sigma"]["modulus"] is None
+    assert "modulus, nome no deviation" in found["notes"][-1]
+
+
 def test_an_input_of_a_negligible_share_does_not_ask_for_sampling() -> None:
     """The precession's rate hardly depends on B3, and that not to first order: by derivatives it is right."""
     status, out = run("motion --ratio 1.30(1) --field 1.00(1) 1.60(2) --omega 0.3 0.7 0.2")
