@@ -41,12 +41,16 @@ OTHERS = {
 }  # fmt: skip
 """Other names of options."""
 
-LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/()-]*")
+LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/()±-]*")
 """What was meant as a number, be it one or not."""
 
-
-UNCERTAIN = re.compile(r"([+-]?(?:\d+(?:\.(\d*))?|\.(\d+)))\((\d+(?:\.\d*)?|\.\d+)\)(.*)")
-"""A number with its standard deviation in its last digits, 1.20(5)um, or in full, 1.2(0.05)um."""
+UNCERTAIN = re.compile(
+    r"""(?P<size> [+-]? (?: \d+ (?: \. (?P<decimals> \d* ) )? | \. (?P<digits> \d+ ) ) )
+        (?: \( (?P<last> \d+ (?: \. \d* )? | \.\d+ ) \)
+          | (?: ± | \+/?- ) (?P<full> (?: \d+ \.? \d* | \.\d+ ) (?: e[+-]?\d+ )? ) ) (?P<rest> .* )""",
+    re.ASCII | re.IGNORECASE | re.VERBOSE,
+)
+"""A number with its standard deviation in its last digits, 1.20(5)um, or in full, 1.2(0.05)um or 1.2±0.05um."""
 
 
 class Typed(float):
@@ -116,8 +120,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
                 self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
             if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
                 self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
-            ranges = ", or a range START:STOP:COUNT" * bool(param and param.multiple)
-            self.fail(f"{text!r} is not a finite number; write 1.5, 3/2 or 1e-3{ranges}.", param, ctx)
+            right = "1.5, 3/2 or 1e-3" + ", or a range START:STOP:COUNT" * bool(param and param.multiple)
+            if re.search(r"[(±]|\+/?-", text):
+                right = "an uncertainty as 1.5(1) or 1.5±0.1"
+            self.fail(f"{text!r} is not a finite number; write {right}.", param, ctx)
         if not math.isfinite(number):
             self.fail(f"{text!r} is beyond the largest float.", param, ctx)
         return number
@@ -129,11 +135,12 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         carried = getattr(ctx.command if ctx else None, "carries", False)
         if not carried or (param and param.name in {"times", "grid", "least"}):
             self.fail(f"{text!r} has an uncertainty, which nothing follows from here: motions carry it.", param, ctx)
-        size, decimals, sigma, rest = parts[1], parts[2] or parts[3] or "", parts[4], parts[5]
-        if "." not in sigma and decimals:
-            sigma += f"e-{len(decimals)}"
-        number, scale = (self.convert(x + rest, param, ctx) for x in (size, "1"))
-        number.sigma = float(sigma) * float(scale)
+        decimals, sigma = len(parts["decimals"] or parts["digits"] or ""), parts["last"] or parts["full"]
+        if parts["last"] and "." not in sigma:
+            sigma += f"e-{decimals}"
+        rest = parts["rest"]
+        number, size, scale = (self.convert(x, param, ctx) for x in (parts["size"] + rest, sigma, f"1{rest}"))
+        number.sigma = float(size) * float(scale)
         number.text = text
         return number
 
@@ -249,7 +256,7 @@ def _inclined(args: list[str], ctx: click.Context) -> tuple[list[str], str, Incl
     sides = (("--angle", typed), (option, following[0]))
     angle, size = (REAL.convert(word, click.Option([name]), ctx) for name, word in sides)
     whole = UNCERTAIN.fullmatch(following[0])
-    number, unit = split(text := whole[1] + whole[5] if whole else following[0]) or (text, "")
+    number, unit = split(text := whole["size"] + whole["rest"] if whole else following[0]) or (text, "")
     parts = [f"{float(Typed(number)) * x:.15g}{unit}" for x in (math.sin(angle), math.cos(angle))]
     return [*args[:strength], *parts, *args[strength + 1 :]], option, Inclined((size, angle))
 

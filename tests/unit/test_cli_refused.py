@@ -125,6 +125,7 @@ CASES = [
     ("motion --ratio 1.5 --field=1,2 --omega3 1", "--omega3 goes with --omega2"),
     ("motion --ratio 1.5 --field 1,2 --omega2 1 --times 0..5", "or a range START:STOP:COUNT"),
     ("motion --ratio 1.5 --B 1 2 --omega2 1", "B is --magnetic"),
+    ("motion --ratio 1.5(-1) --field 1 2 --omega2 1", "write an uncertainty as 1.5(1) or 1.5±0.1."),
     ("motion --ratio 1,5 --field 1 2 --omega2 1", "write 1.5"),
     ("figure cone --set ratio=0.5,field=1,2", "several parameters are several words"),
     ("sweep elementary ratio=1 --quantity k", "a parameter is one word, --set KEY=VALUE"),

@@ -61,6 +61,13 @@ def test_a_charge_and_a_radius_carry_theirs_to_the_larmor_frequency() -> None:
     assert "by derivatives" in out
 
 
+@pytest.mark.parametrize("radius", ["1.20(0.03)um", "1.20±0.03um", "1.20+-3e-2um", "1.20+/-.03um"])
+def test_an_uncertainty_is_written_as_anywhere(radius: str) -> None:
+    """In brackets or after a sign, with a unit behind."""
+    words = "motion --shape ring --mass 1kg --charge 1C --magnetic 0.1 0.2 --omega2 0.3 --radius"
+    assert numbers(f"{words} {radius}") == numbers(f"{words} 1.20(3)um")
+
+
 def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
     """A precession's k = omega2/sin(angle), (79), has that of the angle alone, Larmor's frequency that of strength."""
     found = numbers("motion --ratio 1.3 --magnetic 0.8(1)T --angle 30(2)deg --mu 1C/kg --omega2 0.3")
