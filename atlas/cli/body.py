@@ -6,10 +6,10 @@ from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.measured import RATE, WANTED
 from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, measured, numbers, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.errors import nearest
+from atlas.measured import RATE, WANTED
 
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -11,8 +11,8 @@ from typing import Any, Self, TypeVar
 
 import click
 
-from atlas.cli.measured import WANTED, in_si, split
 from atlas.errors import AtlasError
+from atlas.measured import WANTED, in_si, split
 
 F = TypeVar("F", bound=Callable[..., Any])
 

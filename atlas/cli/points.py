@@ -3,14 +3,13 @@
 import csv
 from collections.abc import Mapping
 from fractions import Fraction
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
-from atlas.cli.measured import WANTED, in_si
 from atlas.errors import AtlasError
+from atlas.measured import WANTED, heading, size
 
 SYMMETRIC = 1e-9
 """By how much moments about the axis may differ, and how large products may be, in parts of the largest moment."""
@@ -134,15 +133,14 @@ def measured_columns(
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.reader(file)
-            (_, heading), *lines = [(reader.line_num, line) for line in reader if line] or [(1, [])]
+            (_, first), *lines = [(reader.line_num, line) for line in reader if line] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
         raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
     except csv.Error as error:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
-    parts = [name.partition("[") for name in heading]  # k [1/time] is k
-    names, units = [name.strip() for name, *_ in parts], [unit.strip(" ]") for *_, unit in parts]
+    names, units = zip(*map(heading, first), strict=True) if first else ((), ())
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
     meant = [
@@ -156,16 +154,9 @@ def measured_columns(
         for name, unit, option, cell in zip(names, units, meant, line, strict=True):
             try:
                 x = float(cell)
-                columns[name].append(float(Fraction(x) * _size(unit, option)) if option else x)
+                columns[name].append(float(Fraction(x) * size(unit, option)) if option else x)
             except (ValueError, OverflowError, AtlasError) as error:
                 right = f" in {WANTED[option]}, or what can be made of it" if option in WANTED else " without a unit"
                 under = f"{name} [{unit}] is not a number{right}" if option else f"{name} is not a number"
                 raise click.UsageError(f"{path}: line {number}: {cell!r} under {under}.") from error
     return columns, {*units}
-
-
-@cache
-def _size(unit: str, option: str) -> Fraction | float:
-    """Return how many of the unit of an option a unit is. Raises AtlasError for one of something else."""
-    size, exact = in_si(Fraction(1), unit.removeprefix("1"), option)
-    return size if exact is None else exact

@@ -10,12 +10,12 @@ import click
 
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
-from atlas.cli.measured import split
 from atlas.cli.options import REAL, Command, Place, are_of_any_body, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.families import FAMILIES
 from atlas.families.family import TIME
+from atlas.measured import split
 
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.

@@ -1,11 +1,11 @@
 """A user's trajectory from a CSV file: columns by name, parameters from lines that begin with #.
 
 Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega1`` to ``Omega3`` (in the body's frame);
-a quaternion that takes the body's frame to the laboratory, scalar first, as ``q0 q1 q2 q3``, ``w x y z`` or
-``qw qx qy qz``. Lines such as ``# ratio = 1.5`` and ``# field: 1 2`` above the rows hold parameters; other # lines are
-comments, and so is what follows a colon and does not begin with a number. The numbers are separated by commas, or by
-semicolons, tabs or spaces where the line of names has no comma. Rows are read in blocks, so that a file may be larger
-than the memory.
+a quaternion that takes the body's frame to the laboratory, scalar first, as ``q0 q1 q2 q3``, ``w x y z`` or ``qw qx qy
+qz``. Names may have units, as ``t [ms]`` or ``Omega1 [Hz]``; times are then in s, rates in rad/s. Lines such as ``#
+ratio = 1.5`` and ``# field: 1 2`` above the rows hold parameters; other # lines are comments, and so is what follows a
+colon and does not begin with a number. The numbers are separated by commas, or by semicolons, tabs or spaces where the
+line of names has no comma. Rows are read in blocks, so that a file may be larger than the memory.
 """
 
 import math
@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
+from atlas.measured import WANTED, heading, size
 
 BLOCK = 8192
 """Lines read at once."""
@@ -48,6 +50,12 @@ OMEGA = ("Omega1", "Omega2", "Omega3")
 QUATERNION = ("q0", "q1", "q2", "q3")
 FIELD = ("K1", "K2", "K3")
 """The field along the axes of the body, which `atlas fit` reads beside."""
+OPTIONS = {"t": "times"} | dict.fromkeys(OMEGA, "omega") | dict.fromkeys(FIELD, "field")
+"""Options that have the units of columns, by name."""
+PLAIN = ("", "1", "time", "1/time")
+"""Units that are taken as they are."""
+EULER = ("roll", "pitch", "yaw", "phi", "theta", "psi")
+"""How names of Euler angles begin."""
 _OTHER_NAMES = dict(zip(("w", "x", "y", "z", "qw", "qx", "qy", "qz"), QUATERNION * 2, strict=True)) | {"time": "t"}
 _NAMES = {name.lower(): name for name in ("t", *MATRIX, *OMEGA, *QUATERNION)} | _OTHER_NAMES
 
@@ -82,9 +90,12 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
                         raise AtlasError(f"{where}: {name} is there twice, with other numbers.")
             elif line:
                 separator = next((s for s in (",", ";", "\t") if s in line), None)
-                names = _header(line.split(separator), where, FIELD if fields else ())
-                written = dict(zip(names, (cell.strip(" \"'") for cell in line.split(separator)), strict=True))
-                blocks = _blocks(lines, number, written, separator, path.name)
+                cells = line.split(separator) if separator else re.sub(r"\s+\[", "[", line).split()
+                titles = [heading(cell.strip(" \"'")) for cell in cells]
+                names = _header([name for name, _ in titles], where, FIELD if fields else ())
+                written = dict(zip(names, (name for name, _ in titles), strict=True))
+                sizes = {name: _size(name, unit, where) for name, (_, unit) in zip(names, titles, strict=True)}
+                blocks = _blocks(lines, number, written, sizes, separator, path.name)
                 yield Trajectory(path.name, written, parameters, blocks)
                 return
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
@@ -126,7 +137,12 @@ def _decoded(file: Iterator[str], name: str) -> Iterator[str]:
 
 
 def _blocks(
-    lines: Iterator[str], above: int, names: Mapping[str, str], separator: str | None, file: str
+    lines: Iterator[str],
+    above: int,
+    names: Mapping[str, str],
+    sizes: Mapping[str, Fraction],
+    separator: str | None,
+    file: str,
 ) -> Iterator[dict[str, FloatArray]]:
     """Yield the rows below the line of names, the number `above`; messages have the names as they are written."""
     first, empty = above + 1, True
@@ -138,7 +154,9 @@ def _blocks(
         rows = [(i, line) for i, line in numbered if not line.lstrip().startswith("#")]
         if rows:
             empty = False
-            yield dict(zip(names, _rows(rows, [*names.values()], separator, file).T, strict=True))
+            columns = _rows(rows, [*names.values()], separator, file).T
+            sized = zip(names, columns, strict=True)
+            yield {name: x * float(sizes[name].numerator) / float(sizes[name].denominator) for name, x in sized}
         first += len(block)
     if empty:
         raise AtlasError(f"{file} has names but no rows of numbers.")
@@ -188,14 +206,15 @@ def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
     """Return the canonical names of the columns."""
     names = []
     for cell in cells:
-        plain = cell.strip().strip("\"'")
-        bare = plain.lower().replace("_", "")
+        bare = cell.lower().replace("_", "")
         name = _NAMES.get(bare, bare.upper() if bare.upper() in more else None)
         if name is None:
             raise AtlasError(
-                f"{where}: no column is called {plain!r}; "
+                f"{where}: no column is called {cell!r}; "
                 f"there are t, R11 to R33 (the axis is R13, R23, R33), Omega1 to Omega3, "
                 f"{'K1 to K3, ' if more else ''}q0 to q3 (or w, x, y, z)."
+                + " Of Euler angles SciPy makes these: x, y, z, w = Rotation.from_euler(...).as_quat()."
+                * bare.startswith(EULER)
             )
         if name in names:
             raise AtlasError(f"{where}: the column {name} is there twice.")
@@ -207,6 +226,18 @@ def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
     if 0 < len(set(QUATERNION) & set(names)) < 4:
         raise AtlasError(f"{where}: a quaternion has the four columns q0 to q3 (or w, x, y, z).")
     return names
+
+
+def _size(name: str, unit: str, where: str) -> Fraction:
+    """Return how many of the unit of a column, s or rad/s, that of its heading is, 1 where it has none."""
+    if unit in PLAIN:
+        return Fraction(1)
+    option = OPTIONS.get(name, "")
+    try:
+        return Fraction(size(unit, option))
+    except AtlasError as error:
+        right = f"is in {WANTED[option]}, or what can be made of it" if option else "has no unit"
+        raise AtlasError(f"{where}: {name} {right}, not in {unit!r}.") from error
 
 
 def _number(cell: str, where: str) -> float:

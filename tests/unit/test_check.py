@@ -220,6 +220,10 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
         ("R11,R12\n1,2\n", "no column t"),
         ("t\n0\n", "nothing to grade"),
         ("t,R11,R44\n0,1,1\n", "line 1: no column is called 'R44'"),
+        ("t,roll,pitch,yaw\n0,1,1,1\n", r"no column is called 'roll'; .*from_euler"),
+        ("t,phi_deg\n0,1\n", "no column is called 'phi_deg'; .*from_euler"),
+        ("t [kg],R11\n0,1\n", r"line 1: t is in s, or what can be made of it, not in 'kg'\."),
+        ("t,R11 [m]\n0,1\n", "R11 has no unit, not in 'm'"),
         ("t,R11,r11\n0,1,1\n", "R11 is there twice"),
         ("t,w,x,y\n0,1,0,0\n", "a quaternion has the four columns"),
         (HEAD + "t,R11\n0,1\n1\n", "line 4: 1 cells where the line of names has 2"),
@@ -254,6 +258,21 @@ def test_a_comment_may_begin_like_a_parameter(write: Writer) -> None:
     """After a colon words are words; a byte order mark is no part of a line; the same parameter twice is no quarrel."""
     text = "\ufeff# field: along e3\n# ratio of inertia = none\n" + HEAD + "# omega2: 0.7\n" + "t,R11\n0,1\n# end\n"
     assert check(write(text)).parameters == {"ratio": 1.5, "field": [1.0, 2.0], "omega2": 0.7}
+
+
+@pytest.mark.parametrize(
+    ("heads", "separator", "factors"),
+    [
+        (("t [s]", "Omega1 [1/s]", "Omega2 [rad/s]", "Omega3"), " ", (1.0, 1.0)),
+        (("t [time]", "Omega1 [1/time]", "Omega2[1/time]", '"Omega3 [1/time]"'), ",", (1.0, 1.0)),
+        (("time [ms]", "omega_1 [Hz]", "omega_2 [Hz]", "omega_3 [Hz]"), ";", (1e3, 1 / (2 * math.pi))),
+    ],
+)
+def test_columns_may_have_units(write: Writer, heads: list[str], separator: str, factors: tuple[float, float]) -> None:
+    """They are those of lists of a sweep: times in s, rates in rad/s, others are converted."""
+    rows = [[factors[0] * t, *(factors[1] * x for x in true_row(t)[9:])] for t in TIMES]
+    result = check(write(HEAD + table(list(heads), rows, separator)))
+    assert min(c.worst for c in result.columns) > 13.5
 
 
 def test_numbers_in_any_notation_are_the_same(write: Writer) -> None:

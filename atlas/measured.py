@@ -1,4 +1,4 @@
-"""Numbers with a unit at the shell: 1.2um, 0.8T, 5000e, 1850kg/m3, 2MHz, 30deg; they are in SI.
+"""Numbers with a unit, at the shell 1.2um, 0.8T, 5000e, 1850kg/m3, 2MHz, 30deg, in a heading t [ms]; they are in SI.
 
 Not by pint: it takes 0.8 s to load, thrice the whole command, knows neither m3 nor turns in Hz, and has a rounded pi.
 """
@@ -7,6 +7,7 @@ import math
 import re
 from collections import Counter
 from fractions import Fraction
+from functools import cache
 
 from atlas.errors import AtlasError
 
@@ -68,6 +69,19 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
     for name, power in angle.items():
         exact *= ANGLES[name] ** power
     return exact, None if angle else value
+
+
+def heading(cell: str) -> tuple[str, str]:
+    """Return name and unit of a column, t and s of t [s]; the unit is empty where there is none."""
+    name, _, unit = cell.partition("[")
+    return name.strip(), unit.strip(" ]")
+
+
+@cache
+def size(unit: str, option: str) -> Fraction | float:
+    """Return how many of the unit of an option a unit is. Raises AtlasError for one of something else."""
+    value, exact = in_si(Fraction(1), unit.removeprefix("1"), option)
+    return value if exact is None else exact
 
 
 def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
