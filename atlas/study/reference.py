@@ -87,8 +87,7 @@ def _in_given_axes(motion: Turned) -> Reference:
     parts = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}
     shown = {name: x.tolist() for name, x in parts.items()}
     unit = float(np.abs([*K, *omega]).max()) or 1.0
-    case = motion.kind if hasattr(motion, "kind") else motion.family
-    return Reference(case, shown, AnyBody(tensor, field, (omega, K)), motion, unit)
+    return Reference(motion.kind, shown, AnyBody(tensor, field, (omega, K)), motion, unit)
 
 
 def _any_body(known: Given, start: Given, file: str) -> Reference:

@@ -31,6 +31,7 @@ SERIES = "compared with Taylor series in balls, and with the elementary motions,
 UNTIED = {
     "Quadric.kind": NAME,
     "ElementaryMotion.case": NAME,
+    **{f"{name}Motion.kind": NAME for name in ("Ball", "Elementary", "Free")},
     "ElementaryMotion.omega2": GIVEN,
     "ParticleMotion.case": NAME,
     "ParticleMotion.kind": NAME,

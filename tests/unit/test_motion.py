@@ -96,18 +96,18 @@ def test_all_ways_to_give_a_body_say_the_same() -> None:
 def test_the_class_that_fits_is_found() -> None:
     """By the start, too: the paper's family, a free body; and it is an instance of its class."""
     omega3 = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).omega3
-    for given, made, family in (
-        ((1.5, (0, 1, 2), (0, 0.7, omega3)), atlas.ElementaryMotion, "elementary"),
-        ((1.5, turn(3) @ (0, 1, 2), (0, 0.7, omega3), turn(3)), atlas.ElementaryMotion, "elementary"),
-        ((1.5, (0, 0, 2), (0, 0, 1)), atlas.ElementaryMotion, "elementary"),
-        ((1.5, (0, 1, 2), (0, 0.7, 0.1)), atlas.GeneralMotion, "general"),
-        ((1.5, (0, 0, 0), (0.1, 0.7, 0.1)), atlas.FreeMotion, "free"),
-        ((1.0, (0, 1, 2), (0.1, 0.7, 0.1)), atlas.BallMotion, "ball"),
-        (((1.0, 1.2, 1.5), (0, 1, 2), (0, 0.7, 0.1)), atlas.AsymmetricMotion, "asymmetric"),
+    for given, made, family, kind in (
+        ((1.5, (0, 1, 2), (0, 0.7, omega3)), atlas.ElementaryMotion, "elementary", "precession"),
+        ((1.5, turn(3) @ (0, 1, 2), (0, 0.7, omega3), turn(3)), atlas.ElementaryMotion, "elementary", "precession"),
+        ((1.5, (0, 0, 2), (0, 0, 1)), atlas.ElementaryMotion, "elementary", "spin along the field"),
+        ((1.5, (0, 1, 2), (0, 0.7, 0.1)), atlas.GeneralMotion, "general", "nutation, four real roots"),
+        ((1.5, (0, 0, 0), (0.1, 0.7, 0.1)), atlas.FreeMotion, "free", "free body"),
+        ((1.0, (0, 1, 2), (0.1, 0.7, 0.1)), atlas.BallMotion, "ball", "ball"),
+        (((1.0, 1.2, 1.5), (0, 1, 2), (0, 0.7, 0.1)), atlas.AsymmetricMotion, "asymmetric", "on a torus"),
     ):
         m = atlas.motion(*given)  # type: ignore[arg-type]
         assert isinstance(m, made)
-        assert m.family == family
+        assert (m.family, m.kind) == (family, kind)
         assert np.abs(m.angular_velocity(0.0) - given[2]).max() <= 16 * EPS
 
 
@@ -116,6 +116,16 @@ def test_a_disk_is_a_body_in_any_axes() -> None:
     for turn in Rotation.random(20, random_state=1).as_matrix():
         tensor = turn @ np.diag([1.0, 1.0, 2.0]) @ turn.T
         assert atlas.motion((tensor + tensor.T) / 2, (0.0, 0.0, 1.0), (0.1, 0.2, 0.3)).family == "general"
+
+
+def test_arrays_of_each_class_have_kinds() -> None:
+    """One name for each motion, whichever class they are of."""
+    two = np.array([0.3, 0.7])
+    for motions in (
+        atlas.ElementaryMotion(1.5, (1.0, 2.0), two), atlas.FreeMotion(1.5, (0.1, 0.2, two)),
+        atlas.BallMotion(1.0, two, (0.3, 0.4)), atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, two, 0.2)),
+    ):  # fmt: skip
+        assert motions.kind.shape == (2,)
 
 
 def test_arrays_have_each_motion_of_their_own() -> None:

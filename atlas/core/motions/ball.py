@@ -40,7 +40,7 @@ class BallMotion(DoubleTurn[Ball]):
         0.360555128
     """
 
-    family = "ball"
+    family = _kind = "ball"
     _frequencies = slice(1, None)
     _inverse = True
 

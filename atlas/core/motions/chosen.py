@@ -43,12 +43,12 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned
     otherwise. All broadcast.
 
     The result is a motion of the class that fits, as `family` says: "free" or "elementary", "ball" or "general" for a
-    body with two equal moments, "asymmetric" for any other. `rotation`, `quaternion`, `column` and `rotation_grid` are
-    between the axes given, `angular_velocity` and `field_in_body` along those of the body, `angular_momentum` in the
-    laboratory; what the class has besides stays. Components along the axes of the class are rounded, so that in other
-    axes than those a phase f t is off by about f t 1e-16. Raises DomainError for a tensor or for moments that no body
-    has, an attitude that is no rotation, and for an array whose bodies are partly symmetric; AtlasError for what is no
-    finite number.
+    body with two equal moments, "asymmetric" for any other; `kind` says of which kind it is there. `rotation`,
+    `quaternion`, `column` and `rotation_grid` are between the axes given, `angular_velocity` and `field_in_body` along
+    those of the body, `angular_momentum` in the laboratory; what the class has besides stays. Components along the axes
+    of the class are rounded, so that in other axes than those a phase f t is off by about f t 1e-16. Raises DomainError
+    for a tensor or for moments that no body has, an attitude that is no rotation, and for an array whose bodies are
+    partly symmetric; AtlasError for what is no finite number.
 
         >>> motion = atlas.motion([[2, 0.1, 0], [0.1, 1.5, 0.2], [0, 0.2, 1]], (0.3, 0, 1), (0.1, 0.2, 3.0))
         >>> motion.family, motion.kind

@@ -99,6 +99,11 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """Name of the case, a string, or an array of them."""
         return np.array(CASES)[self._codes] if self.shape else self._single().case
 
+    @property
+    def kind(self) -> Any:
+        """Name of the kind of motion, that of its `case`."""
+        return self.case
+
     @kept
     def omega2(self) -> Any:
         """Initial Omega2, as given."""
@@ -251,7 +256,7 @@ class FreeMotion(DoubleTurn[Free]):
     DomainError for a ratio that no body has, AtlasError for what is no number.
     """
 
-    family = "free"
+    family, _kind = "free", "free body"
     _frequencies = slice(2, None)
 
     def __init__(self, ratio: Any, omega: Any) -> None:

@@ -284,6 +284,12 @@ class DoubleTurn(Motion[Turning]):
     """Which of the inputs are frequencies."""
     _inverse = False
     """Whether the matrix is the transposed one, (28)."""
+    _kind: str
+
+    @property
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return np.full(self.shape, self._kind) if self.shape else self._kind
 
     @cached_property
     def _rows(self) -> Turnings:
