@@ -33,9 +33,6 @@ OUT.new.csv, and then the exit status is 2.
 MOST = 10**7
 """Values of one parameter that a range may have."""
 
-OF_BODY = {*body.BODY, *body.SIZES}
-"""Options of a body that say nothing of a field."""
-
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
     """Where a table goes: a file; a folder, if the name ends in /; or an address."""
@@ -202,8 +199,8 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
         else:
             chosen = body.chosen_body(options)
             found["ratio"] = float(getattr(chosen, "ratio", chosen))
-    of_field = given(options, ("field", "magnetic")) if three else body.body_parameters(options).keys() - OF_BODY
-    if of_field:
+    weighed = ("mass", "density") if options["shape"] is None else ()
+    if given(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
         found |= zip(("B1", "B2", "B3")[not three :], body.chosen_field(options), strict=True)
     start = body.start_of(options, needed=False)
     if start is not None:

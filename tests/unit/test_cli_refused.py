@@ -182,6 +182,7 @@ CASES = [
     *((f"sweep --file {{place}}/bad.toml --{one}", "with --file only --out and --jobs")
       for one in ("quantity k", "set ratio=1", "digits 5", "rows 3", "ratio 1", "list {place}/ratios.csv")),
     ("sweep elementary --file {place}/bad.toml", "with --file only --out and --jobs"),
+    ("sweep asymmetric --inertia 0.8 1 1.3 --set B1=0 --mu 1 --quantity H", "the field is one of --field"),
     ("sweep --quantity k --out {place}/out.csv", "name the family to sweep"),
     ("sweep elementary --quantity k --set ratio=1", "--out is missing"),
     ("sweep general --inertia 0.8 1 1.3 --quantity k --out {place}/out.csv", "is the family asymmetric"),
