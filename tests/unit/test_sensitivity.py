@@ -165,13 +165,20 @@ def test_arrays_have_the_sensitivity_of_each() -> None:
 
 
 def test_what_has_no_sensitivity_is_refused() -> None:
-    """A separatrix, and a name that is no input."""
+    """A separatrix, a name that is no input, a period that is infinite."""
     with pytest.raises(atlas.DomainError, match="separatrix"):
         atlas.TopMotion((1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 2.0).sensitivity(1.0, "linear")
     with pytest.raises(atlas.AtlasError, match="no input 'omega4'"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, ["omega4"])
     with pytest.raises(atlas.AtlasError, match="no derivative of 'speed'"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).sensitivity(1.0, "ratio", "speed")
+    for still in (
+        atlas.ElementaryMotion(1.5, (1.0, 2.0), np.array([0.7, 0.0])),
+        atlas.FreeMotion(1.5, (0.0, 0.0, 0.0)),
+        atlas.motion(1.5, (0.0, 1.0, 2.0), (0.0, 0.0, 0.0)),
+    ):
+        with pytest.raises(atlas.DomainError, match="The period is infinite and has no derivatives"):
+            still.sensitivity(0.0, "ratio", "period")
     upright = atlas.TopMotion.in_laboratory(
         (1.0, 0.5), (0, 0, 1.0), np.eye(3), (0, 0, 3.0), coupling=(0, 0), linear=1.0
     )

@@ -72,7 +72,7 @@ class One:
     """The i-th motion of an array, its inputs, and how names move them."""
 
     def __init__(self, motion: Any, i: int) -> None:
-        self.motion, self.one = motion, motion._single(i)  # noqa: SLF001  of the same floor
+        self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same floor
         family, turned = motion.family, hasattr(motion, "own")
         self.sides = self.left, self.axes = self._sides(i) if turned else (np.eye(3), np.eye(3))
         row = [np.broadcast_to(x, motion.shape).flat[i] for x in getattr(motion, "_inputs", ())]
@@ -164,6 +164,9 @@ class One:
                 f"{', '.join((*VECTORS, *self.inputs.scalars))}."
             )
         needed = self._asked(names)
+        value = getattr(self.motion, of, 0.0)
+        if np.isinf(np.broadcast_to(value, self.motion.shape).flat[self.place]):
+            raise DomainError(f"The {of} is infinite and has no derivatives.")
         derivatives = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
         return np.array([
             0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.moved[name].weights.items())
