@@ -212,6 +212,18 @@ def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: s
         assert overlap(motion.angular_velocity(5), [arb(mpmath.nstr(x, 40)) for x in state.Omega], 1e-25)
 
 
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_free_spin_about_a_principal_axis_is_a_turn(axis: int) -> None:
+    """About the middle one, too, from which all neighbours depart."""
+    e, t = np.eye(3)[axis], np.linspace(0, 12 * np.pi, 50)
+    found = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0, 0, 0), tuple(e))
+    turns = np.cos(t)[:, None, None] * (np.eye(3) - np.outer(e, e)) + np.outer(e, e)
+    turns += np.sin(t)[:, None, None] * np.cross(np.eye(3), e)
+    assert np.abs(found.rotation(t) - turns).max() < 1e-14
+    assert np.abs(found.third_axis(t) - turns[..., 2]).max() < 1e-14
+    assert np.abs(found.rotation(t[-1]) - turns[-1]).max() < 1e-14
+
+
 @pytest.mark.parametrize("v", [2, -2])
 @pytest.mark.parametrize("inertia", [(1, 2, 3), (2, 3, 1)])
 def test_an_elliptic_motion_is_found_with_its_place(inertia: tuple[int, ...], v: int) -> None:

@@ -224,6 +224,23 @@ def test_what_is_typed_with_units_is_the_same_without(one: str, other: str) -> N
     assert found["k"] == pytest.approx(true["k"], rel=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("words", "plain"),
+    [
+        ("motion --ratio 1.5 --magnetic 1T --angle 0deg --mu 1C/kg --omega 0.1 0.3 0Hz", {"0deg": "0", "0Hz": "0"}),
+        ("motion --ratio 1.5 --magnetic 0T 1T --mu 1C/kg --spin 0Hz", {"0T": "0", "0Hz": "0"}),
+        ("motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0:1s:3", {"0:1s:3": "0s 500ms 1s"}),
+        ("motion --ratio 1.5 --field 1 2 --omega2 0.7 --grid 0:1ms:2", {"--grid": "--times", "0:1ms:2": "0s 1ms"}),
+        ("particle --mu 1C/kg --electric 0V/m 5V/m 0V/m --magnetic 0 0T 1T", {"0V/m": "0", "0T": "0"}),
+    ],
+)
+def test_zero_has_any_unit(words: str, plain: dict[str, str]) -> None:
+    """It is that without: beside other numbers with units, in a range of times and among several."""
+    other = " ".join(plain.get(word, word) for word in words.split())
+    assert other != words
+    assert numbers(*words.split(), "--json") == numbers(*other.split(), "--json")
+
+
 def test_help_and_lists_are_asked_for_as_one_would() -> None:
     """`atlas help motion` is its help, `atlas list shapes` the one list."""
     assert run("help", "motion")[1] == run("motion", "--help")[1]
