@@ -297,3 +297,19 @@ def test_sensitivity_of_a_free_body_with_three_moments(omega: tuple[float, ...])
     ).all()
     with pytest.raises(atlas.AtlasError, match="no input 'B1'"):
         motion.sensitivity(1.0, "B1")
+
+
+def test_rates_among_all_motions_of_a_body_are_those_of_its_class() -> None:
+    """Of a ball they are -|B| and -|B + Omega|, by central differences; a period goes with the rate of precession."""
+    names, h = ["omega1", "omega2", "omega3", "B1", "B2", "B3"], 1e-5
+    start = np.array([0.2, 0.7, 0.3, 0.0, 1.0, 2.0])
+
+    def made(x: np.ndarray) -> Any:
+        return atlas.motion(1.0, x[3:], x[:3])
+
+    for of in ("precession_rate", "spin_rate"):
+        steps = [(getattr(made(start + e), of) - getattr(made(start - e), of)) / (2 * h) for e in h * np.eye(6)]
+        np.testing.assert_allclose(made(start).sensitivity(0.0, names, of), steps, atol=1e-9)
+    elementary = atlas.motion(1.5, (0, 1, 2), (0, 0.7, atlas.ElementaryMotion(1.5, (1, 2), 0.7).omega3))
+    rate, period = (elementary.sensitivity(0.0, names, of) for of in ("precession_rate", "period"))
+    np.testing.assert_allclose(period, -rate * elementary.period / elementary.precession_rate, rtol=1e-12, atol=1e-20)

@@ -16,6 +16,7 @@ from atlas.core.arithmetic.words import floats
 from atlas.core.inputs import FloatArray, common_shape, real
 from atlas.core.motions.sensitivity_inputs import (
     Inputs,
+    of_any_start,
     of_asymmetric,
     of_ball,
     of_elementary,
@@ -112,7 +113,7 @@ class One:
         B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (self.motion._given_field, w))  # noqa: SLF001
         ratio = fmpq(1) if is_ball else rational(float(row[1])) / rational(float(row[0]))
         K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
-        return of_general(ratio, K, omega)
+        return of_any_start(self.motion.family, ratio, K, omega)
 
     def _moved(self, turned: bool, i: int) -> dict[str, Moved]:
         """Return how each name that a user may ask for moves the inputs."""

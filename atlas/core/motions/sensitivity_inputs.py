@@ -1,8 +1,9 @@
 """What motions are made of: exact inputs by name, the twin in balls that they make, and scalars of that."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from operator import add
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -115,6 +116,11 @@ class Turns(NamedTuple):
 def _size(*rates: fmpq) -> fmpq:
     """Return the largest, 1 if all are zero."""
     return max((abs(x) for x in rates), default=fmpq(0)) or fmpq(1)
+
+
+def _length(vector: Iterable[fmpq]) -> arb:
+    """Return the length of a vector."""
+    return arb(sum((x * x for x in vector), fmpq(0))).sqrt()
 
 
 def _nutation() -> dict[str, Callable[[Nutating], Any]]:
@@ -230,6 +236,25 @@ BALL: dict[str, Callable[[Turns], Any]] = {
     "precession_rate": lambda x: -x.phi,
     "spin_rate": lambda x: -x.k,
 }
+_RATES = _nutation()
+TURNS_AMONG_ALL: dict[str, Callable[[Nutating], Any]] = {
+    "k": _RATES["precession_rate"],
+    "phi": _RATES["spin_rate"],
+    "precession_rate": _RATES["precession_rate"],
+    "spin_rate": _RATES["spin_rate"],
+    "period": lambda x: 2 * arb.pi() / abs(_RATES["precession_rate"](x)),
+}
+BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
+    "gamma": lambda x: _length(map(add, x.field, x.omega)),
+    "precession_rate": lambda x: -_length(x.field),
+    "spin_rate": lambda x: -_length(map(add, x.field, x.omega)),
+}
+"""Those of motions in elementary functions whose neighbours are others: mean rates, and what follows from them."""
+
+
+def of_any_start(family: str, I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
+    """Return the inputs of a motion in elementary functions among all of its body, with the scalars of its family."""
+    return replace(of_general(I, K, omega), scalars=BALL_AMONG_ALL if family == "ball" else TURNS_AMONG_ALL)
 
 
 def of_elementary(case: str, row: Sequence[float], omega3_is_input: bool) -> Inputs:
