@@ -28,18 +28,10 @@ class Cloud:
     B: NDArray[np.float64]
 
     @classmethod
-    def random(cls, seed: int, *, symmetric: bool = False, round_: bool = False) -> "Cloud":
-        """Make a cloud of seven points, or one that is symmetric about the third axis, or about all."""
+    def random(cls, seed: int) -> "Cloud":
+        """Make a cloud of seven points."""
         rng = np.random.default_rng(seed)
         masses, start = rng.uniform(0.2, 1, 7), rng.normal(size=(7, 3))
-        if symmetric:
-            angles = 2 * np.pi * np.arange(4) / 4
-            start = np.array(
-                [[r * np.cos(a), r * np.sin(a), z] for r, z in rng.uniform(0.5, 2, (2, 2)) for a in angles]
-            )
-            masses = np.repeat(rng.uniform(0.2, 1, 2), 4)
-        if round_:
-            start, masses = np.concatenate([np.eye(3), -np.eye(3)]), np.full(6, 0.3)
         start = start - masses @ start / masses.sum()
         inertia = np.einsum("n,nij->ij", masses, [x @ x * np.eye(3) - np.outer(x, x) for x in start])
         inertia = (inertia + inertia.T) / 2
@@ -107,39 +99,6 @@ def test_the_accelerations_need_only_symmetric_multipliers(seed: int) -> None:
 
 
 @given(seeds)
-def test_the_three_forms_agree(seed: int) -> None:
-    """The forms (16), (17) and (18) are one equation for Omega, m = R I Omega and M = I Omega."""
-    c = Cloud.random(seed)
-    M, K = c.inertia @ c.Omega, equations.field_in_body(c.R, c.B)
-    body = equations.body_momentum_rate(c.inertia, K, M)
-    assert np.abs(c.inertia @ equations.angular_acceleration(c.inertia, K, c.Omega) - body).max() < c.tolerance
-    moving = equations.rotation_rate(c.R, c.Omega) @ M + c.R @ body
-    assert np.abs(equations.momentum_rate(c.inertia, c.B, c.R, c.R @ M) - moving).max() < c.tolerance
-
-
-@given(seeds)
-def test_three_terms_make_one_with_the_mass_matrix(seed: int) -> None:
-    """In (15), I[K, Omega] - [I K, Omega] + [K, I Omega] = 2 [g K, Omega], also for a tensor that is not diagonal."""
-    c = Cloud.random(seed)
-    I, K, Omega = c.inertia, c.K, c.Omega
-    three = I @ np.cross(K, Omega) - np.cross(I @ K, Omega) + np.cross(K, I @ Omega)
-    assert np.abs(three - 2 * np.cross(mass_matrix(I) @ K, Omega)).max() < c.tolerance
-    euler = np.cross(I @ Omega, Omega) - three
-    assert np.abs(equations.body_momentum_rate(I, K, I @ Omega) - euler).max() < c.tolerance
-
-
-@given(seeds)
-def test_rotations_stay_rotations_and_carry_the_field(seed: int) -> None:
-    """The rate of R^T R vanishes by (12), the rows turn as (74) says, and K = R^T B' changes as (35) says."""
-    c = Cloud.random(seed)
-    rate = equations.rotation_rate(c.R, c.Omega)
-    assert np.abs(rate.T @ c.R + c.R.T @ rate).max() < c.tolerance
-    assert np.abs(rate - np.cross(c.R, c.Omega)).max() < c.tolerance
-    assert np.abs(c.B @ rate - equations.field_rate(c.K, c.Omega)).max() < c.tolerance
-    assert np.abs(rate @ c.start.T - c.v.T).max() < c.tolerance
-
-
-@given(seeds)
 def test_every_body_conserves_energy_field_and_momentum_along_the_field(seed: int) -> None:
     """The rates of (Omega, I Omega), K^2 and (K, I (Omega + K)) vanish for any cloud."""
     c = Cloud.random(seed)
@@ -150,42 +109,6 @@ def test_every_body_conserves_energy_field_and_momentum_along_the_field(seed: in
     assert abs(dK @ I @ (Omega + K) + K @ I @ (dOmega + dK)) < 10 * c.tolerance
     laboratory = c.B @ (c.R @ I @ Omega + c.R @ I @ c.R.T @ c.B)
     assert abs(equations.momentum_along_field(I, K, Omega) - laboratory) < 10 * c.tolerance
-
-
-@given(seeds)
-def test_a_symmetric_body_conserves_one_more(seed: int) -> None:
-    """With I1 = I2 the sum Omega3 + K3 is conserved, (40); without that symmetry it is not."""
-    for symmetric in (True, False):
-        c = Cloud.random(seed, symmetric=symmetric)
-        dOmega, dK = equations.angular_acceleration(c.inertia, c.K, c.Omega), equations.field_rate(c.K, c.Omega)
-        assert (abs(dOmega[2] + dK[2]) < c.tolerance) == symmetric
-
-
-@given(seeds)
-def test_the_momentum_of_a_ball_precesses_with_larmors_frequency(seed: int) -> None:
-    """For I1 = I2 = I3, (17) is dm/dt = -[B', m], (22): m^2 and (m, B) are conserved, (23)."""
-    c = Cloud.random(seed, round_=True)
-    m = c.R @ c.inertia @ c.Omega
-    rate = equations.momentum_rate(c.inertia, c.B, c.R, m)
-    assert np.abs(rate + np.cross(c.B, m)).max() < c.tolerance
-    assert abs(m @ rate) < c.tolerance
-    assert abs(c.B @ rate) < c.tolerance
-
-
-@given(seeds)
-def test_the_components_of_a_symmetric_body(seed: int) -> None:
-    """The forms (34) and (35) give the components (38) and (39) as printed."""
-    rng = np.random.default_rng(seed)
-    I, (O1, O2, O3), (K1, K2, K3) = rng.uniform(0.1, 2), rng.normal(size=3), rng.normal(size=3)
-    angular = [
-        (1 - I) * O3 * O2 - I * O3 * K2 + (2 - I) * O2 * K3,
-        -(1 - I) * O3 * O1 + I * O3 * K1 - (2 - I) * O1 * K3,
-        O1 * K2 - O2 * K1,
-    ]
-    field = [O3 * K2 - O2 * K3, -O3 * K1 + O1 * K3, -(O1 * K2 - O2 * K1)]
-    K, Omega = np.array([K1, K2, K3]), np.array([O1, O2, O3])
-    assert np.abs(equations.angular_acceleration(np.diag([1, 1, I]), K, Omega) - angular).max() < 1000 * EPS
-    assert np.abs(equations.field_rate(K, Omega) - field).max() < 100 * EPS
 
 
 def test_arrays_broadcast() -> None:
