@@ -68,15 +68,6 @@ def test_along_the_field_the_two_turns_are_one(I0: float, alpha: float, m3: floa
     assert np.abs(BallMotion(I0, alpha, (0.0, m3)).rotation(t) - true).max() <= 4 * ULP1
 
 
-def test_momentum_precesses_with_the_larmor_frequency() -> None:
-    """m(t) is (26): constant in length and along the field, (23), turned clockwise by alpha t."""
-    ball, t = BallMotion(2.0, 0.5, (0.3, -0.4)), np.linspace(-20, 20, 41)
-    m = ball.angular_momentum(t)
-    assert np.abs(np.hypot(m[:, 0], m[:, 1]) - 0.3).max() <= 4 * ULP1
-    assert np.all(m[:, 2] == -0.4)
-    assert np.abs(m[:, 0] - 0.3 * np.sin(0.5 * t)).max() <= 8 * ULP1
-
-
 def test_the_field_in_the_body_turns_against_the_ball() -> None:
     """K = R^T B' of (32), for arrays of balls at several times; so the spectrum of a ball has that of its field."""
     larmor, t = np.array([0.5, -2.0]), np.linspace(-3, 3, 7)[:, None]

@@ -71,7 +71,7 @@ def test_the_scalars_are_rounded_once_for_any_inputs(I: float, B2: float, B3: fl
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_case_has_its_name_and_solves_the_equations(case: str) -> None:
-    """Each case is a motion: a Taylor integration of (12), (16) gives the same R, Omega and K."""
+    """Each case is a motion: a Taylor integration of (12), (16) gives the same R, Omega, K and m."""
     I, field, omega2, omega3 = CASES[case]
     motion = ElementaryMotion(I, field, omega2, omega3)
     assert motion.case == case
@@ -88,16 +88,8 @@ def test_every_case_has_its_name_and_solves_the_equations(case: str) -> None:
         assert np.abs(motion.rotation(t) - np.array(state.R.tolist(), float)).max() <= 4 * ULP1
         assert np.abs(motion.angular_velocity(t) - np.array(state.Omega, float)).max() <= 8 * ULP1
         assert np.abs(motion.field_in_body(t) - np.array(state.K, float)).max() <= 8 * ULP1
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_momentum_is_that_of_omega_turned_into_the_laboratory(case: str) -> None:
-    """m/I2 = R I Omega/I2, as in (88)."""
-    I, field, omega2, omega3 = CASES[case]
-    motion, t = ElementaryMotion(I, field, omega2, omega3), np.linspace(-5, 5, 41)
-    body = motion.angular_velocity(t) * [1.0, 1.0, I]
-    assert np.abs(motion.angular_momentum(t) - np.matvec(motion.rotation(t), body)).max() <= 8 * ULP1
-    assert np.abs(motion.field_in_body(t) - np.matvec(motion.rotation(t).mT, [0, *field])).max() <= 8 * ULP1
+        m = np.array(state.R.tolist(), float) @ (np.array(state.Omega, float) * [1.0, 1.0, I])
+        assert np.abs(motion.angular_momentum(t) - m).max() <= 8 * ULP1
 
 
 @pytest.mark.parametrize("inputs", EXTREME)
@@ -122,16 +114,6 @@ def test_vectors_are_true_to_8_ulp_of_their_length(inputs: tuple[float, float, f
                 length = mp.sqrt(sum(x * x for x in exact))
                 error = mp.sqrt(sum((mpf(float(x)) - y) ** 2 for x, y in zip(ours, exact, strict=True)))
                 assert error <= 8 * mpf(float(np.spacing(float(length))))
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_the_invariants_are_constant(case: str) -> None:
-    """E', K^2, c3, c5, (36) to (41), and (m, B'), (88), do not change."""
-    I, field, omega2, omega3 = CASES[case]
-    values = ElementaryMotion(I, field, omega2, omega3).invariants(np.linspace(-1e6, 1e6, 101))
-    assert set(values) == {"E'", "K^2", "c3", "c5", "(m,B')"}
-    for value in values.values():
-        assert np.ptp(value) <= 64 * ULP1
 
 
 extreme_numbers = st.floats(-1e300, 1e300) | st.sampled_from([0.5, -0.5 + 2.0**-53, 0.75, 1e160, -1e-160, 1e308])
@@ -206,23 +188,6 @@ def test_shapes_that_do_not_meet_are_one_sentence() -> None:
         pair.rotation(np.ma.masked_array([0.0, 1.0], [True, False]))
 
 
-def test_the_closed_form_differentiates_to_equation_12() -> None:
-    """dR/dt = R [Omega]x, by central differences of the closed form."""
-    motion, t, h = ElementaryMotion(0.7, (1.1, -0.6), 1.3), np.linspace(-3, 3, 13), 2.0**-17
-    slope = (motion.rotation(t + h) - motion.rotation(t - h)) / (2 * h)
-    Omega = motion.angular_velocity(t)
-    hat = np.cross(np.eye(3), Omega[:, None, :]) * -1.0
-    assert np.abs(slope - motion.rotation(t) @ hat.mT).max() < 1e-9
-
-
-def test_frequencies_obey_equation_86() -> None:
-    """For B2 > 0, phi = (I2 - I3) B3hat (2 b + k) k/(I3 (b + k))."""
-    body, (B2, B3) = SymmetricBody(2.0, 3.0), (1.0, 2.0)
-    motion, b = ElementaryMotion(body, (B2, B3), 0.7), np.hypot(B2, B3)
-    k = motion.k
-    assert motion.phi == pytest.approx((2.0 - 3.0) * (B3 / b) * (2 * b + k) * k / (3.0 * (b + k)), rel=8 * ULP1)
-
-
 def test_the_free_body_beside_precesses_alike() -> None:
     """The free body of (87) has the same k and axis, and phi = (I2 - I3) B3hat k/I3."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
@@ -254,13 +219,6 @@ def test_a_body_is_not_rounded_to_its_ratio() -> None:
     assert not np.array_equal(body.rotation(1e14), ratio.rotation(1e14))
 
 
-def test_a_ball_precesses_without_proper_rotation() -> None:
-    """For I3 = I2 phi is zero exactly, and next to it R is next to that."""
-    motion = ElementaryMotion(1.0, (1.0, 2.0), 0.7)
-    assert motion.phi == 0.0
-    assert np.abs(ElementaryMotion(1 + 2.0**-52, (1.0, 2.0), 0.7).rotation(3.0) - motion.rotation(3.0)).max() < 8 * ULP1
-
-
 @settings(max_examples=40)
 @given(st.floats(0.1, 2), st.floats(-3, 3), st.floats(-3, 3), st.floats(-50, 50))
 def test_reversing_the_field_and_the_motion_turns_it_about_e3(I: float, B3: float, omega2: float, t: float) -> None:
@@ -270,20 +228,6 @@ def test_reversing_the_field_and_the_motion_turns_it_about_e3(I: float, B3: floa
     D = np.array([-1.0, -1.0, 1.0])
     plain, turned = ElementaryMotion(I, (1.0, B3), omega2), ElementaryMotion(I, (-1.0, B3), -omega2)
     assert np.array_equal(turned.rotation(t), D[:, None] * plain.rotation(t) * D)
-
-
-def test_parameters_and_times_broadcast() -> None:
-    """Arrays of ratios, fields, omega2 and times broadcast by NumPy's rules."""
-    ratio, B3, t = np.array([0.5, 1.0, 1.5]), np.array([[2.0], [1.0]]), np.linspace(0, 1, 4)[:, None, None]
-    motion = ElementaryMotion(ratio, (1.0, B3), 0.7)
-    assert motion.case.shape == motion.k.shape == motion.phi.shape == (2, 3)
-    R, Omega = motion.rotation(t), motion.angular_velocity(t)
-    assert R.shape == (4, 2, 3, 3, 3)
-    assert Omega.shape == motion.field_in_body(t).shape == (4, 2, 3, 3)
-    assert motion.invariants(t)["E'"].shape == (4, 2, 3)
-    one = ElementaryMotion(0.5, (1.0, 1.0), 0.7)
-    assert np.abs(R[:, 1, 0] - one.rotation(t[:, 0, 0])).max() <= ULP1
-    assert motion.phi[1, 0] == one.phi
 
 
 def test_omega3_may_be_given_back() -> None:

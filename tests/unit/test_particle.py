@@ -83,45 +83,11 @@ def test_at_rest_without_force() -> None:
     assert np.abs(p.velocity(0) - v0).max() <= EPS
 
 
-def test_the_drift_is_the_same_for_both_charges() -> None:
-    """After whole turns the particle has moved by c [E, B]/B^2 a period, whatever the sign of mu."""
-    E, B, c = np.array([0.3, 0.4, 0.0]), np.array([0.0, 0.0, 2.0]), 3.0
-    for mu in (0.7, -0.7):
-        p = ParticleMotion(mu, E, B, ORIGIN, [1.0, 0.2, 0.0], c)
-        assert np.abs(p.drift - c * np.cross(E, B) / (B @ B)).max() < 2 * EPS
-        assert np.abs(p.position(5 * p.period) - 5 * p.period * p.drift).max() < 1e-13
-        assert p.cyclotron_frequency == pytest.approx(mu * 2 / c, rel=EPS)
-
-
 def test_without_a_charge_there_is_no_frequency() -> None:
     """For mu = 0 and for B = 0 it is 0.0, not -0.0."""
     for mu, B in ((0.0, [0, 0, 2.0]), (0.7, ORIGIN), (0.0, ORIGIN)):
         frequency = ParticleMotion(mu, ORIGIN, B, ORIGIN, ORIGIN).cyclotron_frequency
         assert (frequency, np.signbit(frequency)) == (0.0, False)
-
-
-def test_the_two_charges_turn_opposite_ways() -> None:
-    """The helix about B is left-handed in time for mu > 0: (97), sin and cos on e1 and e2, and mirrored for mu < 0."""
-    t = np.linspace(0, 3, 7)
-    plus, minus = (ParticleMotion(mu, ORIGIN, [0, 0, 1], [0, 1, 0], [mu, 0, 0.5]).position(t) for mu in (1.0, -1.0))
-    assert np.abs(plus - np.stack([np.sin(t), np.cos(t), t / 2], axis=-1)).max() < 4 * EPS
-    assert np.abs(minus - plus * [-1, 1, 1]).max() == 0
-
-
-@pytest.mark.parametrize("mu", [1.0, -1.0, 2.5, -0.3])
-@pytest.mark.parametrize(("radius", "kind"), [(0.5, "curtate trochoid"), (1.0, "cycloid"), (2.0, "prolate trochoid")])
-def test_the_trochoid_of_the_paper(mu: float, radius: float, kind: str) -> None:
-    """From the special data, y_perp = V t e1 + a {e1 sin(omega t) + e2 cos(omega t)}, (99), for both charges."""
-    E, B, c = np.array([0.0, 2.0, 1.5]), np.array([0.0, 0.0, 4.0]), 3.0
-    V, omega = c * 2 / 4, mu * 4 / c
-    p = ParticleMotion.trochoid(mu, E, B, radius * V / omega, c)
-    t = np.linspace(-5, 5, 41)
-    a = radius * V / omega
-    path = np.stack([V * t + a * np.sin(omega * t), a * np.cos(omega * t), mu * 1.5 * t**2 / 2], axis=-1)
-    assert np.abs(p.position(t) - path @ p.axes).max() < 1e-13
-    assert p.radius == pytest.approx(abs(a), rel=8 * EPS)
-    if radius != 1 or (mu, c) == (1.0, 1.0):  # a cycloid is met only where nothing rounds
-        assert p.kind == kind
 
 
 @pytest.mark.parametrize(
