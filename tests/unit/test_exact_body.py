@@ -10,7 +10,6 @@ from atlas.core.bodies.body import SymmetricBody, from_shape, moments
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.bodies.body import SHAPES, ratio_of, shape_moments
 from atlas.exact.inputs import rational, rationals
-from atlas.formulas.numbers import root
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -65,13 +64,6 @@ def test_wrong_shapes_are_refused() -> None:
         rationals((1, 2, 3), "the field", 2)
     with pytest.raises(DomainError, match="I is at most 2"):
         ratio_of("2.0000000001")
-
-
-def test_the_root_of_a_square_is_rational() -> None:
-    """Exact squares keep exact roots, so that zeros stay recognisable."""
-    assert root(fmpq(25, 9)) == fmpq(5, 3)
-    assert root(fmpq(0)) == 0
-    assert (root(fmpq(2)) ** 2).contains(2)
 
 
 def test_a_rod_is_refused_for_the_same_reason_as_by_the_kernels() -> None:

@@ -20,7 +20,7 @@ from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.cayley_klein import infinite
-from atlas.formulas.numbers import alone, cross, direction, dot, length, nearest, rational, root, select, unit, workprec
+from atlas.formulas.numbers import alone, direction, length, nearest, rational, root, unit, workprec
 
 BITS = 128
 SCALARS = "period", "precession_per_period", "spin_per_period", "nome", "modulus", "complementary_modulus"
@@ -113,15 +113,6 @@ def test_a_root_is_rounded_once(p: float, q: float) -> None:
         assert alone(lambda x, y: root(x / y), p, q) == float(mp.sqrt(mp.mpf(p) / mp.mpf(q)))
 
 
-@given(triples, triples)
-def test_vector_algebra_is_exact(a: tuple[float, ...], b: tuple[float, ...]) -> None:
-    """[a, b] is orthogonal to both without a remainder, and Lagrange's identity holds."""
-    p, q = [*map(rational, a)], [*map(rational, b)]
-    n = cross(p, q)
-    assert dot(n, p) == dot(n, q) == 0
-    assert dot(n, n) == dot(p, p) * dot(q, q) - dot(p, q) ** 2
-
-
 @given(triples.filter(any))
 def test_unit_vectors_are_rounded_once(a: tuple[float, ...]) -> None:
     """Each component of a unit vector is the float nearest to the true one, in either form."""
@@ -143,11 +134,6 @@ def test_the_length_of_huge_and_tiny_components_neither_overflows_nor_vanishes()
         assert alone(length, 3 * scale, 4 * scale) == 5 * scale
     assert alone(length, 1.5e308, 1.5e308) == float("inf")
     assert nearest(-(fmpq(10) ** 400)) == -float("inf")
-
-
-def test_a_choice_is_by_sign() -> None:
-    """Zero is not positive."""
-    assert [select(fmpq(x), "positive", "other") for x in (-1, 0, 1)] == ["other", "other", "positive"]
 
 
 def test_precision_is_one_threads_at_a_time_and_comes_back() -> None:

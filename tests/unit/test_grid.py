@@ -8,7 +8,6 @@ from oracles import closed_form
 
 from atlas.core.arithmetic import grid
 from atlas.core.arithmetic.grid import Progression
-from atlas.core.arithmetic.phase import Phases
 from atlas.core.motions.ball import BallMotion
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
@@ -205,28 +204,3 @@ def test_phases_are_those_of_the_exact_times(start: float, step: float, origin: 
                     assert error <= 2.5 * W * abs(true)
                 assert abs(true) < 0.786
                 assert abs(rest[n, m]) < 2.0**-12
-
-
-def test_what_is_left_of_a_frequency_is_at_most_half_its_last_digit() -> None:
-    """A and S are rounded to the nearest: the last digit of both in A D and S D is at least twice a and s."""
-    turns = [rational(x) for x in np.random.default_rng(2).uniform(-1, 1, 40).tolist()]
-    first, last = np.split(Progression(turns, 0.3, 0.0117, 5, 4000).table, 2)
-    for whole, rest in zip(first, last, strict=True):
-        digit = (
-            min(abs(Fraction(x)).numerator & -abs(Fraction(x)).numerator for x in whole * 2.0**200) / Fraction(2) ** 200
-        )
-        assert max(abs(rest)) <= float(digit) / 2 * np.pi / 2
-
-
-@pytest.mark.parametrize("refined", [False, True])
-def test_circles_are_those_of_single_times(refined: bool) -> None:
-    """Cosine, sine and versine at times that are doubles agree with those of `Phases`, to the errors of both."""
-    turns, i = [rational(turn) for turn in TURNS], np.arange(-1000.0, 1000.0)
-    ours, theirs = np.empty((2, 2, 4, i.size)), np.empty((2, 1, i.size))
-    work = np.empty((8, 4, i.size))
-    Progression(turns, 3.0, 2.0**-7, 5, 1000, refined=refined).circle(
-        np.array([i, np.ones(i.size)]), work, *ours[0], theirs[0, 0]
-    )
-    Phases(turns).circle(3.0 + (5 + i) / 128, work, *ours[1], theirs[1, 0])
-    assert np.abs(ours[0] - ours[1]).max() <= 4 * W
-    assert np.abs(theirs[0] - theirs[1]).max() <= 4 * W

@@ -23,22 +23,6 @@ def test_numbers_of_any_kind_become_floats() -> None:
     assert inputs.real([1, Fraction(1, 2)], "x").tolist() == [1, 0.5]
 
 
-def test_an_array_is_copied() -> None:
-    """What a user later does to his array changes nothing here."""
-    mine = np.ones(3)
-    kept = inputs.vector(mine, "x")
-    mine[0] = 5
-    assert kept[0] == 1
-
-
-def test_shapes_are_kept() -> None:
-    """Arrays of any shape stay so; a number without dimensions becomes a plain float."""
-    assert inputs.real(np.ones((2, 0, 3)), "x").shape == (2, 0, 3)
-    assert inputs.vectors(np.ones((2, 3)), "x").shape == (2, 3)
-    assert type(inputs.plain(np.float64(1))) is float
-    assert inputs.plain(np.ones(2)).shape == (2,)
-
-
 @pytest.mark.parametrize("place", range(4))
 @pytest.mark.parametrize("bad", [np.inf, -np.inf, np.nan])
 def test_what_was_computed_is_finite_in_every_place(place: int, bad: float) -> None:

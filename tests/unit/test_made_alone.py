@@ -16,7 +16,6 @@ from atlas.core.maps.bifurcation import momentum_map
 from atlas.core.maps.wells import Wells
 from atlas.core.motions.general import standing
 from atlas.core.motions.top import balls
-from atlas.core.nutation.exponentials import cancelling
 from atlas.core.nutation.functions import Line
 from atlas.core.nutation.single import SingleMotion, SingleTop
 from atlas.core.nutation.swing import Swing
@@ -86,25 +85,6 @@ def test_a_top_with_the_integrals_of_a_spin_moves_as_balls_do(k3: float) -> None
         with ctx.workprec(300):
             true = [[float(x) for x in row] for row in one.exact.rotation(t)]
         assert np.abs(one.rotation(t) - true).max() <= 16 * EPS
-
-
-def test_how_far_exponentials_cancel_is_what_is_left_of_them_at_some_time() -> None:
-    """The sum of their weights over the least |(alpha, beta)| at many times, to a hundredth."""
-    checked = 0
-    for one in [
-        one for regime in ("general, ordinary", "general, I near 2", "top, needle") for one in drawn(regime, 6)
-    ]:
-        if (pair := one.exponentials) is None:
-            continue
-        rates = [np.array([float(f - x.turns[0]) for f in x.turns]) for x in pair]
-        times = np.linspace(0.0, 1.0, 4001) / min(abs(f) for f in np.concatenate(rates) if f)
-        square = sum(
-            abs(np.exp(2j * np.pi * np.outer(times, f)) @ x.weights) ** 2 for x, f in zip(pair, rates, strict=True)
-        )
-        most = max(abs(x.weights).sum() for x in pair)
-        assert cancelling(*pair) == pytest.approx(most / np.sqrt(square.min()), rel=0.01)
-        checked += 1
-    assert checked > 9
 
 
 @pytest.mark.parametrize(("slope", "start"), [(0.7, 0.0), (0.7, 1.3), (-3e-5, 2e9), (1e120, -1e3), (2.0, -1e-30)])

@@ -49,15 +49,6 @@ def test_index_formulas_mean_what_they_say(line: str) -> None:
         assert sympy.expand(left - right) == 0
 
 
-def test_a_chain_is_several_relations() -> None:
-    """A = b = c says a = b and b = c."""
-    assert [found.text for found in Reader(LETTERS).relations("x = 2*x = 3*x; x < 4")] == [
-        "x = 2*x",
-        "2*x = 3*x",
-        "x < 4",
-    ]
-
-
 @pytest.mark.parametrize("line", ["R[i,j] = v[i]", "v[i] = v[i] + w[j]", "x = v", "R = v", "x"])
 def test_what_does_not_balance_has_no_meaning(line: str) -> None:
     """Sides of different kinds are refused, not broadcast."""

@@ -61,29 +61,3 @@ def test_each_kind_of_conic_has_its_number_of_branches(form: Any, linear: Any, c
     assert len(curves) == count
     for curve in curves:
         assert np.abs(value(Q, curve)).max() < 1e-12 * (1.0 + np.abs(curve).max() ** 2)
-
-
-def test_an_ellipse_is_closed() -> None:
-    """A great circle of a unit sphere ends where it begins and is 2 pi long."""
-    (circle,) = section(matrix(np.eye(3), np.zeros(3), -1.0), np.array([0.0, 0.0, 1.0]), 0.0, NONE, BALL, 1e-3)
-    assert circle[-1] == pytest.approx(circle[0], abs=1e-12)
-    assert np.linalg.norm(np.diff(circle, axis=0), axis=1).sum() == pytest.approx(2.0 * np.pi, rel=1e-2)
-
-
-def test_open_conics_leave_the_ball() -> None:
-    """A branch that goes to infinity is followed at least to the ball's edge on both ends."""
-    Q = matrix(np.diag([1.0, -1.0, 0.0]), np.zeros(3), -1.0)
-    for curve in section(Q, np.array([0.0, 0.0, 1.0]), 0.0, NONE, BALL, 1e-3):
-        assert (np.linalg.norm(curve[[0, -1]], axis=1) >= 3.0).all()
-
-
-def test_a_section_ends_exactly_on_the_half_space_and_on_the_quadric() -> None:
-    """The ends are points of both to rounding, not of a chord."""
-    Q = matrix(np.eye(3), np.zeros(3), -1.0)
-    edge = np.array([[0.6, 0.8, 0.0, 0.3]])
-    (arc,) = section(Q, np.array([0.0, 0.0, 1.0]), 0.0, edge, BALL, 1e-2)
-    ends = arc[[0, -1]]
-    inner = [p for p in ends if abs(p @ edge[0, :3] - 0.3) < 1e-14]
-    assert inner
-    assert np.abs(value(Q, arc)).max() < 1e-14
-    assert (arc @ edge[0, :3] <= 0.3 + 1e-14).all()

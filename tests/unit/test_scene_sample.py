@@ -26,17 +26,6 @@ def test_no_chord_leaves_the_curve_by_more_than_the_tolerance(tolerance: float) 
     assert np.linalg.norm(dense[:, None] - foot, axis=2).min(axis=1).max() < 1.1 * tolerance
 
 
-def test_a_straight_line_is_left_as_it_is() -> None:
-    """Nothing is refined where nothing bends."""
-    assert len(curve(lambda s: np.stack([s, 2.0 * s], axis=-1), 0.0, 1.0, 1e-12, pieces=4)) == 5
-
-
-def test_ends_are_the_ends_of_the_curve() -> None:
-    """The first and the last point are those of the parameters given."""
-    points = curve(spiral, 1.0, 2.0, 1e-3)
-    assert (points[[0, -1]] == spiral(np.array([1.0, 2.0]))).all()
-
-
 def test_what_lies_outside_the_box_is_not_refined() -> None:
     """With a box around the first half only, the points of the second half are those of the first cut."""
     box = (np.array([-1.0, -1.0, -1.0]), np.array([1.0, 1.0, 1.0]))
@@ -53,13 +42,6 @@ def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
     s = np.linspace(-1.0, 1.0, 4001)
     drawn = np.interp(s, *points.T)
     assert np.abs(drawn - s * (s * s - 1.0)).max() < 1.6 * tolerance  # upright, where it is steeper than 45 degrees
-
-
-def test_distances_are_measured_on_paper() -> None:
-    """A scale that stretches one axis asks for more points, and changes no coordinate."""
-    wide, tall = (curve(spiral, 0.0, 4.0, 1e-3, scale=np.array([1.0, stretch, 1.0])) for stretch in (1.0, 100.0))
-    assert len(tall) > 1.5 * len(wide)
-    assert (tall[[0, -1]] == wide[[0, -1]]).all()
 
 
 def test_a_flat_curve_knows_paper_and_view() -> None:
