@@ -2,10 +2,8 @@
 
 import json
 import re
-import subprocess
 from collections import Counter
 
-import pypandoc
 import pytest
 
 from atlas.build.appendices import title
@@ -91,21 +89,6 @@ def test_a_misspelt_name_is_told_its_neighbour(word: str, said: str) -> None:
     """An unknown number, name or label is an error that says the nearest one."""
     with pytest.raises(AtlasError, match=said):
         find(word)
-
-
-@pytest.mark.parametrize("target", [["html", "--mathml"], ["typst"]])
-def test_every_formula_can_be_typeset(target: list[str]) -> None:
-    """All formulas turn into MathML and Typst without a warning and without TeX left behind."""
-    source = "\n\n".join(f"$${entry.tex}$$" for entry in EQUATIONS.values())
-    command = [pypandoc.get_pandoc_path(), "-f", "markdown", "-t", *target]
-    done = subprocess.run(command, input=source, capture_output=True, encoding="utf-8", check=True)
-    assert not done.stderr
-    if target[0] == "html":
-        without_source = re.sub(r"<annotation.*?</annotation>", "", done.stdout, flags=re.DOTALL)
-        assert without_source.count("<math") == len(EQUATIONS)
-        assert not re.search(r"\\[A-Za-z]", without_source)
-    else:
-        assert done.stdout.count("$") == 2 * len(EQUATIONS)
 
 
 def test_no_formula_uses_old_font_switches() -> None:

@@ -44,24 +44,6 @@ def values(data: Data) -> dict[str, Number]:
     return {str(row[1]): row[2] for row in data.rows if isinstance(row[2], Number)}
 
 
-def test_the_digits_of_the_quadric_are_true() -> None:
-    """Angle and semi-axes at I = 3/2, B' = (0, 1, 2), by (54) and (55) in 40 digits."""
-    with mpmath.workdps(40):
-        beta = mpmath.atan2(2, mpmath.mpf(3) / 2)
-        sine = mpmath.sin(beta)
-        true = {
-            r"$\beta$": beta,
-            r"$\beta/2+\pi/4$": beta / 2 + mpmath.pi / 4,
-            "$a_2$": 2 * sine / (1 - sine),
-            "$C_1$": mpmath.sqrt(mpmath.mpf(1) / 2),
-            "$C_3$": mpmath.sqrt(sine / (1 + sine)),
-        }
-        found = values(table("quadric", digits=25))
-        for symbol, value in true.items():
-            assert agrees(found[symbol], value), symbol
-            assert len(found[symbol].digits.replace(".", "").lstrip("0")) >= 24
-
-
 def test_a_long_time_costs_no_digit() -> None:
     """R_33 at t = 10^6 is that of (84) in 40 digits."""
     row = table("samples", omega2=0.5, times=[1e6]).rows[0]
@@ -69,15 +51,6 @@ def test_a_long_time_costs_no_digit() -> None:
         true = mpmath.mpf(4) / 5 + mpmath.cos(mpmath.mpf(10) ** 6 * mpmath.sqrt(5) / 2) / 5
         assert isinstance(row[6], Number)
         assert agrees(row[6], true)
-
-
-def test_an_unstable_motion_is_called_unstable() -> None:
-    """A long solenoid in a low field has a band of unstable motions."""
-    low = Field(title="low", prime=(1.0, 0.1))
-    data = table("points", body=Body(title="long", ratio=0.5), field=low, omega2=[-0.5, 0.7])
-    verdicts = {row[1].digits: row[-1] for row in data.rows if isinstance(row[1], Number)}
-    assert verdicts["-0.5"] == "unstable"
-    assert verdicts["0.7"] == "stable"
 
 
 def test_a_motion_at_an_end_of_the_band_is_called_unstable() -> None:
@@ -172,14 +145,6 @@ def test_where_powers_of_ten_begin(values: str, plain: bool, prefix: int | None)
     unit, ((first, *_),) = scaled([rationals], "m", 4)
     assert unit == ("m" if prefix is None else f"$10^{{{prefix}}}$ m")
     assert Fraction(first.digits) * Fraction(10) ** (prefix or 0) == exact[0]
-
-
-def test_small_lengths_carry_a_power_of_ten_in_their_unit() -> None:
-    """A drift of 3 um in one second is 3.000 in units of 1e-6 m; the digits are those of c [E, B]/B^2 times t."""
-    magnet = Field(title="magnet", B=(0.0, 0.0, 1.0), E=(0.0, 3e-6, 0.0), charge_to_mass=2.0)
-    data = table("particle", 4, field=magnet, times=[1.0], velocity=[3e-6, 0.0, 0.0])
-    assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-6}$ m"]
-    assert data.rows[0][1] == Number("3.000")
 
 
 def test_a_shape_in_si_units_gives_its_ratio_without_rounding() -> None:
