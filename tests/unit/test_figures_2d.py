@@ -30,6 +30,7 @@ NAMES = (
     "stability",
     "trochoids",
 )
+IN_SPACE = ("ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric")
 OF_A_BODY = tuple(name for name in NAMES if name not in {"hyperbolas", "trochoids"})
 RATIOS = (2.0, 1.5, 1.0, 1.0 + EPS, 0.5, 1e-3)
 FIELDS = ((1.0, 2.0), (-1.0, 0.1), (1.0, -0.3), (0.0, 1.0), (0.0, -2.0), (1.0, 0.0), (-3.0, -1e-9), (1e-6, 1e6))
@@ -84,10 +85,10 @@ def check(scene: Scene) -> None:
     assert not re.search(r"[$\\{}]", scene.alt)
     for words in (scene.caption, scene.alt):
         assert not re.search(r"nan|inf\b|  |\.\.", words)
-    assert scene.size[0] in {86.0, 178.0}
+    assert scene.size[0] in {86.0, 178.0} or any(isinstance(panel, Space) for panel in scene.panels)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, *IN_SPACE])
 def test_every_recipe_draws_with_its_defaults(name: str) -> None:
     """Without parameters each recipe gives a whole scene, and its title is the first line of the file."""
     recipe = load(name)

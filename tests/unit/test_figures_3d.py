@@ -1,9 +1,5 @@
 """The figures in space as arrays: what is drawn is what the paper says."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,14 +8,12 @@ from drawing import draw
 from numpy.typing import NDArray
 
 from atlas import ElementaryMotion, Hyperbola, Quadric, SymmetricBody
-from atlas.scene import Arrow, Curve, Label, Points, Scene, Surface, recipes
+from atlas.scene import Arrow, Curve, Label, Points, Surface, recipes
 from atlas.scene.quadrics import quadric_matrix, sheet_axis
-from atlas.scene.style import style
 
 FloatArray = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-IN_SPACE = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
 HYPERBOLOIDS = [
     ("quadric", {"ratio": 1.5, "field": (1.0, 2.0)}),
     ("quadric", {"ratio": 2.0, "field": (1.0, 0.05)}),
@@ -207,62 +201,6 @@ def test_degenerate_quadrics_are_drawn_too(ratio: float, field: tuple[float, flo
             assert np.abs(quadric.residual(layer.grids[0])).max() < 1e-14
         elif isinstance(layer, Curve) and layer.role == "hyperbola":
             assert np.abs(quadric.residual(layer.points)).max() < 1e-14
-
-
-@pytest.mark.parametrize("name", IN_SPACE)
-def test_plates_have_words_and_known_roles(name: str) -> None:
-    """Captions and alternative texts are sentences, these without TeX; roles have styles; points are finite."""
-    scene = recipes.load(name).scene()
-    assert isinstance(scene, Scene)
-    assert scene.title == recipes.title(name)
-    for text in (scene.caption, scene.alt):
-        assert text.endswith(".")
-        assert text[0].isupper()
-    assert not set("$\\{}") & set(scene.alt)
-    assert scene.caption.count("$") % 2 == 0
-    for panel in scene.panels:
-        for layer in panel.layers:
-            style(layer.role)
-            points = {Arrow: lambda a: np.stack([a.tail, a.tip]), Label: lambda a: a.at}.get(
-                type(layer), lambda a: a.grids[0] if isinstance(a, Surface) else a.points
-            )(layer)
-            assert np.isfinite(points).all()
-
-
-def heavy(program: str) -> set[str]:
-    """Return the drawing libraries that a program of ours has loaded at its end."""
-    watched = ["matplotlib", "matplotlib.pyplot", "pyvista", "vtkmodules", "vtk", "sympy", "scipy", "flint", "jinja2"]
-    ending = f"\nimport sys; print(*[name for name in {watched} if name in sys.modules])"
-    environment = dict(os.environ, PYTHONPATH=str(Path(__file__).parents[1]))
-    done = subprocess.run(
-        [sys.executable, "-c", program + ending], env=environment, capture_output=True, text=True, check=True
-    )
-    return set(done.stdout.split())
-
-
-def test_a_scene_loads_no_drawing_library() -> None:
-    """A figure as data costs NumPy and the kernels only, whose constants are made by flint."""
-    program = "from atlas.scene import recipes\nfor name in ('quadric', 'motion_sphere'): recipes.load(name).scene()"
-    assert heavy(program) == {"flint"}
-
-
-def test_a_figure_on_paper_loads_no_vtk_and_no_pyplot(tmp_path: Any) -> None:
-    """Matplotlib's canvases are enough."""
-    program = (
-        "from atlas.scene import recipes; from drawing import draw\n"
-        f"draw(recipes.load('cone').scene(), r'{tmp_path / 'cone.svg'}')"
-    )
-    assert heavy(program) == {"matplotlib", "flint"}
-
-
-def test_a_flat_figure_asked_for_shaded_loads_no_vtk(tmp_path: Any) -> None:
-    """There is nothing to shade in a panel with two axes."""
-    program = (
-        "import numpy as np; from atlas.scene import Curve, Plane, Scene; from drawing import draw\n"
-        "panel = Plane((Curve(np.eye(2), 'main'),), 'x', 'y')\n"
-        f"draw(Scene('t', 'c', 'a', (panel,)), r'{tmp_path / 'flat.png'}', renderer='shaded')"
-    )
-    assert heavy(program) == {"matplotlib"}
 
 
 @pytest.mark.parametrize("name", ["quadric", "loop"])

@@ -38,7 +38,7 @@ HEAVY: Mapping[str, str] = {
     "heyoka": "heyoka",
 }
 """The libraries of pyproject.toml but the smallest, and the modules that show their use."""
-WATCHED = (*HEAVY.values(), "multiprocessing", "pandas", "pint", "astropy", "IPython")
+WATCHED = (*HEAVY.values(), "multiprocessing", "matplotlib.pyplot", "pandas", "pint", "astropy", "IPython")
 
 WATCH = f'''
 import atexit, os, sys
@@ -70,6 +70,7 @@ GENERAL = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2"
 BALL = "--larmor 0.5 --momentum 0.3 -0.7 --times 1"
 PARTICLE = "--mu 1 --magnetic 0 0 1 --velocity 1 0 0 --times 1"
 DRAWING = "matplotlib contourpy fontTools numpy flint multiprocessing"  # Matplotlib itself loads Pillow and fontTools
+SHADING = "pyvista vtkmodules matplotlib.pyplot"  # PyVista itself loads the last
 
 CASES = [
     Case("classify --ratio 1.5 --field 1 2", "flint rich"),
@@ -105,7 +106,8 @@ CASES = [
         "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
     ),
     Case("figure hyperbola --format svg", DRAWING),
-    Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules", slow=True),
+    Case("figure flight --renderer shaded", f"{DRAWING} {SHADING}", slow=True),
+    Case("figure trochoids --renderer shaded", DRAWING),
     Case("animate hyperbola --over ratio=0.5:1.5:2 --dpi 30", DRAWING.replace(" multiprocessing", ""), slow=True),
     Case("explore nosuchthing", "numpy flint", status=2),
     Case("report nosuchreport", "msgspec", status=2),
@@ -156,7 +158,7 @@ class Step(NamedTuple):
 
 
 STEPS = [
-    Step("nothing: the first build", "", "", f"{PAGES} {FONTS} {DRAWING} pyvista vtkmodules"),
+    Step("nothing: the first build", "", "", f"{PAGES} {FONTS} {DRAWING} {SHADING}"),
     Step("nothing", "", "", "msgspec"),
     Step("a comment", "[[pages]]", "# the only one\n[[pages]]", PAGES),
     Step("a formula", "$R(t)$", "$R(t^2)$", PAGES),
@@ -296,6 +298,8 @@ def test_help_is_there_at_once() -> None:
         ("import atlas.paper", ""),
         ("import atlas.core", ""),
         ("import atlas.scene", "numpy"),
+        ("from atlas.scene import recipes; recipes.load('quadric').scene()", "numpy flint"),
+        ("from atlas.scene import recipes; recipes.load('motion_sphere').scene()", "numpy flint"),
         ("import atlas; print(atlas.GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.2)))", "numpy flint"),
         ("from atlas import Quadric, Hyperbola, ElementaryMotion, BallMotion, ParticleMotion, Flight", "numpy flint"),
     ],
