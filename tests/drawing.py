@@ -20,6 +20,11 @@ def made(name: str, **parameters: Any) -> Scene:
     return recipes.load(name).scene(**parameters)
 
 
+def panels(name: str, **parameters: Any) -> Any:
+    """Return the panels of a figure."""
+    return recipes.load(name).scene(**parameters).panels
+
+
 def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
     """Return the layers of one kind, and role, of a panel."""
     return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", getattr(layer, "role", "")}]

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from atlas.families import FAMILIES
 from atlas.files import WRITTEN
 from atlas.paper import EQUATIONS
 from atlas.proof import recorded
@@ -42,3 +43,14 @@ def ulps_apart(found: float, certified: str, size: float) -> float:
 def stale(records: Mapping[str, Verdict]) -> list[str]:
     """Return the names of the ledger without a record, or whose proof has changed since it was recorded."""
     return [name for name in EQUATIONS if name not in records or records[name].source != recorded.source(name)]
+
+
+@contextmanager
+def few_figures(**left: str) -> Iterator[None]:
+    """Leave each of these families one figure on its pages, for each takes half a second."""
+    kept = {name: FAMILIES[name].figures for name in left}
+    for name, figure in left.items():
+        object.__setattr__(FAMILIES[name], "figures", (figure,))
+    yield
+    for name, figures in kept.items():
+        object.__setattr__(FAMILIES[name], "figures", figures)

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from values import EXAMPLES
+from values import EXAMPLES, Process, ended
 
 pytestmark = pytest.mark.skipif(not EXAMPLES, reason="seconds for each kill: in make stress, a few in CI")
 
@@ -32,8 +32,6 @@ blocks = [
   {{ kind = "figure", recipe = "trochoids", parameters.turns = {version}.5 }},
 ]
 """
-
-Process = subprocess.Popen[str]
 Content = dict[str, str]
 
 
@@ -56,12 +54,6 @@ def begun(folder: Path, cache: str, *words: str) -> Process:
         stderr=subprocess.PIPE,
         text=True,
     )
-
-
-def ended(process: Process) -> tuple[int, str]:
-    """Return the exit status of a build and what it said."""
-    told = process.communicate()[1]
-    return process.returncode, told
 
 
 def content(folder: Path) -> Content:

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from values import EXAMPLES
+from values import EXAMPLES, Process, ended
 
 from atlas.files import WRITTEN
 
@@ -19,8 +19,6 @@ KILLS = max(1, EXAMPLES // 100)
 PAIRS = max(1, EXAMPLES // 200)
 ASKED = "--quantity k --quantity phi --digits 30 --rows 100 -j 2 --out t.csv".split()
 
-Process = subprocess.Popen[str]
-
 
 def start(folder: Path, B2: float) -> Process:
     """Start a sweep of 2000 rows in 20 parts on two processes."""
@@ -28,12 +26,6 @@ def start(folder: Path, B2: float) -> Process:
     given = [word for item in settings.items() for word in ("--set", "=".join(item))]
     words = [sys.executable, "-m", "atlas", "sweep", "elementary", *given, *ASKED]
     return subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-
-
-def ended(process: Process) -> tuple[int, str]:
-    """Return the exit status of a sweep and what it said."""
-    told = process.communicate()[1]
-    return process.returncode, told
 
 
 @pytest.fixture(scope="module")

@@ -3,6 +3,7 @@
 import math
 import os
 import signal
+import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -18,6 +19,15 @@ EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "0"))
 
 SECONDS = int(os.environ.get("FUZZ_SECONDS", "60"))
 """Of the processor, after which a call hangs: a busy machine makes none hang."""
+
+Process = subprocess.Popen[str]
+
+
+def ended(process: Process) -> tuple[int, str]:
+    """Return the exit status of a command and what it said."""
+    told = process.communicate()[1]
+    return process.returncode, told
+
 
 SPECIAL = [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, 1.5, -2.0, math.nextafter(1.0, 2.0), math.nextafter(-1.0, 0.0), math.pi]
 FAR = [

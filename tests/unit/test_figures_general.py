@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drawing import layers
+from drawing import layers, panels
 from oracles.top import taylor
 from stress.nutating import narrow
 
@@ -20,11 +20,6 @@ from atlas.scene.any_motion import precessing
 EPS = float(np.finfo(float).eps)
 LONG: tuple[Any, ...] = (0.5, (1.0, 0.1), -0.5)
 """An unstable elementary motion: ratio, field and omega2."""
-
-
-def panels(name: str, **parameters: Any) -> Any:
-    """Return the panels of a figure."""
-    return recipes.load(name).scene(**parameters).panels
 
 
 def test_a_rosette_closes_and_the_last_one_does_not() -> None:

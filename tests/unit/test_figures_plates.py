@@ -1,12 +1,11 @@
 """The figures of the bodies' scale, of the quadrics' sizes and of closed motions: what is drawn is what it says."""
 
 from fractions import Fraction
-from typing import Any
 from unittest.mock import patch
 
 import numpy as np
 import pytest
-from drawing import layers
+from drawing import layers, panels
 from numpy.typing import NDArray
 
 from atlas import DomainError, Hyperbola, SymmetricBody, simulate
@@ -15,11 +14,6 @@ from atlas.scene import Arrow, Curve, Label, Points, Surface, quadrics, recipes,
 FloatArray = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-
-
-def panels(name: str, **parameters: Any) -> Any:
-    """Return the panels of a figure."""
-    return recipes.load(name).scene(**parameters).panels
 
 
 def test_the_drawn_cylinders_have_the_moments_of_their_place_on_the_scale() -> None:

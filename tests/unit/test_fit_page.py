@@ -15,13 +15,13 @@ from click.testing import CliRunner
 from lxml import html as reader
 from pypdf import PdfReader
 from scipy.spatial.transform import Rotation
+from tests_support import few_figures
 
 import atlas
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import motion_of
 from atlas.errors import AtlasError
-from atlas.families import FAMILIES
 from atlas.report import toml
 from atlas.report.fitted import MEANINGS
 from atlas.study.fit.models import MODELS
@@ -31,15 +31,10 @@ NAMES = ",".join(f"R{i}{j}" for i in "123" for j in "123")
 
 
 @pytest.fixture(scope="module", autouse=True)
-def few_figures() -> Iterator[None]:
-    """Leave the motion one figure, for each takes half a second."""
-    families = [FAMILIES["general"], FAMILIES["elementary"]]
-    kept = [one.figures for one in families]
-    for one, name in zip(families, ("general_motion", "motion"), strict=True):
-        object.__setattr__(one, "figures", (name,))
-    yield
-    for one, figures in zip(families, kept, strict=True):
-        object.__setattr__(one, "figures", figures)
+def one_figure() -> Iterator[None]:
+    """Leave the motion one figure."""
+    with few_figures(general="general_motion", elementary="motion"):
+        yield
 
 
 def written(path: Path, motion: Any, slower: float = 0.0) -> Path:

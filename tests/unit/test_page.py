@@ -17,6 +17,7 @@ from click import ClickException
 from click.testing import CliRunner
 from lxml import html as reader
 from pypdf import PdfReader
+from tests_support import few_figures
 
 from atlas import processes
 from atlas.build.formats import single
@@ -40,14 +41,10 @@ BALL = "ball --larmor 0.5 --momentum 0.3 -0.7"
 
 
 @pytest.fixture(scope="module", autouse=True)
-def few_figures() -> Iterator[None]:
-    """Leave pages one figure, for each takes half a second; all are drawn in the reports."""
-    kept = [(one, one.figures) for one in (FAMILIES["elementary"], FAMILIES["quadric"])]
-    for one, _ in kept:
-        object.__setattr__(one, "figures", ("hyperbola",) if one.name == "elementary" else ("stability",))
-    yield
-    for one, figures in kept:
-        object.__setattr__(one, "figures", figures)
+def one_figure() -> Iterator[None]:
+    """Leave pages one figure; all are drawn in the reports."""
+    with few_figures(elementary="hyperbola", quadric="stability"):
+        yield
 
 
 @pytest.fixture(scope="module")
