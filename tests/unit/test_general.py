@@ -13,8 +13,6 @@ from stress.nutating import narrow
 from ulps import absolute
 
 import atlas
-from atlas.core.motions.ball import BallMotion
-from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.core.motions.general import GeneralMotion, exact_attitude
 from atlas.core.nutation import grid as general_grid
 from atlas.core.surfaces.hyperbola import Hyperbola
@@ -212,31 +210,6 @@ def test_an_attitude_is_kept_whichever_part_of_its_quaternion_is_largest() -> No
     for R, most in [*((R, 0.0) for R in cube), *((off @ R, 4 * ULP1) for R in cube)]:
         found = [[float(Fraction(int(x.p), int(x.q))) for x in row] for row in exact_attitude(R)]
         assert np.abs(R - found).max() <= most
-
-
-@pytest.mark.parametrize("inputs", [(1.5, (1, 2), 0.7), (0.5, (1, 0.1), -0.5), (1, (1, 2), 0.7), (0.7, (-1, 3), 2.0)])
-def test_on_the_hyperbola_it_is_the_elementary_motion(inputs: Any) -> None:
-    """With the omega3 of (71), rounded, R agrees with `ElementaryMotion` while a rounding of omega3 has not grown."""
-    I, B, omega2 = inputs
-    elementary, t = ElementaryMotion(I, B, omega2), np.linspace(-20, 20, 101)
-    general = GeneralMotion(I, B, (0, omega2, elementary.omega3))
-    assert np.abs(general.rotation(t) - elementary.rotation(t)).max() <= 1e-13
-
-
-def test_the_ball_in_its_own_frame() -> None:
-    """For I = 1 the motion is that of `BallMotion`, whose frame has the field along e3."""
-    B, omega, t = (0.6, 0.8), (0.0, 0.7, -0.3), np.linspace(-30, 30, 201)
-    frame = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])
-    m = frame @ omega
-    ball = BallMotion(1.0, 1.0, (m[1], m[2])).rotation(t)
-    assert np.abs(frame @ GeneralMotion(1, B, omega).rotation(t) @ frame.T - ball).max() <= 1e-13
-
-
-def test_without_a_field_it_is_the_free_body() -> None:
-    """For B = 0 the motion is that of `FreeMotion`, to 8 ulp of 1."""
-    t = np.linspace(-1e6, 1e6, 101)
-    general, free = GeneralMotion(1.2, (0, 0), (0.1, 0.2, 0.3)), FreeMotion(1.2, (0.1, 0.2, 0.3))
-    assert np.abs(general.rotation(t) - free.rotation(t)).max() <= 8 * ULP1
 
 
 @pytest.mark.parametrize("name", BORDERS)

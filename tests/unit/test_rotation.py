@@ -133,14 +133,11 @@ def test_columns_are_those_of_the_matrix() -> None:
         motion.column(0, t)
 
 
-def test_out_is_filled_and_checked() -> None:
-    """`out` is returned filled; one that does not fit is an error."""
+def test_out_is_filled() -> None:
+    """`out` is returned filled."""
     motion, t, out = ElementaryMotion(*MOTION), np.linspace(0, 1, 5), np.empty((5, 3, 3))
     assert motion.rotation(t, out=out) is out
     assert np.array_equal(out, motion.rotation(t))
-    for wrong in (np.empty((4, 3, 3)), np.empty((5, 3, 3), np.float32), np.empty((3, 3, 5)).T):
-        with pytest.raises(AtlasError, match="out must be"):
-            motion.rotation(t, out=wrong)
 
 
 @pytest.mark.parametrize("t", [np.nan, np.inf, "now", 1j, 1e40])
