@@ -91,12 +91,6 @@ def test_a_misspelt_name_is_told_its_neighbour(word: str, said: str) -> None:
         find(word)
 
 
-def test_no_formula_uses_old_font_switches() -> None:
-    r"""The TeX is modern: no {\bf B}, no eqnarray, no \mbox, no bare bars."""
-    for entry in EQUATIONS.values():
-        assert not re.search(r"\\bf\b|eqnarray|\\mbox|\\cr\b|\\nonumber|\\name|\|", entry.tex), entry.name
-
-
 WORST = json.loads((folder("reports") / "data" / "worst_errors.json").read_text())["worst"]
 TEXTS = [
     *(text for entry in EQUATIONS.values() for text in (entry.says, *entry.assumptions)),
