@@ -17,7 +17,6 @@ from atlas.cli.app import main
 from atlas.errors import AtlasError
 from atlas.study.fit.data import Data, _inverse_right, of_arrays, of_file
 from atlas.study.fit.models import MODELS, model_of, within
-from atlas.study.fit.nutation import _Steady
 from atlas.study.fit.problem import LIMITS, Problem
 from atlas.study.fit.result import Fit
 
@@ -380,25 +379,6 @@ def test_a_small_nutation_is_never_silent(size: float) -> None:
     assert told == any("No nutation is seen beyond noise: one of" in words for words in found.undetermined)
     if not told:
         assert abs(found.params["ratio"].value - 1.5) < 5 * found.params["ratio"].stderr
-
-
-def test_a_small_nutation_is_that_of_its_body() -> None:
-    """Of each body along the valley: the field with which the motion is the same, the frequency, and a small push."""
-    start = {"ratio": 1.3, "B1": 0.3, "B2": -0.5, "B3": 0.9, "omega2": 0.8, "a1": 0.2, "a2": 0.4, "a3": -0.3}
-    steady, t = model_of("elementary").make(start), np.linspace(0, 20, 9)
-    values = start | dict(zip(("omega1", "omega2", "omega3"), steady.angular_velocity(0.0), strict=True))
-    about = _Steady(steady, values | {"b": float(np.linalg.norm([0.3, 0.5, 0.9]))})
-    problem = Problem(model_of("general"), Data("rotation", t, np.zeros((9, 1)), np.ones((9, 1))), {}, "linear", 1.0)
-    for ratio in (0.7, 1.3, 1.7):
-        mode, size = about.modes(np.array([ratio])), np.array([3e-5, 2e-5])
-        level, pushed = (problem.model.make(about.beside(problem, mode, s)).rotation(t) for s in (np.zeros(2), size))
-        np.testing.assert_allclose(level, steady.rotation(t), atol=1e-12)
-        v = Rotation.from_matrix(pushed @ level.swapaxes(1, 2)).as_rotvec()
-        np.testing.assert_allclose(v, size @ about.turns(t, mode), atol=1e-7)
-        K = mode.field[0] * (about.R.T @ about.axis)
-        across = float(np.hypot(K[0], K[1]))
-        turned = (K[:2] @ about.omega[:2]) / across
-        assert mode.frequency[0] ** 2 == pytest.approx(atlas.Hyperbola(ratio, (across, K[2])).stability(turned))
 
 
 @pytest.mark.slow
