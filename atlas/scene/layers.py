@@ -159,9 +159,9 @@ Panel: TypeAlias = Plane | Space
 class Scene:
     """One figure: its panels row by row, its size in millimetres, and the words that go with it.
 
-    ``title`` is that of the recipe, the first line of its docstring, where there is none; ``caption`` and ``alt`` are
-    complete sentences, ``alt`` without TeX. ``parameters`` are those that the figure was
-    made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
+    ``title`` is that of the recipe, the first line of its docstring, where there is none; ``caption`` and ``alt``,
+    which each has as it has panels, are complete sentences, ``alt`` without TeX. ``parameters`` are those that the
+    figure was made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
     {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
     ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
     the other, each as high as a row of the figure, where those of the figure would only become smaller. ``paths`` tell

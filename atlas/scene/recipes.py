@@ -56,8 +56,8 @@ class Recipe:
             raise _broken(self.source, error) from error
         if not isinstance(scene, Scene):
             raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
-        if not scene.panels:
-            raise AtlasError(f"{_short(self.source)}: the Scene has no panels")
+        if missing := [name for name in ("caption", "alt", "panels") if not getattr(scene, name)]:
+            raise AtlasError(f"{_short(self.source)}: the Scene has no {' and no '.join(missing)}")
         return replace(scene, title=scene.title or self.title, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:

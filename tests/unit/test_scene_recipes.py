@@ -97,7 +97,7 @@ def scene(*, pairs: tuple[tuple[int, int], ...] = ((1, 2), (2, 3)), ratio: Any =
           field: tuple[float, float] = (1.0, 2.0), levels: tuple[float, ...] = (1.0,),
           omega3: float | None = None, unit: str = "s", columns: int = 1, size: float = 1, free=(1, "x"),
           names: tuple[str, ...] = ("a",), on: bool = True, side: Literal["left", "right"] = "left") -> Scene:
-    return Scene(title="", caption="", alt="", panels=(Plane((), "", ""),))
+    return Scene(title="", caption="A.", alt="A.", panels=(Plane((), "", ""),))
 '''
 
 
@@ -184,8 +184,8 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
             r"figures/broken\.py: scene\(\) must return a Scene, not NoneType",
         ),
         (
-            b'"""Broken."""\nfrom atlas.scene import Scene\ndef scene(): return Scene(caption="A.", alt="A.")\n',
-            r"figures/broken\.py: the Scene has no panels",
+            b'"""Broken."""\nfrom atlas.scene import Scene\ndef scene(): return Scene(caption="A.")\n',
+            r"figures/broken\.py: the Scene has no alt and no panels",
         ),
         (b"\xff\xfe", r"figures/broken\.py, line 1: SyntaxError"),
     ],
