@@ -132,7 +132,12 @@ const PLANES = {
   }; },
   portrait: ({I, B2, B3, omega, state}, t) => {
     const {b, c3, own, V, squared} = portrait(I, B2, B3, omega), all = sampled(-0.999, 0.999, 600, nu => nu), heights = all.map(V), low = Math.min(...heights), humps = heights.filter((v, i) => i && v > heights[i - 1] && v >= heights[i + 1]);
-    const span = Math.max(own - low, ...humps.map(h => h - low), 0.1 * b * b), line = (kind, h) => [1, -1].map(sign => [kind, all.map(nu => [c3 - b * nu, sign * Math.sqrt(squared(nu, h))])]), y = state(t), top = 1.25 * Math.sqrt(Math.max(...all.map(nu => squared(nu, low + 1.3 * span)), 1e-4));
+    const span = Math.max(own - low, ...humps.map(h => h - low), 0.1 * b * b), y = state(t), top = 1.25 * Math.sqrt(Math.max(...all.map(nu => squared(nu, low + 1.3 * span)), 1e-4));
+    // Where the square changes its sign between two places, the curve ends on the axis.
+    const line = (kind, h) => [1, -1].map(sign => [kind, all.flatMap((nu, i) => {
+      const before = all[Math.max(i - 1, 0)], [u, v] = [squared(before, h), squared(nu, h)], here = [c3 - b * nu, sign * Math.sqrt(v)];
+      return u * v < 0 ? [[c3 - b * (nu - (nu - before) * v / (v - u)), 0], here] : [here];
+    })]);
     const wide = all.filter(nu => squared(nu, low + 1.3 * span) >= 0).map(nu => c3 - b * nu), [left, right] = [Math.min(...wide) - 0.1, Math.max(...wide) + 0.1];
     return {x: [left, right, "Ω₃"], y: [-top, top, "dΩ₃/dt"], lines: [["guide", [[left, 0], [right, 0]]], ...[0.04, 0.16, 0.36, 0.64, 1, 1.3].flatMap(part => line("level", low + part * span)), ...humps.flatMap(h => line("unstable", h)), ...line("curve", own + 1e-9)], dots: [["point", y[2], rate(I, B2, B3, y)[2]]]};
   },
