@@ -410,3 +410,11 @@ def test_a_table_of_periods_names_them_from_one_on() -> None:
     found = compute("periods", Request([], asked, 8))
     assert [row[0] for row in found.rows] == ["$r_1$", "$r_2$"]
     assert [len(row) for row in found.rows] == [4, 4]
+
+
+@pytest.mark.parametrize("exponent", [-1400, 0, 1400])
+def test_a_residual_is_beside_its_values_at_any_scale(exponent: int) -> None:
+    """Values too small or too large for a float that are no multiple of a column are not fitted by it."""
+    scale = arb(10) ** exponent
+    _, error = clebsch_theta._least_squares([[acb(1)], [acb(1)]], [acb(scale), acb(3 * scale)])
+    assert error == pytest.approx(1 / 3)

@@ -12,7 +12,7 @@ from flint import arb
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.exact.motions import torus
 from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.torus import Torus
@@ -41,6 +41,21 @@ def radii(torus: Torus, bits: int) -> list[float]:
     return [
         float(x.rad() * arb(2) ** bits) for period in torus.periods(bits) for x in (period.H, period.F, period.angle)
     ]
+
+
+def test_a_period_that_is_too_long_is_tried_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With GOOD bits at last; that fewer do not do is known then, and more are tried when they are asked for."""
+    found, tried = made(), list[int]()
+
+    def lost(_torus: Torus, _start: Any, bits: int) -> Any:
+        tried.append(bits)
+        raise NotCertifiedError("not certified: too long.")
+
+    monkeypatch.setattr(Torus, "_enclosed", lost)
+    for bits in (128, 160, torus.GOOD, 2 * torus.GOOD, 2 * torus.GOOD):
+        with pytest.raises(NotCertifiedError, match="too long"):
+            found.periods(bits)
+    assert tried == [128, torus.GOOD, 2 * torus.GOOD]
 
 
 def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> None:
