@@ -6,6 +6,7 @@ their rounding errors, and the whole turns are dropped before anything is rounde
 """
 
 from collections.abc import Sequence
+from functools import cached_property
 from math import frexp, inf, ldexp, nextafter
 from typing import Self
 
@@ -61,9 +62,8 @@ class Phases:
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
     `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
-    (2, 1, n, 1) are those of P0. `radians` (2, n, 1) are half the frequency in radians: a head of 26 digits and the
-    rest; `head` is that of P0 + P1, and `table` sums `halves_of`. `rounder` (n, 1) rounds to the half turns that are
-    left out: EVEN ones for whole turns.
+    (2, 1, n, 1) are those of P0. `rounder` (n, 1) rounds to the half turns that are left out: EVEN ones for whole
+    turns.
 
         >>> t, cos, sin = np.array([1e15]), np.empty((1, 1)), np.empty((1, 1))
         >>> with workprec():
@@ -90,13 +90,24 @@ class Phases:
             self._within(_reach(fastest))
             self.near = nearest(NEAR / fastest) if fastest != 0 else inf
             self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
-            self.radians = _columns([_head(p * QUARTER)[:2] for p in small])
-            self.head, *rest = _columns([_head(p) for p in small])
         if self.origins is not None:
             first, low = self.origins
             self.starts = -first * MINUS_HEAD, low * QUARTER_TURN - first * MINUS_TAIL
-            rest = [low, *rest]
-        self.table = QUARTER_TURN * np.hstack([*rest, np.eye(len(halves))])
+        self._small = small
+
+    @cached_property
+    def radians(self) -> FloatArray:
+        """Half the frequency in radians, (2, n, 1): a head of 26 digits and the rest."""
+        with workprec():
+            return _columns([_head(p * QUARTER)[:2] for p in self._small])
+
+    @cached_property
+    def _sums(self) -> tuple[FloatArray, FloatArray]:
+        """Head of P0 + P1 with 26 digits, and the matrix that sums what `halves_of` has."""
+        with workprec():
+            head, *rest = _columns([_head(p) for p in self._small])
+        first = [] if self.origins is None else [self.origins[1]]
+        return head, QUARTER_TURN * np.hstack([*first, *rest, np.eye(len(head))])
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
@@ -217,7 +228,8 @@ class Phases:
             if turns is not None:
                 turns[:] = whole
             return half
-        n, k = self.table.shape
+        head, table = self._sums
+        n, k = table.shape
         stack, whole, x, _ = np.split(work.reshape(-1, work.shape[-1])[:, : t.size], (k, k + n, k + 2 * n))
         *first, upper, lower = stack[: k - n]
         p = stack[k - n :]
@@ -227,7 +239,7 @@ class Phases:
         np.subtract(t, upper, out=lower)
         if low is not None:
             lower += low
-        np.multiply(self.head, upper, out=p)
+        np.multiply(head, upper, out=p)
         if self.origins is not None:
             first[0][:] = 1.0
             p += self.origins[0]
@@ -236,7 +248,7 @@ class Phases:
             turns[:] = whole
         whole -= self.rounder
         p -= whole
-        return np.matmul(self.table, stack, out=x)
+        return np.matmul(table, stack, out=x)
 
     def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
         """Return the same for half phases up to NEAR, by Cody and Waite: half f t less w pi/2, both cut.

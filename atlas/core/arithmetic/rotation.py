@@ -143,7 +143,11 @@ class DoubleRotation:
         )
         self.weights = np.ascontiguousarray(weights.swapaxes(1, 2)) if inverse else weights
         self.entries = self.weights.reshape(-1, 9)
-        self.rodrigues = 2 * rodrigues(axis)
+
+    @cached_property
+    def rodrigues(self) -> FloatArray:
+        """Matrices of the functions of the phase k t by itself, (3, 3, 3), times two."""
+        return 2 * rodrigues(self.axis)
 
     @cached_property
     def precession(self) -> Phases:

@@ -33,9 +33,9 @@ def moments(ratio: Any) -> tuple[Any, Any]:
         if not np.all(ratio.I3):
             raise DomainError(ROD)
         return ratio.I2, ratio.I3
-    I = real(ratio, "The ratio I = I3/I2")
+    I = plain(real(ratio, "The ratio I = I3/I2"))
     check_ratio(I)
-    return 1.0, I if I.ndim else float(I)
+    return 1.0, I
 
 
 def kept_ratio(ratio: Any, I3: Any) -> Any:
