@@ -81,7 +81,7 @@ class One:
             exact = self.one.exact
             self.inputs = of_general(exact.I, exact.field, exact.omega)
             if not turned:
-                self.sides = self.left, _ = self.one.rotation(np.zeros(1))[0], self.axes
+                self.sides = self.left, _ = self.one.attitude, self.axes
         elif turned and family in ("elementary", "free", "ball"):
             self.inputs = self._any_start(i, row)
         elif family == "asymmetric":
@@ -135,7 +135,8 @@ class One:
             moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
         if turned and "omega1" in own:
             moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
-        return moved
+        # no derivative has to be made in what has no weight
+        return {name: x._replace(weights={y: w for y, w in x.weights.items() if w != 0}) for name, x in moved.items()}
 
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
         """Return what a change of the field in the axes of the class at t = 0 moves, and a turn of the body."""
