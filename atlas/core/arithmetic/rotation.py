@@ -28,6 +28,7 @@ from atlas.formulas.numbers import Number, nearest, workprec
 Axis = tuple[Number, Number, Number]
 """A unit vector of exact numbers."""
 
+IDENTITY = np.eye(3)
 E, J, E33 = np.diag([1.0, 1, 0]), np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.diag([0.0, 0, 1])
 
 SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
@@ -76,7 +77,7 @@ def rodrigues(axis: Axis) -> FloatArray:
     n1, n2, n3 = map(nearest, axis)
     with workprec():
         dyad = [[nearest(a * b) for b in axis] for a in axis]
-    return np.array([np.eye(3), [[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]], dyad])
+    return np.array([IDENTITY, [[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]], dyad])
 
 
 def generators(axis: Axis) -> FloatArray:
@@ -87,7 +88,7 @@ def generators(axis: Axis) -> FloatArray:
         if along[i, i] < 0.5:
             with workprec():
                 along[i, i] = 1.0 - nearest(1 - n * n)
-    return np.array([along, np.eye(3) - along, across, dyad])
+    return np.array([along, IDENTITY - along, across, dyad])
 
 
 def extended(axis: Axis) -> NDArray[np.longdouble]:
@@ -95,7 +96,7 @@ def extended(axis: Axis) -> NDArray[np.longdouble]:
     n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (words(n, 2) for n in axis))
     dyad = np.outer([n1, n2, n3], [n1, n2, n3])
     across = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
-    return np.array([dyad, np.eye(3) - dyad, across, dyad])
+    return np.array([dyad, IDENTITY - dyad, across, dyad])
 
 
 def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
@@ -105,10 +106,9 @@ def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], F
     the price of two functions more: that is the third column of the transposed matrix.
     """
     along, rest, across, dyad = parts
-    identity = np.eye(3)
-    upper = E if third_row else identity
-    C, aC = upper @ along, upper @ rest + (identity - upper)
-    pairs = [(identity, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
+    upper = E if third_row else IDENTITY
+    C, aC = upper @ along, upper @ rest + (IDENTITY - upper)
+    pairs = [(IDENTITY, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
     if third_row:
         pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
     return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])

@@ -70,7 +70,7 @@ class Motion(Shown, Generic[Single]):
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
         self._make, self._inputs = make, inputs
         self._made: dict[int, Single] = {}
-        self.shape = common_shape(*(np.shape(x) for x in inputs))
+        self.shape = common_shape(*(getattr(x, "shape", ()) for x in inputs))
 
     def _single(self, i: int = 0) -> Single:
         """Return the i-th motion, made by itself."""
