@@ -230,7 +230,8 @@ class Phases:
             return half
         head, table = self._sums
         n, k = table.shape
-        stack, whole, x, _ = np.split(work.reshape(-1, work.shape[-1])[:, : t.size], (k, k + n, k + 2 * n))
+        rows = work.reshape(-1, work.shape[-1])[:, : t.size]
+        stack, whole, x = rows[:k], rows[k : k + n], rows[k + n : k + 2 * n]
         *first, upper, lower = stack[: k - n]
         p = stack[k - n :]
         np.multiply(t, SPLITTER, out=upper)
