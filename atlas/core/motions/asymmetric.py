@@ -189,7 +189,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     - "on the discriminant": other states without two periods, for which there is an answer up to a time that the error
       states.
 
-    On a torus M, K and the attitude are quotients of theta functions of two variables: a third of a second for the
+    On a torus M, K and the attitude are quotients of theta functions of two variables: a quarter of a second for the
     first time that is asked for, then two microseconds each, however long. That they are is proved for each motion when
     `agreement` is asked for, see `atlas.exact.motions.clebsch_proof`; where no proof is found they are held against the
     certified twin at a few times, and at once where the theta functions fit the motion to less than 36 digits. A free

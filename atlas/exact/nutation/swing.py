@@ -57,8 +57,8 @@ class Swing:
     def largest(self) -> arb:
         """Half of its largest part that is no multiple of time, about; a bound where that is modest."""
         half = self.lattice.half
-        most = self.steepest * arb.pi() / 2
-        if self.lattice.form == "trigonometric" and most < MODEST:
+        most = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
+        if most < MODEST:
             return most
         unit = 8 / self.lattice.rate if infinite(half) else half
 
