@@ -163,7 +163,7 @@ def body_of(inertia: Any) -> Body:
 def _of_moments(moments: Any, axes: FloatArray) -> Body:
     """Return the body of principal moments along axes. Raises DomainError for what no body has."""
     rows = np.stack(np.broadcast_arrays(*(real(x, "A moment of inertia") for x in moments)), -1)
-    for row in np.unique(rows.reshape(-1, 3), axis=0):
+    for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
         inertia_tensor(row)
     tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
     return Body(rows, axes, tensor)
@@ -184,8 +184,7 @@ def _joined(I: FloatArray) -> FloatArray:
 
 def _parts(v: FloatArray) -> tuple[Any, Any, Any]:
     """Return the components of vectors (..., 3), numbers or arrays."""
-    x, y, z = (plain(component) for component in np.moveaxis(v, -1, 0))
-    return x, y, z
+    return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
 
 
 def _vectors(value: Any, name: str) -> FloatArray:
