@@ -50,7 +50,7 @@ Value = TypeVar("Value")
 
 
 class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
-    """A property that is kept for the precision of the moment."""
+    """A property that is kept with the most digits that it was made with: fewer are in them."""
 
     def __init__(self, function: Callable[[Any], Value]) -> None:
         self._of, self.__doc__ = function, function.__doc__
@@ -63,11 +63,11 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
     @overload
     def __get__(self, one: object, of: Any = None) -> Value: ...
     def __get__(self, one: Any, of: Any = None) -> Self | Value:
-        """Return the value, made if the precision is another."""
+        """Return the value, made if the precision of the moment is above what it was made with."""
         if one is None:
             return self
         known: tuple[int, Value] | None = vars(one).get(self._place)
-        if known is None or known[0] != ctx.prec:
+        if known is None or known[0] < ctx.prec:
             vars(one)[self._place] = known = ctx.prec, self._of(one)
         return known[1]
 
