@@ -30,7 +30,6 @@ class Page(StrictStruct, frozen=True):
     slug: Slug
     title: str
     blocks: tuple[Block, ...]
-    summary: str = ""
     part: str = ""
     appendix: bool = False
     thumbnail: Thumbnail = Thumbnail()

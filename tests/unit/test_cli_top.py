@@ -89,6 +89,7 @@ def test_point_masses_may_have_any_charges(tmp_path: Path) -> None:
     path.write_text("\n".join(["x,y,z,mass,charge", *rows[:-1], "0,0,-1,5,3"]), "utf-8")
     wrong = CliRunner().invoke(TOP, f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3".split())
     assert "centre of charge is off the centre of mass" in str(wrong.exception)
+    assert "of a body held at a point, say held=True, or --heavy." in str(wrong.exception)
 
 
 @pytest.mark.parametrize(("up", "sign"), [("", 1), ("--direction -3 -4", -1)])

@@ -75,7 +75,7 @@ def definition(text: str, block: str = "") -> Report:
         {"kind": "table", "table": "points", "body": "b", "field": "f", "caption": text},
         {"kind": "equation", "name": "own", "tex": r"a+b"},
     ]
-    page = {"slug": "index", "title": text, "part": text, "summary": text, "blocks": blocks}
+    page = {"slug": "index", "title": text, "part": text, "blocks": blocks}
     report = {"name": "mine", "title": text, "subtitle": text, "authors": [text], "abstract": block or text}
     return convert(
         {**report, "pages": [page], "parameters": {"bodies": {"b": tables[0]}, "fields": {"f": tables[1]}}}, Report

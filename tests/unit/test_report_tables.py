@@ -181,6 +181,12 @@ def test_unknown_tables_and_parameters_are_refused() -> None:
     assert set(TABLES) >= {"quadric", "points", "motion", "particle", "flight"}
 
 
+def test_what_there_is_to_ask_for_is_listed_in_words() -> None:
+    """Their lines can be broken, so that no long one makes the type of the whole table small."""
+    for name in ("quantities", "targets", "roles"):
+        assert all(isinstance(cell, str) for row in table(name).rows for cell in row), name
+
+
 def test_a_number_of_which_no_digit_is_proven_has_none() -> None:
     """A ball about zero is printed as a question mark and marked; its status is not in its digits."""
     (number,) = column([flint.arb(0, 1e-3)], 5)

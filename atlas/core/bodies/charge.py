@@ -73,7 +73,7 @@ class ChargeMoments:
         if not held and np.abs(dipole).max(initial=0.0) > SYMMETRIC * reach:
             raise DomainError(
                 f"The centre of charge is off the centre of mass: the sum of e x is {dipole.tolist()}, where it must "
-                "be zero, lest the flight drive the rotation; if the body is held at a point, say held=True."
+                "be zero, lest the flight drive the rotation; of a body held at a point, say held=True, or --heavy."
             )
         moments = np.einsum("n,nk,nk->", e, x, x) * np.eye(3) - np.einsum("n,ni,nj->ij", e, x, x)
         symmetric = np.diag([moments[0, 0], moments[0, 0], moments[2, 2]])

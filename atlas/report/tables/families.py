@@ -10,12 +10,11 @@ import msgspec
 
 from atlas.families import FAMILIES, Family
 from atlas.report import toml
-from atlas.report.digits import Number
 from atlas.report.tables.properties import cited
 from atlas.report.tables.table import Data, heads
 from atlas.targets import ANY, TARGETS, Target
 
-Row = tuple[str, str, str, str, str | Number]
+Row = tuple[str, str, str, str, str]
 
 
 def quantities() -> Data:
@@ -53,8 +52,8 @@ def _names(names: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
-def _promise(family: Family, checked: str) -> str | Number:
-    return Number(f"{family.promises[checked]:g}") if checked in family.promises else ""
+def _promise(family: Family, checked: str) -> str:
+    return f"{family.promises[checked]:g}" if checked in family.promises else ""
 
 
 def targets() -> Data:
