@@ -28,6 +28,7 @@ WANTED: dict[str, str | tuple[str, ...]] = {
     **dict.fromkeys(("field", "omega", "omega2", "omega3", "spin", "larmor"), RATE),
     "radius": "m", "height": "m", "equatorial": "m", "polar": "m", "position": "m", "velocity": "m/s", "mass": "kg",
     "charge": "C", "mu": "C/kg", "magnetic": "T", "electric": "V/m", "momentum": "kg m2/s", "times": "s", "grid": "s",
+    "predict": "s", "epoch": "s",
     "inertia": "kg m2", "tensor": "kg m2", "density": "kg/m3", "angle": "rad", "heavy": ("m/s2", "m"),
     "coupling": "kg m2/s", "linear": "J", "quadratic": "J", "charged": "C m2", "moment": "A m2",
     "polarizability": "A m2/T",

@@ -49,13 +49,14 @@ def command(file: Path, **options: Any) -> int:
     """Find inertia, field and start of a motion from measured attitudes, axes, angular velocities or fields.
 
     FILE.csv has a column t and R11 to R33, or a quaternion w, x, y, z, or R13, R23, R33 of the axis alone, or Omega1 to
-    Omega3 or K1 to K3 along the axes of the body, with units if there are any, as t [ms]; single entries of R are a
-    signal. A line '# sigma = 0.01' may stand at its head; without it the scatter about the motion tells sigma. No start
-    is needed.
+    Omega3 or K1 to K3 along the axes of the body, with units if there are any, as t [ms]; what is found is then in s
+    and 1/s. Single entries of R are a signal. A line '# sigma = 0.01' may stand at its head; without it the scatter
+    about the motion tells sigma. No start is needed.
 
     What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
-    residuals that are correlated. The exit status is 1 if something does, 2 if the file or an option is wrong. In JSON
-    the horizon is null if a prediction is that good nowhere, or at any time; "missing" says which.
+    residuals that are correlated, or a few that are far larger than the rest. The exit status is 1 if something does, 2
+    if the file or an option is wrong. In JSON the horizon is null if a prediction is that good nowhere, or at any time;
+    "missing" says which.
     """
     result = fitted(file, options)
     record, lines = ahead(result, options)

@@ -37,6 +37,8 @@ NUMBER = re.compile(
 OTHERS = {
     "B": "B is --magnetic, and B' = mu B/(2c) is --field", "E": "it is --electric", "I": "I = I3/I2 is --ratio",
     "moments": "they are --inertia", "quaternion": "R(0) is --attitude X Y Z W",
+    **dict.fromkeys(("tex", "latex"), "atlas page makes a report, NAME.toml beside the page, and atlas tex its LaTeX"),
+    "csv": "a table as CSV is that of atlas sweep, with --quantity R and t=START:STOP:COUNT, say",
     "dt": "times by a step are --grid START STEP COUNT, or --times START:STOP:COUNT",
 }  # fmt: skip
 """Other names of options."""
@@ -148,6 +150,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
 REAL = Real()
 
 
+ENDINGS = (".svg", ".pdf", ".png", ".pgf", ".csv", ".gif", ".mp4", ".apng", ".html", ".tex")
+"""How names of files end that are written to folders."""
+
+
 class Place(click.Path):
     """Where a file or a folder is to be written: in a folder that is there, or that can be made."""
 
@@ -157,6 +163,8 @@ class Place(click.Path):
         there = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
         if not there.is_dir():
             self.fail(f"there is no folder to make {str(value)!r} in: {str(there)!r} is a file.", param, ctx)
+        if not self.file_okay and str(value).endswith(ENDINGS) and not place.exists():
+            self.fail(f"this is the folder for the files, but {str(value)!r} ends as a file does.", param, ctx)
         if place.is_symlink() and not place.exists():
             self.fail(f"{str(value)!r} is a link to nothing.", param, ctx)
         if not os.access(place if place.is_dir() else there, os.W_OK | os.X_OK):

@@ -132,7 +132,10 @@ def measured_columns(
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
+            top = file.readline()
+            separator = next((s for s in (",", ";", "\t") if s in top), ",")
+            file.seek(0)
+            reader = csv.reader(file, delimiter=separator)
             (_, first), *lines = [(reader.line_num, line) for line in reader if line] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error

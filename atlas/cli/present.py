@@ -64,7 +64,7 @@ def show(printout: Printout) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    console = Console(width=None if sys.stdout.isatty() else 250, emoji=False, highlight=False, soft_wrap=True)
+    console = Console(emoji=False, highlight=False, soft_wrap=True)
     if printout.title:
         console.print(printout.title, style="bold", markup=False)
     if printout.lines:
@@ -92,8 +92,9 @@ def _print(console: "Console", table: "Table") -> None:
     """Print a table and cut none of its numbers: where they need more room than there is, the lines get longer."""
     from rich.measure import Measurement
 
-    room = console.options.update_width(1_000_000)
-    console.width = max(console.width, Measurement.get(console, room, table).minimum)
+    needed = Measurement.get(console, console.options.update_width(1_000_000), table)
+    if not console.is_terminal or console.width < needed.minimum:
+        console.width = needed.maximum
     console.print(table)
 
 

@@ -67,7 +67,13 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
         click.option(
             "--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading."
         ),
-        click.option("--quantity", "quantities", multiple=True, metavar="NAME [NAME ...]", help="What to compute."),
+        click.option(
+            "--quantity",
+            "quantities",
+            multiple=True,
+            metavar="NAME [NAME ...]",
+            help="What to compute: k, R11, all of R.",
+        ),
         click.option(
             "--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file."
         ),

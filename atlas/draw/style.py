@@ -178,7 +178,8 @@ def ground(face: Any = None) -> str:
 def style_of(role: str) -> Style:
     """Return the look of a role; that of plotted lines is the cycle of the style sheet, ``axes.prop_cycle``.
 
-    On a dark ground lines and marks are as light as a text is there.
+    A sheet's ``lines.linewidth`` holds before the widths of the atlas's own cycle. On a dark ground lines and marks are
+    as light as a text is there.
     """
     look = style(role)
     if role not in LINES:
@@ -186,7 +187,9 @@ def style_of(role: str) -> Style:
         return replace(look, colour=readable(look.colour, ground())) if bare else look
     cycle = list(mpl.rcParams["axes.prop_cycle"])
     line = cycle[LINES.index(role) % len(cycle)]
-    width, dashes = line.get("linewidth", mpl.rcParams["lines.linewidth"]), line.get("linestyle", "-")
+    width, dashes = mpl.rcParams["lines.linewidth"], line.get("linestyle", "-")
+    if width == mpl.rcParamsDefault["lines.linewidth"]:
+        width = line.get("linewidth", width)
     if isinstance(dashes, str):
         dash = mpl.rcParams.get(f"lines.{_DASHES.get(dashes, dashes)}_pattern", ())
     else:

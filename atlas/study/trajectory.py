@@ -57,6 +57,8 @@ PLAIN = ("", "1", "time", "1/time")
 EULER = ("roll", "pitch", "yaw", "phi", "theta", "psi")
 """How names of Euler angles begin."""
 _OTHER_NAMES = dict(zip(("w", "x", "y", "z", "qw", "qx", "qy", "qz"), QUATERNION * 2, strict=True)) | {"time": "t"}
+NAMED = re.compile(r"# *(t|time)( *\[[^]]*\])?([\s,;]+(R_?\d\d|(Omega_?|K|q)\d|q?[w-z])( *\[[^]]*\])?)+", re.IGNORECASE)
+"""The names of columns in a comment, as NumPy's savetxt writes them."""
 _NAMES = {name.lower(): name for name in ("t", *MATRIX, *OMEGA, *QUATERNION)} | _OTHER_NAMES
 
 
@@ -84,6 +86,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
         lines = _decoded(file, path.name)
         for number, raw in enumerate(lines, 1):
             line, where = raw.strip(), f"{path.name}, line {number}"
+            line = line.lstrip("# ") if NAMED.fullmatch(line) else line
             if line.startswith("#"):
                 for name, values in _parameters(line.lstrip("# "), where).items():
                     if parameters.setdefault(name, values) != values:
@@ -208,6 +211,8 @@ def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
     for cell in cells:
         bare = cell.lower().replace("_", "")
         name = _NAMES.get(bare, bare.upper() if bare.upper() in more else None)
+        if name is None and re.fullmatch(r"[+-]?\.?\d.*", cell):
+            raise AtlasError(f"{where}: {cell!r} stands where the names of columns are wanted, such as t,R11,R12,R13.")
         if name is None:
             raise AtlasError(
                 f"{where}: no column is called {cell!r}; "
@@ -224,7 +229,7 @@ def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
     if len(names) == 1:
         raise AtlasError(f"{where}: there is nothing to grade beside t; add R11 to R33, Omega1 to Omega3 or q0 to q3.")
     if 0 < len(set(QUATERNION) & set(names)) < 4:
-        raise AtlasError(f"{where}: a quaternion has the four columns q0 to q3 (or w, x, y, z).")
+        raise AtlasError(f"{where}: a quaternion has the four columns q0 to q3 (or w, x, y, z), an axis R13, R23, R33.")
     return names
 
 
@@ -245,7 +250,10 @@ def _number(cell: str, where: str) -> float:
     try:
         value = float(cell if plain else "")
     except ValueError as error:
-        raise AtlasError(f"{where}: {cell.strip()!r} is not a number.") from error
+        text = cell.strip()
+        right = "; a decimal has a point" * bool(re.fullmatch(r"[+-]?\d+,\d+", text))
+        right = right or "; leave out a row that lacks one" * (not text)
+        raise AtlasError(f"{where}: {text!r} is not a number{right}.") from error
     if not math.isfinite(value):
         raise AtlasError(f"{where}: the cell is {cell.strip()}; every cell must be a finite number.")
     return value

@@ -225,10 +225,12 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
         ("t [kg],R11\n0,1\n", r"line 1: t is in s, or what can be made of it, not in 'kg'\."),
         ("t,R11 [m]\n0,1\n", "R11 has no unit, not in 'm'"),
         ("t,R11,r11\n0,1,1\n", "R11 is there twice"),
-        ("t,w,x,y\n0,1,0,0\n", "a quaternion has the four columns"),
+        ("0.0,1,0,0\n", "line 1: '0.0' stands where the names of columns are wanted"),
+        ("t,w,x,y\n0,1,0,0\n", "a quaternion has the four columns .*, an axis R13"),
         (HEAD + "t,R11\n0,1\n1\n", "line 4: 1 cells where the line of names has 2"),
         (HEAD + "t,R11\n0,1\n1,one\n", "line 4, column R11: 'one' is not a number"),
-        (HEAD + "t,R11\n\n0,1\n1,\n", "line 5, column R11: '' is not a number"),
+        (HEAD + "t,R11\n\n0,1\n1,\n", "line 5, column R11: '' is not a number; leave out a row that lacks one"),
+        (HEAD + "t;R11\n0,5;1\n", "line 3, column t: '0,5' is not a number; a decimal has a point"),
         (HEAD + "t,R11\n0,nan\n", "line 3, column R11: the cell is nan"),
         (HEAD + "t,R11\ninf,1\n", "line 3, column t: the cell is inf"),
         ("# field = 1\nt,R11\n0,1\n", "line 1: field takes 2 or 3 numbers, not 1"),
@@ -258,6 +260,16 @@ def test_a_comment_may_begin_like_a_parameter(write: Writer) -> None:
     """After a colon words are words; a byte order mark is no part of a line; the same parameter twice is no quarrel."""
     text = "\ufeff# field: along e3\n# ratio of inertia = none\n" + HEAD + "# omega2: 0.7\n" + "t,R11\n0,1\n# end\n"
     assert check(write(text)).parameters == {"ratio": 1.5, "field": [1.0, 2.0], "omega2": 0.7}
+
+
+@pytest.mark.parametrize("delimiter", [" ", ",", ";"])
+def test_a_file_of_numpy_is_read(tmp_path: Path, delimiter: str) -> None:
+    """It has the names of its columns behind a #, and other words there are a comment."""
+    rows = np.array([[t, *true_row(t)[:9]] for t in TIMES])
+    names = delimiter.join(["t", *MATRIX])
+    path = tmp_path / "numpy.csv"
+    np.savetxt(path, rows, delimiter=delimiter, header=f"ratio = 1.5; field = 1 2; omega2 = 0.7\nt is time\n{names}")
+    assert [column.name for column in check(path).columns] == [*MATRIX]
 
 
 @pytest.mark.parametrize(

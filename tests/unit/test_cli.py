@@ -108,6 +108,9 @@ def test_point_masses_may_have_units_in_their_heading(tmp_path: Path) -> None:
         file.write_text("\n".join([heading, *(",".join(str(x * scale) for x in row) for row in rows)]))
         assert (point_masses(file).masses.sum(), ratio_of_points(file)) == (6, 2)
         assert points(file).inertia == (4, 4, 4)
+        for separator in ";\t":
+            (other := tmp_path / "other.csv").write_text(file.read_text().replace(",", separator))
+            assert points(other).inertia == (4, 4, 4)
     file.write_text("x,y,z [kg],mass\n0,0,1,1\n")
     with pytest.raises(UsageError, match=r"points\.csv: line 2: '1' under z \[kg\] is not a number in m, "):
         points(file)

@@ -189,3 +189,12 @@ def test_one_time_that_cannot_be_had_does_not_lose_the_others() -> None:
         assert sample(vector, Motion(), 0, best) is first
         assert sample(vector, Motion(), 1, best) == ["not certified"] * 3
     assert best.reason == "too far"
+
+
+def test_what_stands_beside_long_numbers_is_in_one_line() -> None:
+    """A row a quantity, however many digits it has."""
+    words = "motion --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --digits"
+    few, many = (CliRunner().invoke(command, [*words.split(), digits]).stdout.splitlines() for digits in ("5", "120"))
+    assert len(few) == len(many) == 11
+    assert max(map(len, many)) > 4 * 120
+    assert all(a.split()[0] == b.split()[0] for a, b in zip(few, many, strict=True))

@@ -125,6 +125,7 @@ CASES = [
     ("motion --ratio 1.5 --field=1,2 --omega3 1", "--omega3 goes with --omega2"),
     ("motion --ratio 1.5 --field 1,2 --omega2 1 --times 0..5", "or a range START:STOP:COUNT"),
     ("motion --ratio 1.5 --B 1 2 --omega2 1", "B is --magnetic"),
+    ("motion --ratio 1.5 --field 1 2 --omega2 1 --latex", "and atlas tex its LaTeX"),
     ("motion --ratio 1.5(-1) --field 1 2 --omega2 1", "write an uncertainty as 1.5(1) or 1.5±0.1."),
     ("motion --ratio 1,5 --field 1 2 --omega2 1", "write 1.5"),
     ("figure cone --set ratio=0.5,field=1,2", "several parameters are several words"),
@@ -157,7 +158,7 @@ CASES = [
     ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),
     ("top --inertia 1 1 --magnetic 1 2 --coat ring --radius 1 --omega 1 2 3", "--coat needs --charge"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --charged 1 1", "--charged goes with --magnetic, not with --heavy"),
-    *((f"animate motion --over {text} --out {{place}}/a.mp4", "--over takes KEY=START:STOP:COUNT")
+    *((f"animate motion --over {text} --out {{place}}/a", "--over takes KEY=START:STOP:COUNT")
       for text in ("omega2=0:2", "omega2=0:2:x", "omega2=0:2:3:4")),
     ("classify --ratio 1 --field 1 2 3", "--field takes 2 numbers"),
     ("animate motion --over omega2=0:2:1000000 --out {place}/new", "an animation has from 2 to"),
@@ -207,6 +208,7 @@ CASES = [
     ("figure loop --set field", "--set takes KEY=VALUE"),
     ("figure cone --format csv --out {place}", "cone.csv is not as atlas wrote it: the new one is cone.new.csv"),
     ("report atlas --out {place}/ratios.csv/new", "ratios.csv' is a file"),
+    ("animate film_strip --out {place}/mine.gif", "mine.gif' ends as a file does"),
     ("report atlas --out {place}/lost", "lost' is a link to nothing"),
     *((f"classify --ratio {ratio} --field 1 2", ratio)
       for ratio in ("2.5", "0", "-1", "nan", "one", "1_0", "\N{ARABIC-INDIC DIGIT ONE}")),

@@ -66,6 +66,8 @@ def test_the_look_of_plotted_lines_is_the_cycle_of_the_sheet() -> None:
     for line, wanted in zip(axes.lines, cycle, strict=True):
         assert mpl.colors.same_color(line.get_color(), wanted["color"])
         assert line.get_linewidth() == wanted["linewidth"]
+    (axes,) = to_figure(lines(len(LINES)), {"lines.linewidth": 3.25}).axes
+    assert {line.get_linewidth() for line in axes.lines} == {3.25}
 
 
 def test_dashes_of_a_sheet_are_those_of_matplotlib() -> None:

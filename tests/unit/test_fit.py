@@ -145,6 +145,8 @@ def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
     robust = atlas.fit(t, rotation=R, loss="soft_l1")
     assert abs(robust.sigma / NOISE - 1) < 0.3
     assert abs(robust.params["ratio"].value - RATIO) < 5 * robust.params["ratio"].stderr < 0.05
+    told = [[words for words in fit.doubts if "soft_l1" in words] for fit in (found, robust, atlas.fit(t, rotation=R))]
+    assert [len(words) for words in told] == [0, 0, 1]
 
 
 def test_drag_is_told() -> None:
@@ -231,11 +233,14 @@ def written(path: Path, count: int = 80) -> Path:
 def test_the_command_fits_a_file(tmp_path: Path) -> None:
     """With sigma from its head, predictions, a figure, and JSON that holds the same numbers."""
     file = written(tmp_path / "mine.csv")
-    words = ["fit", str(file), "--predict", "20", "--horizon", "0.1", "--figure", str(tmp_path / "mine.svg"), "--json"]
+    drawn = str(tmp_path / "mine.svg")
+    words = ["fit", str(file), "--predict", "20", "20000ms", "--horizon", "0.1", "--figure", drawn, "--json"]
     result = CliRunner().invoke(command, words, catch_exceptions=False)
     found = json.loads(result.stdout)
     assert abs(found["params"]["ratio"]["value"] - RATIO) < 5 * found["params"]["ratio"]["stderr"]
-    assert np.shape(found["predictions"][0]["value"]) == (3, 3)
+    first, second = found["predictions"]
+    assert np.shape(first["value"]) == (3, 3)
+    assert first == second
     assert found["horizon"] > 15
     assert (tmp_path / "mine.svg").stat().st_size > 1000
     assert found["sigma"] == NOISE

@@ -41,6 +41,17 @@ def test_a_grid_has_every_combination_once_and_its_quantities() -> None:
         assert np.array_equal(table[name], getattr(motion, name))
 
 
+def test_what_has_entries_is_asked_for_as_a_whole() -> None:
+    """R is its nine entries, and Omega its three, in their order."""
+    table = atlas.sweep(
+        "elementary", {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": 0.7, "t": [0.0, 2.0]}, ["Omega", "R"]
+    )
+    entries = [f"R{i}{j}" for i in "123" for j in "123"]
+    assert list(table)[5:] == ["Omega1", "Omega2", "Omega3", *entries]
+    R = ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation([0.0, 2.0])
+    assert np.abs(np.column_stack([table[name] for name in entries]) - R.reshape(2, 9)).max() <= 8 * 2.0**-53
+
+
 @pytest.mark.parametrize("suffix", [".csv", ".npz"])
 def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: str) -> None:
     """One process, two processes and threads of the user write the same file, and leave nothing beside it."""

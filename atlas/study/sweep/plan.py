@@ -52,6 +52,8 @@ class Plan:
         if family not in FAMILIES:
             raise AtlasError(f"There is no family {family!r} to sweep; there is {', '.join(FAMILIES)}.")
         quantities = [quantities] if isinstance(quantities, str) else quantities
+        whole = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
+        quantities = [column for name in quantities for column in whole.get(name, (name,))]
         FAMILIES[family].check(list(parameters), quantities, digits)
         arrays = {name: np.atleast_1d(real(value, name)) for name, value in parameters.items()}
         for name, array in arrays.items():
