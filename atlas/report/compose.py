@@ -57,7 +57,7 @@ def compose(
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
         composer.begin(page.slug, title_words(page.title))
-        composer.where = f"page {page.slug!r}, its title"
+        composer.where = f"{report.name}.toml: page {page.slug!r}, its title"
         heading = composer.text(title(page.title), inline=True)
         blocks = tuple(_views(composer, page, outline=outline))
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
@@ -90,8 +90,8 @@ def _pages_of(report: Report) -> dict[str, str]:
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
     """Yield the views of the blocks of a page; an error says which of them it is about."""
     for place, block in enumerate(page.blocks, 1):
-        name = kind_of(block)
-        composer.where, kind = f"page {page.slug!r}, block {place} ({name})", KINDS[name]
+        name, file = kind_of(block), f"{composer.document.report.name}.toml"
+        composer.where, kind = f"{file}: page {page.slug!r}, block {place} ({name})", KINDS[name]
         try:
             yield (kind.outline if outline and kind.outline else kind.view)(block, composer)
         except AtlasError as error:

@@ -110,7 +110,8 @@ class Fitted:
             "title": self.title or f"The motion in {self._file}",
             "subtitle": f"{self.fit.family} motion, {self.fit.t.size} times of {self.fit.kind.replace('_', ' ')}",
             "abstract": "Errors are standard errors, of first order. The numbers of a fit are estimates: no digit is "
-            "proven. Times are in the unit of the file, rates in one over it, moments of inertia in that of $I_2$.",
+            "proven. Times are in the unit of the file, in s if its heading has one, moments of inertia in that of "
+            "$I_2$.",
             "parameters": {kind: {name: record} for kind, name, record in records if record},
             "pages": [{"slug": "index", "title": "Fit", "blocks": blocks}],
         }  # fmt: skip

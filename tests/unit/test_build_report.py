@@ -190,10 +190,10 @@ def test_the_pdf_has_the_same_content(built: Built) -> None:
 
 
 def test_a_citation_that_leads_nowhere_is_an_error(tmp_path: Path) -> None:
-    """A misspelt label names the block and the nearest label, and nothing is written."""
+    """A misspelt label names the file, the block and the nearest label, and nothing is written."""
     file = tmp_path / "mine.toml"
     file.write_text(MINE.replace("@fig:curve", "@fig:curv"), encoding="utf-8")
-    with pytest.raises(AtlasError, match=r"page 'index', block 1 .*'@fig:curv' .*'@fig:curve'"):
+    with pytest.raises(AtlasError, match=r"^mine\.toml: page 'index', block 1 .*'@fig:curv' .*'@fig:curve'"):
         build_report(file, tmp_path / "out")
     assert not list((tmp_path / "out").rglob("*.html"))
 
