@@ -108,7 +108,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
         """Turn what was typed into a number, or say what is wrong with it."""
-        text = str(value).replace("\N{MINUS SIGN}", "-")  # as it is copied from a page
+        text = str(value).replace("\N{MINUS SIGN}", "-").replace("\N{DEGREE SIGN}", "deg")  # as on a page
         if (parts := UNCERTAIN.fullmatch(text)) is not None:
             return self._with_sigma(text, parts, param, ctx)
         try:

@@ -203,6 +203,7 @@ def test_units_are_those_of_si() -> None:
     found, true = numbers(*typed.split()), numbers(*by_hand.split())
     assert found["precession_rate"] == pytest.approx(true["precession_rate"], rel=1e-9)
     assert found["spin_rate"] == pytest.approx(true["spin_rate"], rel=1e-14)
+    assert run(*typed.replace("30deg", "30°").split()) == run(*typed.split())
     assert np.array(found["samples"][0]["R"]) == pytest.approx(np.array(true["samples"][0]["R"]), abs=1e-9)
     assert "2MHz is 12566370.61 rad/s." in run(*typed.removesuffix("--json").split())[1]
 

@@ -149,6 +149,16 @@ def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
     assert [len(words) for words in told] == [0, 0, 1]
 
 
+def test_rounding_errors_determine_nothing() -> None:
+    """Exact data of a body at rest, and of a spin about its axis, say nothing of ratio and field."""
+    t = np.arange(20.0)
+    for turns in (0.0 * t, 0.3 * t):
+        R = Rotation.from_rotvec(np.outer(turns, [0.0, 0.0, 1.0])).as_matrix()
+        found = atlas.fit(t, rotation=R)
+        assert found.params["ratio"].stderr is found.params["b"].stderr is None
+        assert any("ratio" in words for words in found.undetermined)
+
+
 def test_drag_is_told() -> None:
     """A spin that dies away by two percent is no motion of the family: chi square and correlations say so."""
     t, _ = measured("rotation", 60, 15.0)

@@ -12,6 +12,9 @@ from atlas.study.fit.problem import Problem
 UNSEEN = 0.5
 """Standard error of a combination, in natural units, from which on the data do not determine it."""
 
+ROUNDING = 2.0**-48
+"""Singular values, in parts of the largest, that are rounding errors of the derivatives."""
+
 NULL = 1e-7
 """Singular values, in parts of the largest, and parts of a combination below which there is nothing but rounding."""
 
@@ -36,8 +39,9 @@ class Seen:
         self.units = np.array([units[name] for name in problem.names])
         scaled = weighted * self.units
         _, size, turn = np.linalg.svd(scaled, full_matrices=False)
-        size = np.maximum(size, np.finfo(float).eps * size.max(initial=1.0))
-        self.lost = scale / size > UNSEEN
+        rounding = ROUNDING * size.max(initial=1.0)
+        size = np.maximum(size, rounding)
+        self.lost = (scale / size > UNSEEN) | (size <= rounding)  # however exact the data are
         inverse = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
         null = self.lost & (size < NULL * size.max(initial=1.0))
         weak = self.lost & ~null
