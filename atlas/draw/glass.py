@@ -29,6 +29,8 @@ from atlas.scene.sample import normals
 Field = Callable[[FloatArray], FloatArray]
 
 _ON = 1e-9
+_ALL = np.ones(3)
+"""With it the corners of triangles are added up; a sum along so short an axis takes twenty times as long."""
 
 
 def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
@@ -61,10 +63,8 @@ def places(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: 
     total = np.zeros(len(corners))
     for number, form in enumerate(forms):
         sign = 1.0 if towards @ form[:3, :3] @ towards >= 0.0 else -1.0
-        before = sign * facing(form, corners[..., :3], towards).sum(axis=1) > 0.0
-        inside = (
-            np.zeros(len(corners)) if number == own else sign * _snapped(values(form, corners[..., :3])).sum(axis=1)
-        )
+        before = sign * (facing(form, corners[..., :3], towards) @ _ALL) > 0.0
+        inside = np.zeros(len(corners)) if number == own else sign * (_snapped(values(form, corners[..., :3])) @ _ALL)
         total += np.where(inside == 0.0, before + 0.5, np.where(inside < 0.0, 1.0, 2.0 * before))
     return total
 
@@ -78,10 +78,10 @@ def _cut(corners: FloatArray, field: Field) -> FloatArray:
     """Return triangles (T, 3, K) cut where a field of their points, at most of second order, is zero."""
     height = _snapped(field(corners[..., :3]))
     above, below = height > 0.0, height < 0.0
-    split = above.any(axis=1) & below.any(axis=1)
+    split = (above[:, 0] | above[:, 1] | above[:, 2]) & (below[:, 0] | below[:, 1] | below[:, 2])
     if not split.any():
         return corners
-    alone = np.where((above.sum(axis=1) == 1)[:, None], above, below)[split]
+    alone = np.where((above[split].sum(axis=1) == 1)[:, None], above[split], below[split])
     turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
     row = np.arange(len(turn))[:, None]
     a, b, c = (corners[split][row, turn][:, k] for k in range(3))
@@ -213,7 +213,7 @@ def _painted(
     Each side of a surface has its colour, denser where the line of sight grazes it.
     """
     on = corners[..., :3]
-    outer = facing(surface.quadric, on, view.towards).sum(axis=1) > 0.0
+    outer = facing(surface.quadric, on, view.towards) @ _ALL > 0.0
     turned = normals(surface.quadric, on) * np.where(outer, 1.0, -1.0)[:, None, None]
     if wire:  # not lit: it keeps its colour
         turned = np.broadcast_to(UNLIT @ view.frame, on.shape)

@@ -3,6 +3,7 @@
 import math
 import re
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 import mpmath
@@ -24,6 +25,12 @@ EPS = 2.0**-52
 BODY, FIELD, OMEGA = ("0.8", "1", "1.3"), ("0.2", "1", "0.6"), ("0.3", "0.7", "0.2")
 QUICK = ("1", "0.7", "0.6"), ("1.2", "-0.8", "0.9"), ("0.5", "0.3", "0.2")
 """A motion whose periods are short beside its rates."""
+
+
+@cache
+def quick() -> Any:
+    """Return this motion, whose periods are found once."""
+    return Balls(*QUICK)
 
 
 def fractions(values: Any) -> list[Fraction]:
@@ -89,17 +96,20 @@ def test_numbers_near_zero_have_their_digits(omega: tuple[str, ...]) -> None:
         )
 
 
+def seen(motion: Any, t: Any) -> list[Any]:
+    """Return R, Omega and K of a motion."""
+    return [motion.rotation(t), motion.angular_velocity(t), motion.field_in_body(t)]
+
+
 def test_the_series_about_zero_is_the_flow(monkeypatch: pytest.MonkeyPatch) -> None:
     """At the end of its reach it gives what the steps of Taylor's series give, to 200 digits as to twenty."""
     t = fmpq(1, 1 << 18)
     for bits in (100, 800):
         with ctx.workprec(bits):
-            near = [f(t) for f in (Balls(*QUICK).rotation, Balls(*QUICK).angular_velocity, Balls(*QUICK).field_in_body)]
+            near = seen(Balls(*QUICK), t)
             with monkeypatch.context() as patch:
                 patch.setattr(asymmetric, "NEAR", fmpq(0))
-                far = [
-                    f(t) for f in (Balls(*QUICK).rotation, Balls(*QUICK).angular_velocity, Balls(*QUICK).field_in_body)
-                ]
+                far = seen(Balls(*QUICK), t)
             assert all(overlap(x, y) and narrow((x, y), 2.0 ** (8 - bits)) for x, y in zip(near, far, strict=True))
 
 
@@ -111,7 +121,7 @@ def test_too_many_digits_are_refused_at_once() -> None:
 
 def test_thirty_digits_are_proven_at_a_trillion() -> None:
     """At t = 1e12 R R^T = 1, R K = B', and H, F and (M, K) are those of the start, to thirty digits."""
-    motion = Balls(*QUICK)
+    motion = quick()
     with ctx.workprec(110):
         R, K, Omega = motion.rotation(10**12), motion.field_in_body(10**12), motion.angular_velocity(10**12)
         assert narrow(R, 2.0**-104)  # a few units of the last place
@@ -134,7 +144,7 @@ def test_thirty_digits_are_proven_at_a_trillion() -> None:
 
 def test_a_motion_goes_on_from_where_it_is() -> None:
     """R(t + s) = R(t) R(s) of the motion that starts with the state at t, rounded to 80 bits, t = 1e9."""
-    motion, t, s = Balls(*QUICK), 10**9, fmpq(7, 2)
+    motion, t, s = quick(), 10**9, fmpq(7, 2)
     with ctx.workprec(90):
         K, Omega = motion.field_in_body(t), motion.angular_velocity(t)
         state = [[fmpq(int((x * 2**80).mid().floor().unique_fmpz()), 2**80) for x in v] for v in (K, Omega)]
@@ -152,7 +162,7 @@ def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
     with ctx.workprec(80):
         b = arb(fmpq(*sum(x * x for x in field).as_integer_ratio())).sqrt()
         B = [fmpq(*x.as_integer_ratio()) for x in field]
-        expected = turn(B, -2 * b * t).dot(np.array(Balls(*QUICK).rotation(-t), object))
+        expected = turn(B, -2 * b * t).dot(np.array(quick().rotation(-t), object))
         assert overlap(other.rotation(t), expected)
         assert narrow(expected, 1e-16)
 
@@ -165,7 +175,7 @@ def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
     inertia, field, omega = (np.array(fractions(x), object)[list(order)] for x in QUICK)
     with ctx.workprec(80):
         found = Balls(list(inertia), list(sign * field), list(sign * omega)).rotation(30)
-        expected = P.dot(np.array(Balls(*QUICK).rotation(30), object)).dot(P.T)
+        expected = P.dot(np.array(quick().rotation(30), object)).dot(P.T)
         assert overlap(found, expected)
         assert narrow(found, 1e-16)
 
@@ -281,7 +291,7 @@ def test_in_a_period_the_body_turns_by_half_a_turn_at_most(case: tuple[Any, ...]
 
 def test_the_unit_of_time_changes_nothing() -> None:
     """All frequencies times 2^k and the time over it: the same matrix, to the bit."""
-    motion = Balls(*QUICK)
+    motion = quick()
     scaled = Balls(QUICK[0], *([x * 2**300 for x in fractions(v)] for v in QUICK[1:]))
     with ctx.workprec(80):
         first, other = motion.rotation(6), scaled.rotation(fmpq(6, 2**300))

@@ -362,7 +362,7 @@ def test_negative_numbers_are_numbers() -> None:
     "words",
     [
         "motion --ratio 1.5 --field -1 -2e0 --omega2 -7e-1 --times -1e-5 -2 3 --digits 30 --decimal",
-        "motion --inertia 0.8 1 1.3 --field -0.2 1 0 --omega 0.3 -0.7 0.2",
+        "motion --ratio 1.5 --field -0.2 1 --omega 0.3 -0.7 0.2 --times 1",
     ],
 )
 def test_the_minus_of_a_page_is_one(words: str) -> None:

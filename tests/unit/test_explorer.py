@@ -96,16 +96,18 @@ def run(program: str, given: Any) -> Any:
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_courses_of_the_script_are_general_motions() -> None:
     """Over a minute R within 1/500 of its size, and Omega3 and its rate are on the line of the portrait."""
-    random = np.random.default_rng(7)
+    random, times, given = np.random.default_rng(7), np.linspace(0.0, 60.0, 61), []
     for _ in range(12):
         I, angle = random.uniform(0.1, 2.0), random.uniform(0.1, 1.5)
         field = np.sqrt(5.0) * np.array([np.cos(angle), np.sin(angle)])
-        omega, times = random.uniform(-3.0, 3.0, 3), np.linspace(0.0, 60.0, 61)
-        program = """const [I, B2, B3, omega, times] = given, {course, portrait, rate} = globalThis.atlasMotion;
-        const state = course(I, B2, B3, omega), {b, c3, own, squared} = portrait(I, B2, B3, omega);
-        const row = y => [y, rate(I, B2, B3, y)[2], squared((c3 - y[2]) / b, own)];
-        console.log(JSON.stringify(times.map(t => row(state(t)))));"""
-        made = run(program, [I, *field, omega.tolist(), times.tolist()])
+        given.append((I, *field.tolist(), random.uniform(-3.0, 3.0, 3).tolist()))
+    program = """const [motions, times] = given, {course, portrait, rate} = globalThis.atlasMotion;
+    console.log(JSON.stringify(motions.map(([I, B2, B3, omega]) => {
+      const state = course(I, B2, B3, omega), {b, c3, own, squared} = portrait(I, B2, B3, omega);
+      const row = y => [y, rate(I, B2, B3, y)[2], squared((c3 - y[2]) / b, own)];
+      return times.map(t => row(state(t)));
+    })));"""
+    for (I, *field, omega), made in zip(given, run(program, [given, times.tolist()]), strict=True):
         motion = GeneralMotion(I, tuple(field), omega)
         states = np.array([row[0] for row in made])
         assert np.abs(states[:, 3:].reshape(-1, 3, 3) - motion.rotation(times)).max() < 1 / 500

@@ -2,6 +2,7 @@
 
 import inspect
 from collections.abc import Mapping
+from functools import cache
 from itertools import chain
 from typing import Any
 
@@ -28,6 +29,13 @@ def values(one: Family, *, at: int | None = None) -> list[Any]:
         default = p.default if at is None or not p.needed else (p.range[at],) * len(p.names)
         found.append((default if p.columns else default[0]) if default else None)
     return found
+
+
+@cache
+def both(name: str) -> tuple[Any, Any]:
+    """Return what the kernels and what the balls of a family make of its defaults."""
+    one = FAMILIES[name]
+    return one.kernels()(*values(one)), one.balls()(*values(one))
 
 
 def flat(value: Any) -> list[Any]:
@@ -85,7 +93,7 @@ def test_both_classes_take_the_parameters(one: Family) -> None:
 @EVERY
 def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
     """At the defaults each number is within its promise of the ball, or within two ulp; names are the same."""
-    found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
+    found, exact = both(one.name)
     for q in one.quantities:
         if not (q.certified or q.printed or q.checked):
             continue  # of kernels alone
@@ -105,7 +113,7 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
 @EVERY
 def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None:
     """Matrices within their promise in ulps of 1, vectors in ulps of their length; or within sixteen."""
-    found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
+    found, exact = both(one.name)
     for s in (s for s in one.sampled if not s.uncertified):
         for t, value in zip(TIMES.tolist(), s.method_of(found)(TIMES), strict=True):
             with ctx.workprec(192):

@@ -178,7 +178,7 @@ def test_a_wider_family_is_named() -> None:
     assert not atlas.fit(t, "asymmetric", rotation=R, sigma=1e-3).undetermined
 
 
-@pytest.mark.parametrize("seed", [2, 6])
+@pytest.mark.parametrize("seed", [2, pytest.param(6, marks=pytest.mark.slow)])
 def test_the_small_nutation_of_a_fast_spin_is_found_in_axes(seed: int) -> None:
     """A spin of 30 that nutates by a hundredth: chi square is that of noise, what is told of the body is right."""
     rng = np.random.default_rng(seed)
