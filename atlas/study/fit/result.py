@@ -24,8 +24,9 @@ SURPRISE = 5.0
 FOLLOWED = 0.2
 """Part of the spread of the data within which a motion follows them."""
 
-HEAVY = 3.0
-"""Root mean square of residuals beside their median from which some are outliers; of normal ones it is 1.5 at most."""
+HEAVY, MANY = 3.0, 20
+"""Root mean square of residuals beside their median, and number of times, from which some are outliers: that of many
+normal ones is 1.5, of fewer than so many now and then 3."""
 
 FARTHEST = 1e9
 """Spans of the data after which no horizon is looked for."""
@@ -341,7 +342,8 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
         )
         out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {reason}.")
     lengths = np.linalg.norm(r, axis=1)
-    if problem.loss == "linear" and np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths):
+    uneven = np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
+    if problem.loss == "linear" and uneven and len(lengths) >= MANY:
         out.append("Some residuals are far larger than most: if they are outliers, loss='soft_l1' (--loss) bears them.")
     correlation = lag(problem.data.t, r)
     if abs(correlation) > SURPRISE / np.sqrt(r.size):
