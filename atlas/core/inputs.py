@@ -187,6 +187,12 @@ def turn_time(rate: Any) -> Any:
         return plain(np.divide(2 * np.pi, np.abs(rate)))
 
 
+def scaled(v: FloatArray) -> tuple[FloatArray, Any]:
+    """Return v (n, ...) over powers of two, so that sums of squares along the first axis are floats, and the powers."""
+    exponent = np.frexp(np.abs(v).max(axis=0))[1]
+    return np.ldexp(v, -exponent), exponent
+
+
 def largest(vectors: FloatArray) -> FloatArray:
     """Return the size of the largest component of each vector (m, 3), by columns, which NumPy does faster."""
     x, y, z = np.abs(vectors).T

@@ -103,3 +103,24 @@ def test_what_has_no_drift_is_refused() -> None:
         atlas.drift(motion, [1.0, 0.0])
     with pytest.raises(atlas.AtlasError, match="not of an array"):
         atlas.GeneralMotion([1.5, 1.2], (1.0, 2.0), (0.3, 0.7, 0.2)).actions  # noqa: B018
+
+
+@pytest.mark.parametrize("exponent", [-565, 510])
+def test_actions_and_lines_in_any_unit_of_time(exponent: int) -> None:
+    """Where squares of the rates are no floats actions and lines are those of another unit, times its power of two."""
+    rates = (0.3, 0.7, 0.2), (0.2, 1.0, 0.6)
+
+    def motions(e: int) -> list[Any]:
+        omega, field = (tuple(np.ldexp(x, e).tolist()) for x in rates)
+        return [
+            atlas.GeneralMotion(1.5, field[1:], omega),
+            atlas.AsymmetricMotion((0.8, 1.0, 1.3), field, omega),
+            atlas.TopMotion((1.0, 0.5), (0.0, 0.0), np.ldexp((0.6, 0.8), e), rates[0], linear=3.0),
+        ]
+
+    for one, other, power in zip(motions(0), motions(exponent), (exponent, exponent, 0), strict=True):
+        assert other.actions.values == pytest.approx(np.ldexp(one.actions.values, power), rel=1e-13)
+        assert other.actions.rates == pytest.approx(np.ldexp(one.actions.rates, power), rel=1e-13)
+        lines, same = one.spectrum("axis", 1e-3), other.spectrum("axis", 1e-3)
+        assert same.frequencies == pytest.approx(np.ldexp(lines.frequencies, power), rel=1e-13)
+        assert same.power == pytest.approx(lines.power, rel=1e-9)

@@ -283,6 +283,13 @@ def test_arrays_are_the_motions_one_by_one(regime: str) -> None:
                 assert np.isnan(getattr(motions, name)[i])
 
 
+def test_of_no_motions_there_are_no_constants() -> None:
+    """An empty array of motions has empty arrays of constants, with times and without."""
+    none = atlas.EllipticMotion((np.empty(0), 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
+    for constants in (none.invariants(), none.invariants(1.0)):
+        assert [x.shape for x in constants.values()] == [(0,)] * 5
+
+
 def test_parameters_broadcast_and_a_grid_is_its_times() -> None:
     """Parameters broadcast with one another and with the times; a grid is within 32 ulp of the same times."""
     motions = atlas.EllipticMotion((0.8, 1.0, np.array([1.1, 1.2, 1.3])), FIELD, [[1.7], [-0.5]], -1)

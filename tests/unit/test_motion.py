@@ -250,3 +250,36 @@ def test_mean_rates_are_what_the_axis_and_the_body_turn_by(field: tuple[float, f
     assert abs(same.spin_rate - one.spin_rate) <= 16 * EPS * max(abs(one.k), abs(one.phi))
     ball = atlas.BallMotion(1.0, 0.5, (0.3, -0.7))
     assert (ball.precession_rate, ball.spin_rate) == (-0.5, -ball.gamma)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.5])
+def test_the_least_floats_are_a_field_that_the_body_does_not_feel(ratio: float) -> None:
+    """In a field of whole multiples of the smallest float the body turns as a free one, by rotations."""
+    omega, t = (0.25, -1.0, 0.75), np.array([0.0, 0.25, -1.5])
+    free = atlas.motion(ratio, (0, 0, 0), omega).rotation(t)
+    assert np.abs(atlas.motion(ratio, np.ldexp([1.0, 1.0, 2.0], -1074), omega).rotation(t) - free).max() <= 16 * EPS
+
+
+@pytest.mark.parametrize("exponent", [-565, 565])
+@pytest.mark.parametrize("ratio", [1.0, 1.5])
+def test_a_field_along_any_axis_turns_the_body_in_any_unit_of_time(ratio: float, exponent: int) -> None:
+    """Where squares of the rates are no floats each matrix is that of the same motion in another unit of time."""
+    field, omega, t = np.array([1.0, 2.0, 0.5]), np.array([0.25, -1.0, 0.75]), np.array([0.0, 0.25, -1.5])
+    m = atlas.motion(ratio, np.ldexp(field, exponent), np.ldexp(omega, exponent))
+    R = atlas.motion(ratio, field, omega).rotation(t)
+    assert np.abs(m.rotation(np.ldexp(t, -exponent)) - R).max() <= 16 * EPS
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        ((1, [1, 2], np.array([1.0])), (1, 0, 1), (1, 0.2, 1)),
+        ([1, [1, 2]], (1, 0, 1), (1, 0.2, 1)),
+        (1.5, (1, [1, 2], [1, 2, 3]), (1, 0.2, 1)),
+        ((0.8, [1, 1], [1.3, 1.3, 1.3]), (1, 0, 1), (1, 0.2, 1)),
+    ],
+)
+def test_what_has_no_one_shape_is_refused_in_one_line(given: Any) -> None:
+    """Ragged lists and components that do not broadcast are AtlasErrors."""
+    with pytest.raises(atlas.AtlasError, match=r"^The [^\n]*$"):
+        atlas.motion(*given)

@@ -145,6 +145,15 @@ def test_a_phase_beyond_reach_is_an_error() -> None:
         ParticleMotion(1, ORIGIN, [0, 0, 1], ORIGIN, [1, 0, 0]).position(2.0**51)
 
 
+def test_a_turn_that_takes_longer_than_any_float_is_refused() -> None:
+    """A frequency below all floats has no period that is one; those of an array are refused with it."""
+    slow = ParticleMotion(5e-324, np.zeros(3), (0.0, 0.5, 0.0), np.zeros(3), (1.0, 0.0, 0.0))
+    fast = ParticleMotion([1.0, 5e-324], np.zeros(3), (0.0, 0.5, 0.0), np.zeros(3), (1.0, 0.0, 0.0))
+    for motion in (slow, fast):
+        with pytest.raises(DomainError, match="The period is too large for a float"):
+            _ = motion.period
+
+
 def test_times_of_any_shape() -> None:
     """A time gives a vector, an array of times an array of them, none of them none."""
     p = ParticleMotion(1, [1, 0, 0], [0, 0, 1], ORIGIN, ORIGIN)

@@ -125,6 +125,19 @@ def test_any_top_in_any_unit_is_within_16_ulp(
     assert np.abs(found - middle(true)).max() <= 16 * EPS
 
 
+@pytest.mark.parametrize("exponent", [-900, -565, 565])
+def test_a_quartic_of_rates_whose_squares_are_no_floats_keeps_its_digits(exponent: int) -> None:
+    """A top without a potential, whose coupling is not that of its mass, moves the same in any unit of time."""
+    t = np.array([0.0, 1.0, 20.0])
+
+    def rotation(e: int) -> Any:
+        rates = (np.ldexp(x, e) for x in (np.array([0.1, 0.3]), np.array([0.1, 0.2, 5.0])))
+        coupling, omega = (tuple(x.tolist()) for x in rates)
+        return atlas.TopMotion((1.0, 0.5), coupling, (0.6, 0.8), omega).rotation(np.ldexp(t, -e))
+
+    assert np.abs(rotation(exponent) - rotation(0)).max() <= 16 * EPS
+
+
 def test_a_top_with_one_charge_to_mass_ratio_is_the_general_motion() -> None:
     """K2/I2 = k3/I3 = |B'| without a potential: the same matrices and the same numbers of a period."""
     top = atlas.TopMotion((1.0, 1.5), (5.0, 7.5), (3.0, 4.0), (0.3, 0.7, 0.2))

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from atlas.core.inputs import FloatArray
+from atlas.core.inputs import FloatArray, scaled
 from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.motions.sensitivity import One
 from atlas.core.motions.spectrum import coefficients, wheels_of
@@ -65,12 +65,8 @@ def actions(motion: Any) -> Actions:
     rates = []
     if len(wheels.phases):
         (M,) = wheels.phases
-        rest = (
-            _mean(lambda x: (momentum(x[0] / M) * motion.angular_velocity(x[0] / M)).sum(-1))
-            - wheels.p * turns[0]
-            - wheels.s * turns[1]
-        )
-        rates = [rest / M]
+        work = _mean(lambda x: (momentum(x[0] / M) * (motion.angular_velocity(x[0] / M) / M)).sum(-1))
+        rates = [work - wheels.p / M * turns[0] - wheels.s / M * turns[1]]
     values, there = np.array([*rates, *turns]), wheels.rates != 0
     names = tuple(name for name, moves in zip(wheels.names, there, strict=True) if moves)
     return Actions(names, values[there], wheels.rates[there], energy)
@@ -94,9 +90,9 @@ def _of_torus(single: Any, J: FloatArray) -> list[float]:
             phases = np.zeros((2, x.shape[1]))
             phases[i] = x[0]
             _, Omega, K = kernel.on_torus(phases)
-            W = (Omega + K) / kernel.rate
-            M, n = J / unit * W, K / np.linalg.norm(K, axis=1, keepdims=True)
-            return np.asarray(T[0] * (M * W).sum(1) + T[1] * (M * M).sum(1) - T[2] * (M * n).sum(1))
+            W, along = (Omega + K) / kernel.rate, scaled(K.T)[0]
+            M, n = J / unit * W, along / np.linalg.norm(along, axis=0)
+            return np.asarray(T[0] * (M * W).sum(1) + T[1] * (M * M).sum(1) - T[2] * (M * n.T).sum(1))
 
         actions_of_cycles.append(_mean(work) * unit * kernel.rate / (2 * np.pi))
     return actions_of_cycles

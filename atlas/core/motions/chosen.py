@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas.core.bodies.body import SymmetricBody, moments
 from atlas.core.bodies.inertia import ROUNDING, inertia_tensor
-from atlas.core.inputs import FloatArray, common_shape, components, plain, real, vectors
+from atlas.core.inputs import FloatArray, common_shape, components, plain, real, scaled, vectors
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.core.motions.ball import BallMotion
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
@@ -87,8 +87,9 @@ def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) 
         if elementary := _elementary(symmetric, field, omega, rounded):
             return elementary, turn
         if I2 == I3:
-            b = float(np.linalg.norm(K))
-            turn = _upright(K / b, w)
+            along, exponent = scaled(K)
+            size = np.linalg.norm(along)
+            b, turn = float(np.ldexp(size, exponent)), _upright(along / size, scaled(w)[0])
             _, m2, m3 = _parts(I3 * (turn @ w))
             return BallMotion(I3, b, (m2, m3)), turn
     return GeneralMotion(symmetric, field, omega), turn
@@ -107,14 +108,15 @@ def _upright(third: FloatArray, second: FloatArray) -> FloatArray:
 def _in_plane(axes: FloatArray, K: FloatArray, w: FloatArray) -> tuple[FloatArray, Any, Any]:
     """Return axes with the same third one and the field in the plane of e2 and e3, (B2, B3) and omega along them."""
     K1, K2, K3 = _parts(np.matvec(axes, K))
-    size = np.hypot(K1, K2)
+    (x, y), exponent = scaled(np.array([K1, K2]))
+    size = np.hypot(x, y)
     turns = K1 != 0
     with np.errstate(invalid="ignore"):
-        c, s = np.where(turns, K2 / size, 1.0), np.where(turns, K1 / size, 0.0)
+        c, s = np.where(turns, y / size, 1.0), np.where(turns, x / size, 0.0)
     zero, one = np.zeros_like(c), np.ones_like(c)
     turn = np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]])
     turn = np.moveaxis(turn, (0, 1), (-2, -1)) @ axes
-    return turn, (plain(np.where(turns, size, K2)), K3), _parts(np.matvec(turn, w))
+    return turn, (plain(np.where(turns, np.ldexp(size, exponent), K2)), K3), _parts(np.matvec(turn, w))
 
 
 def _elementary(body: Any, field: Any, omega: Any, rounded: float) -> ElementaryMotion | None:
@@ -138,7 +140,8 @@ def body_of(inertia: Any) -> Body:
         return _of_moments((I2, I2, I3), inertia.axes)
     if isinstance(inertia, tuple) and len(inertia) == 3 and not any(isinstance(x, tuple | list) for x in inertia):
         return _of_moments(components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
-    inertia_matrix = real(inertia, "The inertia", "" if np.ndim(inertia) == 0 else INERTIA)
+    is_ratio = not getattr(inertia, "ndim", isinstance(inertia, tuple | list))
+    inertia_matrix = real(inertia, "The inertia", "" if is_ratio else INERTIA)
     if inertia_matrix.shape == (3,):
         return _of_moments(inertia_matrix, np.eye(3))
     if inertia_matrix.shape[-2:] != (3, 3):
@@ -162,7 +165,7 @@ def body_of(inertia: Any) -> Body:
 
 def _of_moments(moments: Any, axes: FloatArray) -> Body:
     """Return the body of principal moments along axes. Raises DomainError for what no body has."""
-    rows = np.stack(np.broadcast_arrays(*(real(x, "A moment of inertia") for x in moments)), -1)
+    rows = _rows([real(x, "A moment of inertia") for x in moments])
     for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
         inertia_tensor(row)
     tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
@@ -190,9 +193,14 @@ def _parts(v: FloatArray) -> tuple[Any, Any, Any]:
 def _vectors(value: Any, name: str) -> FloatArray:
     """Return vectors (..., 3): of three components, each a number or an array, or of an array with these last."""
     if isinstance(value, tuple):
-        parts = components(value, ("1", "2", "3"), name, RATE)
-        return np.stack(np.broadcast_arrays(*parts), -1)
+        return _rows(components(value, ("1", "2", "3"), name, RATE))
     return vectors(value, name, RATE)
+
+
+def _rows(parts: list[FloatArray]) -> FloatArray:
+    """Return components, which broadcast, as the last axis of an array."""
+    shape = common_shape(*(x.shape for x in parts))
+    return np.stack([np.broadcast_to(x, shape) for x in parts], -1)
 
 
 def attitude_of(attitude: Any) -> FloatArray:

@@ -49,7 +49,7 @@ def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
 
 def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
     """Return the integrals of states, each rounded once, of nine entries of J, which broadcast with Omega and K."""
-    unit = -int(np.frexp(max(np.abs(x).max() for x in J))[1])
+    unit = -int(np.frexp(max(np.abs(x).max(initial=0.0) for x in J))[1])
     inputs = (*(np.ldexp(x, unit) for x in J), *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
     integrals = over(formulas.clebsch, *inputs, unit=slice(9, None), degree=(2,) * 5)
     powers = (-1 - unit, -2 * unit, -unit, 0, -1 - unit)

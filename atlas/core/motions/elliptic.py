@@ -127,7 +127,8 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
             constants = self._each(
                 "invariants", lambda exact: list(map(nearest, enclosed(lambda: exact.invariants, BITS)))
             )
-            return dict(zip(CONSTANTS, map(plain, np.moveaxis(finite(np.array(constants), "H"), -1, 0)), strict=True))
+            columns = np.moveaxis(finite(np.reshape(constants, (*self.shape, len(CONSTANTS))), "H"), -1, 0)
+            return dict(zip(CONSTANTS, map(plain, columns), strict=True))
         J = [self.inertia[i // 4] if i % 4 == 0 else 0.0 for i in range(9)]
         return dict(
             zip(CONSTANTS, vars(conserved(J, self.angular_velocity(t), self.field_in_body(t))).values(), strict=True)

@@ -7,7 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from atlas.core.bodies.field import Field
-from atlas.core.inputs import FloatArray, common_shape, frozen, plain, real, vectors
+from atlas.core.inputs import FloatArray, common_shape, finite, frozen, plain, real, turn_time, vectors
 from atlas.core.motions.particle_rows import BLOCK, Charge
 from atlas.core.quantities import NO_FIELDS, SI_FIELDS, TIME
 from atlas.core.shown import Shown
@@ -96,7 +96,7 @@ class ParticleMotion(Shown):
     def period(self) -> Any:
         """Time 2 pi/|omega| of one turn. Raises DomainError where no magnetic force turns it."""
         self._all.needs_field("period")
-        return 2 * np.pi / abs(self.cyclotron_frequency)
+        return finite(turn_time(self.cyclotron_frequency), "The period")
 
     @property
     def prime(self) -> FloatArray:

@@ -16,7 +16,7 @@ import numpy as np
 from flint import arb
 from numpy.typing import NDArray
 
-from atlas.core.inputs import FloatArray, number, real
+from atlas.core.inputs import FloatArray, number, real, scaled
 from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.core.quantities import TIME, bare
@@ -225,7 +225,8 @@ def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheel
     n, third = (np.array([float(arb(x).mid()) for x in v]) for v in (exact.field, exact.omega))
     if not n.any():  # a free body precesses about its momentum
         n = third * (1.0, 1.0, float(arb(getattr(exact, "I", 1)).mid()))
-    n = L @ n / (np.linalg.norm(n) or 1.0)
+    n = L @ scaled(n)[0]
+    n /= np.linalg.norm(n) or 1.0
     a = np.eye(3)[getattr(exact, "places", (0, 1, 2))[2]] @ C
     if exact.is_steady:
         return Wheels(n, p, a, s, np.empty(0), lambda of, _: _values(motion, of)(0.0)[None])

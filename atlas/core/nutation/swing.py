@@ -23,7 +23,7 @@ NEGLIGIBLE, ACCURATE = 2.0**-60, 2.0**-60
 """Part of the first term below which a term is left out, and of itself to which a term is known before rounding."""
 
 MERGED = 2.0**-500
-"""Size of sqrt(|A|), of a frequency, below which the function `at` is its argument."""
+"""Part of kappa, a frequency like sqrt(|A|), below which that is so small that the function `at` is its argument."""
 
 FAR = 18.0
 """From there on exp(2 x) + 1 is exp(2 x)."""
@@ -51,7 +51,7 @@ class Swing:
         largest, steepest = exact.largest, exact.steepest
         self.type = np.longdouble if not (largest < LARGE and steepest < STEEP) else np.float64
         self.form, self.reach = lattice.form, lattice.reach
-        merged = not size > MERGED
+        merged = not size > MERGED * abs(exact.kappa)
         self.sign = 0 if merged else 1 if exact.A > 0 else -1
         self.factor = self._number(exact.kappa if merged else exact.kappa / size)
         if not infinite(lattice.half):
