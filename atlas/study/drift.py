@@ -103,6 +103,8 @@ def drift(
         raise AtlasError("The times of a drift are a row of them, ascending from zero on.")
     d2, d3 = np.broadcast_to(real(drag, "The drag"), (2,)).tolist()
     rates = [number(x, name) for x, name in ((field, "field"), (linear, "linear"), (quadratic, "quadratic"))]
+    if 1 + rates[0] * times[-1] <= 0:
+        raise DomainError(f"The field is gone at t = {-1 / rates[0]:g}: 1 + field t must stay positive.")
 
     def body_at(time: float) -> Body:
         grown = 1 + rates[0] * time

@@ -93,7 +93,7 @@ def test_drag_in_proportion_to_the_moments_leaves_the_motion_and_slows_it() -> N
 
 
 def test_what_has_no_drift_is_refused() -> None:
-    """Three moments, arrays, and times that go back."""
+    """Three moments, arrays, times that go back, and fields that are gone before the last of them."""
     motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
     with pytest.raises(atlas.AtlasError, match="not of AsymmetricMotion"):
         atlas.drift(atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)), 1.0)
@@ -101,6 +101,9 @@ def test_what_has_no_drift_is_refused() -> None:
         atlas.drift(atlas.GeneralMotion(1.5, (0.0, 2.0), (0.0, 0.0, 0.2)), 1.0)
     with pytest.raises(atlas.AtlasError, match="ascending"):
         atlas.drift(motion, [1.0, 0.0])
+    for last in (10.0, 20.0):
+        with pytest.raises(atlas.DomainError, match="gone at t = 10"):
+            atlas.drift(motion, [0.0, last], field=-0.1)
     with pytest.raises(atlas.AtlasError, match="not of an array"):
         atlas.GeneralMotion([1.5, 1.2], (1.0, 2.0), (0.3, 0.7, 0.2)).actions  # noqa: B018
 

@@ -124,6 +124,13 @@ def test_periods_that_balls_do_not_tell_are_refused() -> None:
         on_loop(1e-160, (0.0, 0.0), 5e-161, loop, 1e-160)
 
 
+@pytest.mark.parametrize("given", [((1.0, 0.5), [0.5]), ((1.0, 0.5), "a"), ((1.0, [0.5]), 0.5)])
+def test_what_are_no_numbers_of_one_top_is_refused_in_one_line(given: Any) -> None:
+    """Text and lists in the place of a number are AtlasErrors."""
+    with pytest.raises(atlas.AtlasError, match=r"^A parameter of the top must be [^\n]*$"):
+        atlas.monodromy(*given, linear=1.0)
+
+
 def test_a_stable_spin_has_no_loop() -> None:
     """With D > 0 the value of the spin lies on the border of all motions."""
     with pytest.raises(atlas.DomainError, match="D is not negative"):

@@ -313,3 +313,20 @@ def test_rates_among_all_motions_of_a_body_are_those_of_its_class() -> None:
     elementary = atlas.motion(1.5, (0, 1, 2), (0, 0.7, atlas.ElementaryMotion(1.5, (1, 2), 0.7).omega3))
     rate, period = (elementary.sensitivity(0.0, names, of) for of in ("precession_rate", "period"))
     np.testing.assert_allclose(period, -rate * elementary.period / elementary.precession_rate, rtol=1e-12, atol=1e-20)
+
+
+@pytest.mark.parametrize("of", ["rotation", "angular_velocity", "field"])
+@pytest.mark.parametrize("exponent", [-530, 530])
+def test_derivatives_that_floats_do_not_hold_are_refused(exponent: int, of: str) -> None:
+    """Where products of rates are no floats there are no derivatives, nor is an infinite one given for a scalar."""
+    K, w = (tuple(np.ldexp(x, exponent).tolist()) for x in ((0.2, 0.6, 0.8), (0.3, 0.7, 0.2)))
+    for motion, name in (
+        (atlas.EllipticMotion((0.8, 1.0, 1.3), K, 1.7), "I2"),
+        (atlas.GeneralMotion(1.5, K[1:], w), "ratio"),
+        (atlas.FreeMotion(1.5, w), "ratio"),
+    ):
+        with pytest.raises(atlas.DomainError, match="too large or too small for derivatives"):
+            motion.sensitivity(0.0, [name], of=of)
+    slow = atlas.GeneralMotion(1.5, np.ldexp([1.0, 2.0], -565), np.ldexp([0.3, 0.7, 0.2], -565))
+    with pytest.raises(atlas.DomainError, match="derivative of the period is too large"):
+        slow.sensitivity(0.0, ["B2"], of="period")

@@ -20,7 +20,7 @@ from flint import arb
 
 from atlas.core.arithmetic.words import exact
 from atlas.core.bodies.symmetric_top import inputs_of_top
-from atlas.core.inputs import FloatArray, whole
+from atlas.core.inputs import FloatArray, number, whole
 from atlas.core.maps.bifurcation import Bifurcation
 from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError, NotCertifiedError
@@ -83,17 +83,15 @@ def monodromy(
     Raises AtlasError for what are no numbers; DomainError for no body, a spin that is stable or no isolated value,
     rates out of the range of floats, and too few points; NotCertifiedError where the balls tell nothing.
     """
-    inputs_of_top(inertia, coupling, (0.0, 1.0), linear, quadratic)
-    unit = float(inertia[0])
-    I, twist = inertia[1] / unit, (coupling[0] / unit, coupling[1] / unit)
-    along, weight, lean = M3 / unit, linear / unit, quadratic / unit
-    middle = along if p is None else p / unit
-    wells = Wells.at(along, I, twist, weight, lean)
+    top = inputs_of_top(inertia, coupling, (0.0, 1.0), linear, quadratic)
+    unit, *rest = (number(x, "A parameter of the top") for x in (*top[:4], *top[6:], M3, M3 if p is None else p))
+    I, *twist, weight, lean, along, middle = (x / unit for x in rest)
+    wells = Wells.at(along, I, (twist[0], twist[1]), weight, lean)
     size = 4 * (abs(wells.A) + abs(wells.a)) + along * along
     if size and not LEAST < max(size, abs(middle)) < math.inf:
         raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
     whole(points, "The number of points", 3)
-    loop = on_loop(I, twist, along, around(wells, middle, points), weight, lean)
+    loop = on_loop(I, (twist[0], twist[1]), along, around(wells, middle, points), weight, lean)
     return replace(loop, p=loop.p * unit, g=loop.g * unit)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from flint import fmpq
 
 from atlas.core.arithmetic.words import floats
-from atlas.core.inputs import FloatArray, common_shape, real
+from atlas.core.inputs import FloatArray, common_shape, finite, real
 from atlas.core.motions.sensitivity_inputs import (
     Inputs,
     of_any_start,
@@ -34,6 +34,10 @@ VECTORS = ("rotation", "angular_velocity", "field")
 
 UPRIGHT = 1e-3
 """Angle of a top's axis with n from which its inputs have derivatives in all components of n."""
+
+
+WITHIN = 1e140
+"""Rates between its inverse and this have products, with those by which they change, that floats hold."""
 
 
 class Moved(NamedTuple):
@@ -170,14 +174,20 @@ class One:
         if np.isinf(np.broadcast_to(value, self.motion.shape).flat[self.place]):
             raise DomainError(f"The {of} is infinite and has no derivatives.")
         derivatives = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
-        return np.array([
-            0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.moved[name].weights.items())
-            for name in names
-        ])  # fmt: skip
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = [
+                0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.moved[name].weights.items())
+                for name in names
+            ]
+        return np.asarray(finite(np.array(found), f"A derivative of the {of}"))
 
     def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
         """Return derivatives at times (m,), (m, len(names), 3)."""
         faster, inverse = of == "angular_velocity", self.motion.family == "ball" and "larmor" in self.inputs.names
+        if not 1 / WITHIN < self.inputs.rate < WITHIN:
+            raise DomainError(
+                "The rates of this motion are too large or too small for derivatives: choose other units."
+            )
         moving = [x for x in names if x != "t"]
         varied, weights, turns, spins, known = self._weighted(moving)
         v = slopes = np.broadcast_to(turns, (t.size, *turns.shape))

@@ -50,6 +50,12 @@ class Inputs:
     field: FloatArray
     fields: Mapping[str, FloatArray]
 
+    @property
+    def rate(self) -> float:
+        """Size of the rates."""
+        sizes = zip(self.names, self.scales, strict=True)
+        return next(float(floats([size])[0]) for name, size in sizes if name.startswith(("omega", "K", "larmor")))
+
     def varied(self, names: Sequence[str]) -> Any:
         """Return what gives v and dv/dt for some of the inputs."""
         places = self._places(names)
