@@ -3,9 +3,11 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from time import process_time
 from typing import Any, NamedTuple
 
 from atlas.cli.options import Typed, parts_of
+from atlas.cli.present import bar
 from atlas.errors import DomainError
 
 STEP = 1 / 8
@@ -22,6 +24,9 @@ NONE = 1e-12
 
 DRAWS, NUMBERS, LEAST = 500, 2_000_000, 25
 """Draws of the inputs; numbers in all of them, which fewer draws do not exceed; and draws that a deviation needs."""
+
+SLOW = 0.05
+"""Seconds that an answer takes from which on there are but 4 LEAST draws, whose deviation is right to 7 %."""
 
 BY_SAMPLING = "by sampling, {}, since they are not of first order."
 BY_NEITHER = "no deviation: they are not of first order, and by sampling there are {}."
@@ -82,7 +87,9 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     sizes = _sizes(middle)
     ways: list[Mapping[tuple[str, int, Typed], float]] = [{name: 1.0} for name in inputs]
     together = [dict.fromkeys(inputs, len(inputs) ** -0.5)] if len(inputs) > 1 else []
+    began = process_time()
     terms = [_terms(answer, options, way, middle) for way in [*ways, *together]]
+    seconds = (process_time() - began) / (4 * len(terms))
     lines, parts = (
         [x.line for x in terms[: len(ways)]],
         [x.second for x in terms] + [x.third for x in terms[: len(ways)]],
@@ -96,7 +103,7 @@ def spread(answer: Callable[[dict[str, Any]], dict[str, Any]], options: dict[str
     says = {"by derivatives on one side: on the other they have no value a standard deviation off.": ended}
     error = Numbers()
     if curved:
-        count = min(DRAWS, max(NUMBERS // len(middle), 4 * LEAST))
+        count = 4 * LEAST if seconds > SLOW else min(DRAWS, max(NUMBERS // len(middle), 4 * LEAST))
         draws = _draws(answer, options, inputs, curved, count)
         lost = {key for key, values in draws.items() if len(values) < count - LOST * count}
         for key, values in draws.items():
@@ -182,13 +189,15 @@ def _draws(
 
     normal = random.Random(1).gauss  # noqa: S311
     draws: dict[tuple[Any, ...], list[float]] = {key: [] for key in places}
-    for _ in range(count):
-        try:
-            numbers = _numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs})))
+    with bar("draws") as tell:
+        for i in range(count):
+            tell(i, count, "")
+            try:
+                numbers = _numbers(answer(_moved(options, {name: normal(0.0, 1.0) for name in inputs})))
+            except DomainError:
+                continue
             for key in draws.keys() & numbers.keys():
                 draws[key].append(numbers[key])
-        except DomainError:
-            continue
     return draws
 
 

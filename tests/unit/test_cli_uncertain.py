@@ -27,6 +27,15 @@ def run(words: str) -> tuple[int, str]:
     return found.exit_code, found.output
 
 
+def test_answers_that_take_long_are_drawn_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A hundred draws then, which is said, and a deviation to 7 %."""
+    monkeypatch.setattr(uncertain, "DRAWS", 150)
+    words = "motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2"
+    for slow, draws in ((60.0, 150), (0.0, 100)):
+        monkeypatch.setattr(uncertain, "SLOW", slow)
+        assert f"by sampling, {draws} draws" in run(words)[1]
+
+
 def numbers(words: str) -> dict[str, Any]:
     """Return what a command prints as JSON."""
     status, out = run(f"{words} --json")
