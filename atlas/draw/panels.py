@@ -17,7 +17,7 @@ from matplotlib.transforms import Bbox
 
 from atlas.draw.labels import NOBODY, Ink, Tag, along, place
 from atlas.draw.labels import write as write_tags
-from atlas.draw.plane import draw_plane
+from atlas.draw.plane import draw_plane, marker
 from atlas.draw.space import draw_shaded, draw_space, window
 from atlas.draw.style import context, style_of, zoom
 from atlas.draw.text import extent, points, typeset
@@ -166,6 +166,9 @@ Places = Callable[[FloatArray], FloatArray]
 _OVER = 10.0
 _BACK, _EVERY = 150, 15
 _FAR, _EDGE = 1e6, 1e-6
+_FEW = 200
+"""Of so few marks the rims are ink too; among the rims of more, names would find no room."""
+_RIM = np.array([(np.cos(a), np.sin(a)) for a in np.arange(8) * np.pi / 4])
 _FRAME = 1.5
 """Names keep so far off the frame, clear of its ticks."""
 
@@ -233,6 +236,9 @@ def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[In
             points = along(places(layer.points))
         elif isinstance(layer, Points):
             points = places(layer.points)
+            if len(points) <= _FEW:
+                rims = points[:, None] + 0.5 * marker(layer.role)["ms"] / zoom() * _RIM
+                yield rims.reshape(-1, 2), 1.5, owner
         elif isinstance(layer, Arrow):
             points = along(places(np.stack([layer.tail, layer.tip])))
         else:

@@ -259,6 +259,22 @@ def test_a_name_moves_away_from_ink() -> None:
     assert centres[1].tolist() == [60.0, 60.0]
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_name_leaves_marks_whole(seed: int) -> None:
+    """Where there is room, the box of a name begins beyond the rims of all marks, not only beyond their middles."""
+    places = np.random.default_rng(seed).uniform(0.2, 0.8, (7, 2))
+    marks = tuple(Points(place[None], "main", "plain name") for place in places)
+    panel = Plane(marks, "$x$", "$y$", (0.0, 1.0), (0.0, 1.0))
+    figure = to_figure(Scene("Marks", "A caption.", "Marks.", (panel,), size=(110.0, 60.0)))
+    figure.draw_without_rendering()
+    renderer, axes = FigureCanvasAgg(figure).get_renderer(), figure.axes[0]
+    for box in (text.get_window_extent(renderer) for text in axes.texts):
+        for line in axes.lines:
+            middle = axes.transData.transform(line.get_xydata())[0]
+            away = np.maximum(0.0, np.maximum(box.min - middle, middle - box.max))
+            assert np.hypot(*away) >= 0.5 * line.get_markersize() * figure.dpi / 72.0
+
+
 @pytest.mark.parametrize("role", list(STYLES))
 def test_every_style_can_be_drawn(role: str) -> None:
     """Colours are those of a printer: six hexadecimal digits; widths and opacities are in their range."""
