@@ -1,7 +1,6 @@
 """``atlas verify``: the paper's equations on trial."""
 
 from collections import Counter
-from pathlib import Path
 from typing import Any
 
 import click
@@ -53,12 +52,13 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
     from atlas import proof
     from atlas.paper import find
+    from atlas.places import cache_folder
     from atlas.proof.run import CACHE
 
     if script and (as_json or len({entry.name for name in names for entry in find(name)}) != 1):
         raise click.UsageError("--script prints one script: name one equation, without --json.")
 
-    options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else Path(CACHE)}
+    options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else cache_folder(CACHE) / "proofs"}
     with bar("trials") as tell:
         verdicts = proof.verify(names or None, lambda name, done, total: tell(done, total, name), **options)
     if script:

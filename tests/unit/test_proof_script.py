@@ -7,6 +7,7 @@ import subprocess
 import sys
 from contextlib import redirect_stdout
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -105,3 +106,12 @@ def test_the_command_shows_no_tex() -> None:
     shown = CliRunner().invoke(command, ["verify", "71"]).stdout
     assert "also says:      if ω_2≠-B'_2: supposed, or tried in a further line" in shown
     assert "\\" not in shown
+
+
+def test_the_command_keeps_its_trials_in_the_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A trial leaves nothing in the folder where one stands, which may be read-only."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ATLAS_CACHE", str(tmp_path / "cache"))
+    assert CliRunner().invoke(command, ["verify", "39"]).exit_code == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["cache"]
+    assert len([*tmp_path.glob("cache/proofs/verdict-39-*.json")]) == 1
