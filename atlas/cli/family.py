@@ -124,8 +124,14 @@ def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Comma
         params=list(params.values()),
         help=next(iter(commands.values())).help,
         epilog=examples(*lines),
-        other=lambda args: None if {"-h", "--help"} & {*args} else commands[family_of(args)],
+        other=lambda args: None if _is_for_all(args, params.values()) else commands[family_of(args)],
     )
+
+
+def _is_for_all(args: Sequence[str], params: Iterable[click.Parameter]) -> bool:
+    """Tell whether help is asked for, or an option that no family has is misspelt: the command of all answers that."""
+    options = {word.partition("=")[0] for word in args if word.startswith("--") and word != "--"}
+    return "-h" in args or not options <= {name for param in params for name in param.opts}
 
 
 def family_of(args: Sequence[str]) -> str:
