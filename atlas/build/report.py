@@ -224,7 +224,7 @@ def _check(name: str, file: Path) -> None:
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     if name != file.stem:
-        raise AtlasError(f"{file}: the report's name is {name!r}, but the file is called {file.stem!r}.")
+        raise AtlasError(f"{file}: the report's name is {name!r}, and must be that of its file, {file.stem!r}.")
 
 
 def check_style(style: str | None) -> None:

@@ -169,8 +169,8 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
     """Return the function that makes the frames of a scene that moves, and their number."""
     if not scene.paths:
         raise AtlasError(
-            f"the figure {recipe.name!r} has no time t; say which of its parameters moves, and through which values. "
-            f"It has {', '.join(recipe.parameters)}."
+            f"the figure {recipe.name!r} has no time t; say which of its parameters moves, and through which values "
+            f"(at the shell, --over KEY=START:STOP:COUNT). It has {', '.join(recipe.parameters)}."
         )
     moments = np.linspace(0.0, scene.lasts, FRAMES, endpoint=False) if times is None else times
     return lambda k: movement.scene_at(scene, float(moments[k])), len(moments)

@@ -156,7 +156,8 @@ def subject(name: str) -> Subject:
     if name not in known and not name.endswith(".py"):
         options = [*FAMILIES, *known]
         raise AtlasError(
-            f"there is no family or figure {name!r}{nearest(name, options)}; `atlas list` names the figures"
+            f"there is no family or figure {name!r}{nearest(name, options)}; families are {', '.join(FAMILIES)}, and "
+            "`atlas list` names the figures."
         )
     return OfRecipe(recipes.load(name))
 

@@ -80,9 +80,8 @@ def _pages_of(report: Report) -> dict[str, str]:
         for block in page.blocks:
             if isinstance(block, Ledger):
                 if block.section not in SECTIONS:
-                    raise AtlasError(
-                        f"page {page.slug!r}: {unknown('section', block.section, SECTIONS, 'in the ledger')}"
-                    )
+                    error = unknown("section", block.section, SECTIONS, "in the ledger")
+                    raise AtlasError(f"{report.name}.toml: page {page.slug!r}: {error}")
                 pages |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
     return pages
 

@@ -28,7 +28,8 @@ def pictures(report: Report) -> dict[str, Picture]:
                         picture.stem = f"{len(drawn) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
                         drawn[name] = picture
             except AtlasError as error:
-                raise AtlasError(f"page {page.slug!r}, block {place} (figure): {error}") from error
+                where = f"{report.name}.toml: page {page.slug!r}, block {place} (figure)"
+                raise AtlasError(f"{where}: {error}") from error
     return drawn
 
 

@@ -189,6 +189,25 @@ def test_the_pdf_has_the_same_content(built: Built) -> None:
     assert not re.search(r"\\[a-z]{2,}|\$|@mf", whole)
 
 
+@pytest.mark.parametrize(
+    ("right", "wrong", "said"),
+    [
+        (
+            'recipe = "hyperbola"',
+            'recipe = "hyprbola"',
+            r"page 'index', block \d+ \(figure\): .*'hyperbola'",
+        ),
+        ('name = "mine"', 'name = "other"', "the report's name is 'other', and must be that of its file, 'mine'"),
+    ],
+)
+def test_a_mistake_names_the_file(tmp_path: Path, right: str, wrong: str, said: str) -> None:
+    """Of several reports that are built at once it is known which to mend."""
+    file = tmp_path / "mine.toml"
+    file.write_text(MINE.replace(right, wrong), encoding="utf-8")
+    with pytest.raises(AtlasError, match=rf"mine\.toml: {said}"):
+        build_report(file, tmp_path / "out")
+
+
 def test_a_citation_that_leads_nowhere_is_an_error(tmp_path: Path) -> None:
     """A misspelt label names the file, the block and the nearest label, and nothing is written."""
     file = tmp_path / "mine.toml"

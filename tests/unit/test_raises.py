@@ -126,7 +126,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: atlas.motion((1, 2), (0, 0, 1), (0, 0, 1)), "three moments"),
     (lambda: atlas.motion([[1, 0.2, 0], [0, 1, 0], [0, 0, 1]], SPIN, SPIN), "has 0.2 and 0 across its diagonal"),
     (lambda: atlas.motion(-np.eye(3), (0, 0, 1), (0, 0, 1)), "must be positive"),
-    (lambda: atlas.motion(1.5, (0, 1), (0, 0, 1)), "The field must have"),
+    (lambda: atlas.motion(1.5, (0, 1), (0, 0, 1)), "The field must have the 3 components (B1, B2, B3)"),
     (lambda: atlas.motion(1.5, SPIN, (0, 1)), "The angular velocity must have"),
     (lambda: atlas.motion(1.5, SPIN, SPIN, -np.eye(3)), "must be a rotation matrix"),
     (lambda: atlas.motion((1, 1, np.array([1.5, 1.0])), SPIN, SPIN, np.zeros((2, 2))), "must be a rotation matrix"),

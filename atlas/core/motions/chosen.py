@@ -55,7 +55,7 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned
         ('asymmetric', 'on a torus')
     """
     body = body_of(inertia)
-    B, w = _vectors(getattr(field, "prime", field), "The field"), _vectors(omega, "The angular velocity")
+    B, w = _vectors(getattr(field, "prime", field), "The field", "B"), _vectors(omega, "The angular velocity", "omega")
     R = attitude_of(attitude)
     shape = common_shape(body.moments.shape[:-1], B.shape[:-1], w.shape[:-1], R.shape[:-2])
     arguments = {"inertia": inertia, "field": B, "omega": w, "attitude": attitude}
@@ -190,10 +190,10 @@ def _parts(v: FloatArray) -> tuple[Any, Any, Any]:
     return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
 
 
-def _vectors(value: Any, name: str) -> FloatArray:
+def _vectors(value: Any, name: str, letter: str) -> FloatArray:
     """Return vectors (..., 3): of three components, each a number or an array, or of an array with these last."""
     if isinstance(value, tuple):
-        return _rows(components(value, ("1", "2", "3"), name, RATE))
+        return _rows(components(value, [f"{letter}{i}" for i in (1, 2, 3)], name, RATE))
     return vectors(value, name, RATE)
 
 
@@ -219,9 +219,9 @@ def attitude_of(attitude: Any) -> FloatArray:
 
 def in_laboratory(family: type[Any], body: Any, field: Any, attitude: Any, omega: Any, parameters: Any) -> Turned:
     """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
-    R, B = attitude_of(attitude), _vectors(getattr(field, "prime", field), "The field")
+    R, B = attitude_of(attitude), _vectors(getattr(field, "prime", field), "The field", "B")
     K = np.vecmat(B, R)
-    w = K if omega is None else np.vecmat(_vectors(omega, "The angular velocity"), R)
+    w = K if omega is None else np.vecmat(_vectors(omega, "The angular velocity", "omega"), R)
     if family.family == "top":
         I2, I3 = components(body, ("I2", "I3"), "The inertia", INERTIA)
         known = _of_moments((I2, I2, I3), np.eye(3))
