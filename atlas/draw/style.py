@@ -179,7 +179,7 @@ def style_of(role: str) -> Style:
     """Return the look of a role; that of plotted lines is the cycle of the style sheet, ``axes.prop_cycle``.
 
     A sheet's ``lines.linewidth`` holds before the widths of the atlas's own cycle. On a dark ground lines and marks are
-    as light as a text is there.
+    as light as a text is there, but for lines of a cycle of the user's.
     """
     look = style(role)
     if role not in LINES:
@@ -194,4 +194,7 @@ def style_of(role: str) -> Style:
         dash = mpl.rcParams.get(f"lines.{_DASHES.get(dashes, dashes)}_pattern", ())
     else:
         dash = dashes[1] or ()
-    return replace(look, colour=to_hex(line.get("color", look.colour)), width=width, dash=tuple(dash))
+    colour = to_hex(line.get("color", look.colour))
+    if mpl.rcParams["axes.prop_cycle"] == _sheet()["axes.prop_cycle"] and is_dark(ground()):
+        colour = readable(colour, ground())
+    return replace(look, colour=colour, width=width, dash=tuple(dash))

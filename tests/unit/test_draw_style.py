@@ -237,9 +237,12 @@ def test_on_a_dark_style_halos_are_dark_and_marks_are_light() -> None:
     halos = [text.get_path_effects() for axes in figure.axes for text in axes.texts if text.get_path_effects()]
     assert halos
     assert all(mpl.colors.to_hex(halo._gc["foreground"]) == "#000000" for (halo,) in halos)
-    with context("dark_background"):
-        lit = [style_of(role).colour for role, look in STYLES.items() if not look.fill]
-    assert all(contrast(colour, "#000000") >= 4.5 for colour in lit)
+    for dark in ("dark_background", {"axes.facecolor": "#000000", "figure.facecolor": "#000000"}):
+        with context(dark):
+            lit = [style_of(role).colour for role, look in STYLES.items() if not look.fill]
+        assert all(contrast(colour, "#000000") >= 4.5 for colour in lit), dark
+    with context({"axes.facecolor": "#000000", "axes.prop_cycle": "cycler(color=['#222222'])"}):
+        assert style_of("main").colour == "#222222"
     assert style_of("start") == STYLES["start"]
 
 
