@@ -182,9 +182,11 @@ def plain(array: Any) -> Any:
 
 
 def turn_time(rate: Any) -> Any:
-    """Return the time 2 pi/|rate| of one turn; infinite where nothing turns."""
+    """Return the time 2 pi/|rate| of one turn; infinite where nothing turns. DomainError beyond all floats."""
     with np.errstate(divide="ignore", over="ignore"):
-        return plain(np.divide(2 * np.pi, np.abs(rate)))
+        times = np.divide(2 * np.pi, np.abs(rate))
+    finite(np.where(np.equal(rate, 0), 0.0, times), "The period")
+    return plain(times)
 
 
 def scaled(v: FloatArray) -> tuple[FloatArray, Any]:

@@ -127,3 +127,21 @@ def test_actions_and_lines_in_any_unit_of_time(exponent: int) -> None:
         lines, same = one.spectrum("axis", 1e-3), other.spectrum("axis", 1e-3)
         assert same.frequencies == pytest.approx(np.ldexp(lines.frequencies, power), rel=1e-13)
         assert same.power == pytest.approx(lines.power, rel=1e-9)
+
+
+def test_an_energy_or_mean_square_that_is_no_float_is_refused() -> None:
+    """Rates of 1e160, or lines of 1e-170: not inf, and no spectrum without lines."""
+    large, small = (atlas.GeneralMotion(1.5, (x, 2 * x), (0.3 * x, 0.7 * x, 0.2 * x)) for x in (1e160, 1e-170))
+    with pytest.raises(atlas.DomainError, match="energy is too large"):
+        large.actions  # noqa: B018
+    for motion in (large, small):
+        with pytest.raises(atlas.DomainError, match="mean square"):
+            motion.spectrum("angular_velocity")
+
+
+def test_lines_do_not_depend_on_the_unit_of_time_next_to_the_range_of_floats() -> None:
+    """At rates of 2^-510 as many lines are found as at 1, of the same part of the whole."""
+    one, other = (atlas.GeneralMotion(1.5, (x, 2 * x), (0.3 * x, 0.7 * x, 0.2 * x)) for x in (1.0, 2.0**-510))
+    lines, same = (motion.spectrum("angular_velocity", 1e-12) for motion in (one, other))
+    assert same.combinations.tolist() == lines.combinations.tolist()
+    assert np.ldexp(same.amplitudes.view(float), 510) == pytest.approx(lines.amplitudes.view(float), abs=1e-14)

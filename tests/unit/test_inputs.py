@@ -128,3 +128,40 @@ def test_axes_of_a_body_are_a_matrix(axes: Any) -> None:
     """Nothing else is kept for those who ask later."""
     with pytest.raises(AtlasError, match="The axes must"):
         atlas.SymmetricBody(1.0, 0.5, axes)
+
+
+SLOW = (1e-309, 2e-309)
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        atlas.ElementaryMotion(1.5, SLOW, 1e-309),
+        atlas.FreeMotion(1.5, (*SLOW, 1e-309)),
+        atlas.GeneralMotion(1.5, SLOW, (*SLOW, 1e-309)),
+        atlas.GeneralMotion([1.4, 1.5], SLOW, (*SLOW, 1e-309)),
+        atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), (0.0, 0.0, 1e-309)),
+        atlas.EllipticMotion((0.8, 1.0, 1.3), (*SLOW, 1e-309), 0.5),
+        atlas.Hyperbola(1.5, SLOW).closed(1, 3),
+    ],
+    ids=lambda motion: f"{type(motion).__name__} {motion.shape}",
+)
+def test_a_period_beyond_all_floats_is_no_infinite_one(motion: Any) -> None:
+    """Rates below 1e-308 give no period that reads like that of a separatrix, and of a nutation no mean rate of 0."""
+    with pytest.raises(DomainError, match="period is too large"):
+        motion.period  # noqa: B018
+    if type(motion) in (atlas.GeneralMotion, atlas.TopMotion):
+        with pytest.raises(DomainError, match="period is too large"):
+            motion.precession_rate  # noqa: B018
+
+
+def test_lines_of_a_period_beyond_all_floats_are_refused() -> None:
+    """By the period, not by a time that is no number."""
+    with pytest.raises(DomainError, match="period is too large"):
+        atlas.GeneralMotion(1.5, SLOW, (*SLOW, 1e-309)).spectrum()
+
+
+def test_true_is_no_column() -> None:
+    """A truth value is not taken for the first column."""
+    with pytest.raises(AtlasError, match="columns of R are 1, 2 and 3, not True"):
+        atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).column(True, 0.0)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from atlas.core.inputs import FloatArray, scaled
+from atlas.core.inputs import FloatArray, finite, scaled
 from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.motions.sensitivity import One
 from atlas.core.motions.spectrum import coefficients, wheels_of
@@ -58,7 +58,9 @@ def actions(motion: Any) -> Actions:
         return np.asarray(J * motion.angular_velocity(t) + k * field(t))
 
     start, Omega, nu = momentum(0.0), motion.angular_velocity(0.0), field(0.0)[2]
-    energy = float((J * Omega * Omega).sum() / 2 + linear * nu + quadratic * nu * nu / 2)
+    with np.errstate(over="ignore"):
+        energy = float((J * Omega * Omega).sum() / 2 + linear * nu + quadratic * nu * nu / 2)
+    finite(energy, "The energy")
     turns = [float(start @ (wheels.n @ motion.rotation(0.0))), float(start @ wheels.a)]
     if isinstance(getattr(single, "closed", None), ThetaKernel):
         return Actions(wheels.names[:3], np.array([*_of_torus(single, J), turns[0]]), wheels.rates[:3], energy)

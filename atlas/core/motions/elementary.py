@@ -136,7 +136,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @property
     def period(self) -> Any:
-        """Time 2 pi/|k| of one precession, after which the axis is back; inf without one. See `Hyperbola.closed`."""
+        """Time 2 pi/|k| of one precession, after which the axis is back; inf without one. See `Hyperbola.closed`.
+
+        Raises DomainError where it is beyond all floats.
+        """
         return turn_time(self.k)
 
     @cached_property
@@ -288,7 +291,10 @@ class FreeMotion(DoubleTurn[Free]):
 
     @property
     def period(self) -> Any:
-        """Time 2 pi/k of one precession, after which the axis is back; inf at rest."""
+        """Time 2 pi/k of one precession, after which the axis is back; inf at rest.
+
+        Raises DomainError where it is beyond all floats.
+        """
         return turn_time(self.k)
 
     def angular_velocity(self, t: Any) -> FloatArray:

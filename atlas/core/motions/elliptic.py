@@ -74,7 +74,10 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     @kept
     def period(self) -> Any:
-        """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
+        """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none.
+
+        Raises DomainError where it is beyond all floats.
+        """
         return self._scalar("period")
 
     @kept

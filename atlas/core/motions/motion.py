@@ -45,7 +45,7 @@ BLOCK = 4096
 
 def check_column(j: Any) -> None:
     """Raise AtlasError for what is no column of R."""
-    if not isinstance(j, Integral) or j not in {1, 2, 3}:
+    if not isinstance(j, Integral) or isinstance(j, bool) or j not in {1, 2, 3}:
         raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
 
 

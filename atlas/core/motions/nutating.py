@@ -5,6 +5,7 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
+from flint import arb
 
 from atlas.core.inputs import FloatArray, finite, kept, plain
 from atlas.core.motions.motion import Motion
@@ -56,7 +57,10 @@ class NutatingMotion(Motion[Nutation]):
 
     @kept
     def period(self) -> Any:
-        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
+        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation.
+
+        Raises DomainError where it is beyond all floats.
+        """
         return self._scalar("period")
 
     @kept
@@ -126,11 +130,13 @@ class NutatingMotion(Motion[Nutation]):
 
         def value(exact: Nutating) -> float:
             try:
-                return nearest(enclosed(lambda: getattr(exact, name), BITS))
+                ball = enclosed(lambda: getattr(exact, name), BITS)
             except DomainError:
                 if not self.shape:
                     raise
                 return np.nan
+            number = nearest(ball)
+            return number if ball == arb("inf") else finite(number, f"The {name}")
 
         return self._each(name, value)
 

@@ -16,7 +16,7 @@ import numpy as np
 from flint import arb
 from numpy.typing import NDArray
 
-from atlas.core.inputs import FloatArray, number, real, scaled
+from atlas.core.inputs import FloatArray, finite, number, real, scaled
 from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.core.quantities import TIME, bare
@@ -133,7 +133,8 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
 
 def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
     """Return lines in the order of their frequencies, those of one frequency added."""
-    frequencies, size = combinations @ wheels.rates, _power(amplitudes)
+    frequencies, unit = combinations @ wheels.rates, _size(amplitudes)
+    size = _power(amplitudes, unit)
     lines = np.flatnonzero(size > (LEAST * 1e-3) ** 2 * size.max())
     order = lines[np.lexsort((abs(combinations[lines]).sum(1), frequencies[lines]))]
     frequencies, combinations, amplitudes = frequencies[order], combinations[order], amplitudes[order]
@@ -141,9 +142,12 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
     starts = np.flatnonzero(apart)
     shortest = [i + int(np.argmin(abs(combinations[i:k]).sum(1))) for i, k in pairwise([*starts, len(frequencies)])]
     amplitudes = np.add.reduceat(amplitudes, starts)
-    power = _power(amplitudes)
-    mean_square = float(power.sum())
-    lines = np.flatnonzero(power >= least * least * mean_square)
+    power = _power(amplitudes, unit)
+    whole = float(power.sum())
+    mean_square = whole * unit * unit
+    if whole and not np.finfo(float).tiny <= mean_square < np.inf:
+        raise DomainError(f"The mean square of the {of} is too large or too small for a float: choose other units.")
+    lines = np.flatnonzero(power >= least * least * whole)
     combinations = combinations[shortest][lines]
     there = np.flatnonzero(combinations.any(0))
     names = tuple(wheels.names[i] for i in there)
@@ -153,9 +157,14 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
     )  # fmt: skip
 
 
-def _power(amplitudes: Array) -> FloatArray:
-    """Return the sum of squares of each line, (N,)."""
-    return np.asarray((abs(amplitudes) ** 2).sum(axis=tuple(range(1, amplitudes.ndim))))
+def _power(amplitudes: Array, unit: float = 1.0) -> FloatArray:
+    """Return the sum of squares of each line in that unit, (N,)."""
+    return np.asarray(((abs(amplitudes) / unit) ** 2).sum(axis=tuple(range(1, amplitudes.ndim))))
+
+
+def _size(amplitudes: Array) -> float:
+    """Return the power of two of the largest amplitude, over which squares are floats."""
+    return float(np.ldexp(1.0, np.frexp(abs(amplitudes).max())[1] - 1))
 
 
 def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
@@ -180,7 +189,7 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
         m = np.fft.fftfreq(count, 1 / count).astype(int)
         indices = np.stack(np.meshgrid(*[m] * d, indexing="ij"), -1).reshape(-1, d)
         coefficients = amplitudes.reshape(len(indices), *values.shape[1:])
-        size, outer = _power(coefficients), abs(indices).max(1) > 3 * count // 8
+        size, outer = _power(coefficients, _size(coefficients)), abs(indices).max(1) > 3 * count // 8
         if size[outer].max() <= SETTLED**2 * size.max():
             return indices[~outer], coefficients[~outer]
         count *= 2
@@ -222,6 +231,7 @@ def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheel
     """Return the turns of a motion in one nutation, or without."""
     rates = enclosed(lambda: _rates(exact), BITS)
     half, p, s = (float(x.mid()) for x in rates)
+    finite(2 * half, "The period")
     n, third = (np.array([float(arb(x).mid()) for x in v]) for v in (exact.field, exact.omega))
     if not n.any():  # a free body precesses about its momentum
         n = third * (1.0, 1.0, float(arb(getattr(exact, "I", 1)).mid()))

@@ -9,7 +9,7 @@ from flint import arb, fmpq
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.words import TURN, ZERO, middle
 from atlas.core.bodies.body import kept_ratio, moments
-from atlas.core.inputs import components, number
+from atlas.core.inputs import components, finite, number
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
@@ -85,8 +85,11 @@ class ClosedMotion(ElementaryMotion):
 
     @property
     def period(self) -> float:
-        """Time 2 pi q/|k| after which R is the unit matrix again, with p/q in lowest terms."""
-        return self._closed.period
+        """Time 2 pi q/|k| after which R is the unit matrix again, with p/q in lowest terms.
+
+        Raises DomainError where it is beyond all floats.
+        """
+        return float(finite(self._closed.period, "The period"))
 
 
 def _check(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
