@@ -224,7 +224,8 @@ class Command(click.Command):
                 raise click.UsageError(meant, ctx) from error
             hint = "" if isinstance(error, click.MissingParameter) else _miscounted(args, self.params)
             if hint:
-                raise click.UsageError(f"{error.format_message().rstrip('.')}: {hint}", ctx) from error
+                said = error.format_message().rstrip(".")  # not of the next option, taken for a number
+                raise click.UsageError(hint if ": '--" in said else f"{said}: {hint}", ctx) from error
             raise
         if field:
             name, known = option.removeprefix("--"), not any(x.sigma for x in field.parts)

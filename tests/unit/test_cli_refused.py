@@ -367,3 +367,9 @@ def test_what_goes_wrong_is_one_line_and_a_status(
         main([])
     assert ended.value.code == status
     assert capsys.readouterr().err == f"atlas: {says}\n"
+
+
+def test_too_few_numbers_are_told_and_not_the_option_that_follows() -> None:
+    """The name of the next option was not meant for a number."""
+    message, _ = told("motion --ratio 1.5 --field 1 2 --omega 0.7 --times 1".split())
+    assert message == "--omega takes 3 numbers, W1 W2 W3."
