@@ -120,6 +120,7 @@ def test_scalars_in_arrays_are_those_of_single_tops_to_the_bit(name: str) -> Non
     random = Random(11)  # noqa: S311  reproducible, not secret
     tops = [TOPS[name](random) for _ in range(6)]
     tops += [top._replace(omega=(0.0, *top.omega[1:])) for top in tops[:2]]
+    tops = [top for top in tops if rate_of(top) > 1e-140]  # the period of slower ones may be beyond all floats
     many = arrayed(tops)
     for quantity in ("kind", "period", "modulus", "nome"):
         single = [getattr(atlas.TopMotion(*top), quantity) for top in tops]
