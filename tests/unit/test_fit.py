@@ -149,6 +149,15 @@ def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
     assert [len(words) for words in told] == [0, 0, 1]
 
 
+def test_one_outlier_of_few_attitudes_is_told() -> None:
+    """Of eighteen attitudes of a free body one is off by thirty times the noise."""
+    rng, t = np.random.default_rng(1), np.linspace(0, 6, 18)
+    turns = rng.normal(0, 1e-3, (18, 3))
+    turns[9, 0] += 0.03
+    R = atlas.FreeMotion(1.5, (0.3, 0.7, 0.2)).rotation(t) @ Rotation.from_rotvec(turns).as_matrix()
+    assert any("soft_l1" in words for words in atlas.fit(t, "free", rotation=R).doubts)
+
+
 def test_rounding_errors_determine_nothing() -> None:
     """Exact data of a body at rest, and of a spin about its axis, say nothing of ratio and field."""
     t = np.arange(20.0)

@@ -25,8 +25,8 @@ FOLLOWED = 0.2
 """Part of the spread of the data within which a motion follows them."""
 
 HEAVY, MANY = 3.0, 20
-"""Root mean square of residuals beside their median, and number of times, from which some are outliers: that of many
-normal ones is 1.5, of fewer than so many now and then 3."""
+"""Root mean square of residuals beside their median, and count of measured numbers, from which some are outliers: that
+of many normal ones is 1.5, of fewer than so many now and then 3."""
 
 FARTHEST = 1e9
 """Spans of the data after which no horizon is looked for."""
@@ -343,7 +343,7 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
         out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {reason}.")
     lengths = np.linalg.norm(r, axis=1)
     uneven = np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
-    if problem.loss == "linear" and uneven and len(lengths) >= MANY:
+    if problem.loss == "linear" and uneven and r.size >= MANY:
         out.append("Some residuals are far larger than most: if they are outliers, loss='soft_l1' (--loss) bears them.")
     correlation = lag(problem.data.t, r)
     if abs(correlation) > SURPRISE / np.sqrt(r.size):
