@@ -11,7 +11,7 @@ from atlas.build.figures import FigureBuild
 from atlas.build.publish import replace
 from atlas.errors import AtlasError
 from atlas.places import cache_folder
-from atlas.report.toml import find
+from atlas.report.files import find
 from atlas.sources import Sources
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from atlas.errors import AtlasError
 from atlas.files import digest_of
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder
-from atlas.report.toml import find, related_to
+from atlas.report.files import find, related_to
 from atlas.sources import DISTURBED, PACKAGE, Sources, digest
 
 if TYPE_CHECKING:

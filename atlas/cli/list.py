@@ -35,13 +35,13 @@ def command(which: str | None, as_json: bool) -> int:
     says what it takes. A figure that is too wide for a journal's column says how much it needs. A recipe or a report
     that cannot be read does not hide the others; then the exit status is 1.
     """
-    from atlas.report import toml
+    from atlas.report import files
     from atlas.scene import recipes
 
     broken = list[str]()
     figures = {name: title for name in recipes.names() if (title := _read(recipes.title, name, broken)) is not None}
     known = {name: recipe for name in figures if (recipe := _read(recipes.load, name, broken))}
-    reports = {name: title for name in toml.names() if (title := _read(report_title, name, broken)) is not None}
+    reports = {name: title for name in files.names() if (title := _read(report_title, name, broken)) is not None}
     record: dict[str, Any] = {
         "figures": figures,
         "parameters": {name: parameters(recipe) for name, recipe in known.items()},
@@ -108,9 +108,6 @@ def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
 
 def report_title(name: str) -> str:
     """Return the title of a report in reports/."""
-    from atlas.report import toml
+    from atlas.report import files
 
-    try:
-        return str(toml.loads(toml.find(name).read_text(encoding="utf-8")).get("title", ""))
-    except ValueError as error:  # not TOML, or not UTF-8
-        raise AtlasError(f"reports/{name}.toml is not TOML: {error}") from error
+    return str(files.head(files.find(name)).get("title", ""))

@@ -37,7 +37,7 @@ NUMBER = re.compile(
 OTHERS = {
     "B": "B is --magnetic, and B' = mu B/(2c) is --field", "E": "it is --electric", "I": "I = I3/I2 is --ratio",
     "moments": "they are --inertia", "quaternion": "R(0) is --attitude X Y Z W",
-    **dict.fromkeys(("tex", "latex"), "atlas page makes a report, NAME.toml beside the page, and atlas tex its LaTeX"),
+    **dict.fromkeys(("tex", "latex"), "atlas page makes a report, NAME.md beside the page, and atlas tex its LaTeX"),
     "csv": "a table as CSV is that of atlas sweep, with --quantity R and t=START:STOP:COUNT, say",
     "dt": "times by a step are --grid START STEP COUNT, or --times START:STOP:COUNT",
 }  # fmt: skip

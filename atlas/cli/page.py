@@ -187,7 +187,7 @@ def command() -> None:
 
     It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
     neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all
-    that belongs to it; NAME.pdf is the same to print, and NAME.toml the report that both are made from, to go on with.
+    that belongs to it; NAME.pdf is the same to print, and NAME.md the report that both are made from, to go on with.
     Beside a page or PDF that you edited, or that is another's, the new one is written, as NAME.new.html, and then the
     exit status is 2.
 
@@ -300,7 +300,7 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
     """Write the report file of a page and build it. Raises AtlasError where a file was changed since it was made."""
     from atlas import processes
 
-    file, recipe = (out / f"{wanted.name}{suffix}" for suffix in (".toml", ".py"))
+    file, recipe = (out / f"{wanted.name}{suffix}" for suffix in (".md", ".py"))
     if not file.exists():  # its figures are to be drawn: what they need is loaded meanwhile
         processes.prepare(processes.DRAWING)
     from atlas.build.report import build_report

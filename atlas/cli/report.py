@@ -13,7 +13,7 @@ from atlas.libraries import of_sweeps
 if TYPE_CHECKING:
     from atlas.build.report import Built
 
-name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
+name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 
 
 @click.command(
@@ -23,12 +23,12 @@ name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.toml
         "atlas report",
         "atlas report short_solenoid --explain",
         "atlas report --format html",
-        "atlas report my_paper.toml --out paper",
+        "atlas report my_paper.md --out paper",
         "atlas report atlas trial guide",
-        "atlas report my_page.toml --format single pdf",
+        "atlas report my_page.md --format single pdf",
     ),
 )
-@click.argument("names", nargs=-1, metavar="[NAME|FILE.toml]...")
+@click.argument("names", nargs=-1, metavar="[NAME|FILE.md|FILE.toml]...")
 @out_option("build/report")
 @click.option(
     "--format",
@@ -46,9 +46,9 @@ def command(
 ) -> int:
     """Build reports: of each HTML pages that open from disk, and a PDF to print.
 
-    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
-    something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status
-    is 1. Beside the PDF, NAME.costs.json says what each figure cost, in processor time.
+    NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. Only what
+    depends on something that has changed is built. A figure that fails leaves a framed note in its place, and then the
+    exit status is 1. Beside the PDF, NAME.costs.json says what each figure cost, in processor time.
 
     What you put into the folder of the pages stays. Beside a page or PDF that you edited the new one is written, as
     NAME.new.html, and then the exit status is 2.
@@ -88,7 +88,7 @@ def _explain(built: "Built") -> None:
 
 
 @click.command(
-    "data", cls=Command, epilog=examples("atlas data short_solenoid", "atlas data my_paper.toml --out paper/data")
+    "data", cls=Command, epilog=examples("atlas data short_solenoid", "atlas data my_paper.md --out paper/data")
 )
 @name_argument
 @out_option("build/data")
@@ -97,7 +97,7 @@ def _explain(built: "Built") -> None:
 def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     """Write the tables of a report, and the points that its figures draw, as CSV and, with pyarrow, as Parquet.
 
-    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. The file
+    NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. The file
     datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
     draws the figure, and the digest. CSV has all digits that are printed, Parquet the nearest doubles. The folder is
     written whole, with the same bytes each time; what you put there stays. Beside a file that you edited the new one
@@ -116,7 +116,7 @@ def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
 
 
 @click.command(
-    "tex", cls=Command, epilog=examples("atlas tex short_solenoid", "atlas tex my_paper.toml --out manuscript")
+    "tex", cls=Command, epilog=examples("atlas tex short_solenoid", "atlas tex my_paper.md --out manuscript")
 )
 @name_argument
 @out_option("build/tex")
@@ -125,10 +125,10 @@ def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
 def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     r"""Write a report as LaTeX: numbers by key, tables, figures, references, and a paper in REVTeX.
 
-    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. In a manuscript,
-    \input{atlas-numbers} and write \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it rounded
-    to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are tables
-    of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
+    NAME is one of those that `atlas list` names, or a file in Markdown or TOML; without it, the atlas itself. In a
+    manuscript, \input{atlas-numbers} and write \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it
+    rounded to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are
+    tables of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
 
     What you put into the folder stays. Beside a file that you edited the new one is written, as paper.new.tex, and
     then the exit status is 2.

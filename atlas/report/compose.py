@@ -57,7 +57,7 @@ def compose(
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
         composer.begin(page.slug, title_words(page.title))
-        composer.where = f"{report.name}.toml: page {page.slug!r}, its title"
+        composer.where = f"{report.place(page)}, its title"
         heading = composer.text(title(page.title), inline=True)
         blocks = tuple(_views(composer, page, outline=outline))
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
@@ -77,20 +77,19 @@ def _pages_of(report: Report) -> dict[str, str]:
     """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
     pages: dict[str, str] = {}
     for page in report.pages:
-        for block in page.blocks:
+        for place, block in enumerate(page.blocks):
             if isinstance(block, Ledger):
                 if block.section not in SECTIONS:
                     error = unknown("section", block.section, SECTIONS, "in the ledger")
-                    raise AtlasError(f"{report.name}.toml: page {page.slug!r}: {error}")
+                    raise AtlasError(f"{report.place(page, place)}: {error}")
                 pages |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
     return pages
 
 
 def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
     """Yield the views of the blocks of a page; an error says which of them it is about."""
-    for place, block in enumerate(page.blocks, 1):
-        name, file = kind_of(block), f"{composer.document.report.name}.toml"
-        composer.where, kind = f"{file}: page {page.slug!r}, block {place} ({name})", KINDS[name]
+    for place, block in enumerate(page.blocks):
+        composer.where, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
         try:
             yield (kind.outline if outline and kind.outline else kind.view)(block, composer)
         except AtlasError as error:

@@ -1,10 +1,12 @@
 """A report file as typed records: what a user may write, and nothing else; the blocks are in `atlas.report.blocks`."""
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Annotated
 
 import msgspec
 
-from atlas.report.blocks import Block
+from atlas.report.blocks import Block, kind_of
 from atlas.report.body_and_field import BodiesAndFields
 from atlas.report.schema import Id, Pair, Slug, StrictStruct
 
@@ -49,6 +51,17 @@ class Index(StrictStruct, frozen=True):
     symbols: tuple[Symbol, ...] = ()
 
 
+@dataclass(frozen=True)
+class Source:
+    """The file of a report, and the lines on which its pages begin, by (page,), and its blocks, by (page, block).
+
+    Both are counted from 0. A file in TOML has no lines here.
+    """
+
+    file: str = ""
+    lines: Mapping[tuple[int, ...], int] = field(default_factory=dict)
+
+
 SHORT = 2
 """So many pages have no cover of their own."""
 
@@ -78,6 +91,14 @@ class Report(StrictStruct, frozen=True):
     bibliography: str = ""
     parameters: BodiesAndFields = BodiesAndFields()
     index: Index = Index()
+    source: Source = Source()
+
+    def place(self, page: Page, block: int | None = None) -> str:
+        """Return what a message begins with: file, line, page, and the block of that number, from 0, with its kind."""
+        number = self.pages.index(page)
+        line = self.source.lines.get((number,) if block is None else (number, block))
+        there = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"
+        return there if block is None else f"{there}, block {block + 1} ({kind_of(page.blocks[block])})"
 
     @property
     def bound(self) -> bool:

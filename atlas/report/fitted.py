@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.report import toml
 from atlas.report.digits import MINUS
+from atlas.report.markdown import written
 from atlas.report.page import Asked, figures_of, headed, name_of
 
 STRONG = 0.5
@@ -83,7 +83,7 @@ class Fitted:
     def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
         """Return the report file and the recipe of its picture, by their names."""
         return {
-            f"{self.name}.toml": headed(self, "".join(toml.lines(self.definition(there)))),
+            f"{self.name}.md": headed(self, written(self.definition(there))),
             f"{self.name}.py": headed(self, self._recipe()),
         }
 

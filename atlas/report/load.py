@@ -1,9 +1,11 @@
-"""Reading a report file: TOML to records, and every mistake in it to one sentence that says where and what instead."""
+"""Reading a report file: text to records, and every mistake in it to one sentence with place and remedy."""
 
 import re
+from collections.abc import Iterable, Mapping
 from functools import reduce
 from operator import or_
 from pathlib import Path
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -12,46 +14,57 @@ from atlas.report import toml
 from atlas.report.blocks import Block
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.table import Listing, Recorded, Table
-from atlas.report.definition import Report
+from atlas.report.definition import Report, Source
+from atlas.report.files import names, text_of
+from atlas.report.markdown import LineError, Piece, read
 from atlas.report.schema import SchemaError, convert
-from atlas.report.toml import names
 
 
 def load(path: Path) -> Report:
     """Read a report file. Raises AtlasError, in one sentence, for whatever is wrong with it."""
+    text, pieces = text_of(path), dict[tuple[int, ...], Piece]()
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise AtlasError(f"{path} is not a text in UTF-8: {error.reason} at byte {error.start}.") from error
-    try:
-        raw = toml.loads(text)
-    except ValueError as error:
-        raise AtlasError(f"{path} is not TOML: {error}.") from error
-    try:
-        report = _filled(_consistent(convert(raw, Report)), path.absolute().parent)
+        raw = _values(text, pieces, markdown=path.suffix == ".md")
+        source = Source(path.name, {key: piece.line for key, piece in pieces.items()})
+        report = replace(convert(raw, Report), source=source)
+        return _filled(_consistent(report, path.parent), path.absolute().parent)
+    except LineError as error:
+        raise AtlasError(f"{path}, line {error.line}: {error}") from error
     except SchemaError as error:
-        raise AtlasError(f"{path}{_line(text, error.key)}: {error}.") from error
+        raise AtlasError(f"{path}{_line(text, pieces, error)}: {str(error).removesuffix('.')}.") from error
     except AtlasError as error:
         raise AtlasError(f"{path}: {error}") from error
-    if report.bibliography and not (path.parent / report.bibliography).is_file():
-        raise AtlasError(f"{path}{_line(text, 'bibliography')}: there is no file {path.parent / report.bibliography}.")
-    return report
 
 
-def _consistent(report: Report) -> Report:
+def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
+    """Return the values of a text, and put the pieces into `pieces` if it is Markdown."""
+    if markdown:
+        raw, found = read(text)
+        pieces |= found
+        return raw
+    try:
+        return toml.loads(text)
+    except ValueError as error:
+        raise AtlasError(f"this is not TOML: {error}.") from error
+
+
+def _consistent(report: Report, folder: Path) -> Report:
     """Check what the types cannot: that names are unique and that what is called by name exists."""
-    _unique([page.slug for page in report.pages], "two pages have the slug")
-    blocks = [block for page in report.pages for block in page.blocks]
-    _unique([b.id for b in blocks if isinstance(b, Figure) and b.id], "two figures have the id")
-    _unique([b.id for b in blocks if isinstance(b, Table | Listing | Recorded) and b.id], "two tables have the id")
-    for page in report.pages:
-        for place, block in enumerate(page.blocks, 1):
-            _called(block, report, f"page {page.slug!r}, block {place}")
+    blocks = [((k, place), block) for k, page in enumerate(report.pages) for place, block in enumerate(page.blocks)]
+    _unique((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
+    _unique(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")
+    tables = ((path, block.id) for path, block in blocks if isinstance(block, Table | Listing | Recorded))
+    _unique(tables, "tables", "id")
+    for path, block in blocks:
+        _called(block, report, path)
     for name in report.related:
         if name not in names():
-            raise AtlasError(f"related: {unknown('report', name, names(), 'in reports/')}")
+            raise SchemaError("related", str(unknown("report", name, names(), "in reports/")), name)
     if not report.pages or report.pages[0].slug != "index":
-        raise AtlasError("the first page must have the slug 'index': that is the file that readers open.")
+        sentence = "the first must have the slug 'index': that is the file that readers open"
+        raise SchemaError("pages", sentence, "slug", (0,))
+    if report.bibliography and not (folder / report.bibliography).is_file():
+        raise SchemaError("bibliography", f"there is no file {folder / report.bibliography}", "bibliography")
     return report
 
 
@@ -77,28 +90,35 @@ def _filled(report: Report, folder: Path) -> Report:
     return replace(report, pages=pages, style=str(beside) if beside.is_file() else report.style)
 
 
-def _called(block: Block, report: Report, where: str) -> None:
+def _called(block: Block, report: Report, path: tuple[int, int]) -> None:
     """Raise for a body, a field or a set of parameters that a block names and that is not there."""
     known = report.parameters
-    for kind, there, called in (
-        ("body", known.bodies, (getattr(block, "body", None), *getattr(block, "bodies", ()))),
-        ("field", known.fields, (getattr(block, "field", None),)),
-        ("set", known.sets, getattr(block, "sets", ())),
+    for kind, there, key, called in (
+        ("body", known.bodies, "body", (getattr(block, "body", None),)),
+        ("body", known.bodies, "bodies", getattr(block, "bodies", ())),
+        ("field", known.fields, "field", (getattr(block, "field", None),)),
+        ("set", known.sets, "sets", getattr(block, "sets", ())),
     ):
         for name in filter(None, called):
             if name not in there:
-                raise AtlasError(f"{where}: {unknown(kind, name, there, 'in [parameters]')}")
+                where = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
+                raise SchemaError(where, str(unknown(kind, name, there, "in [parameters]")), key, path)
 
 
-def _unique(words: list[str], complaint: str) -> None:
-    """Raise for the first word that comes twice."""
-    for word in words:
-        if words.count(word) > 1:
-            raise AtlasError(f"{complaint} {word!r}.")
+def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> None:
+    """Raise for the first name, given with its place, that comes twice."""
+    seen = set[str]()
+    for path, name in named:
+        if name in seen:
+            raise SchemaError(f"{key} {name!r}", f"two {kind} have it", key, path)
+        seen |= {name} if name else set()
 
 
-def _line(text: str, key: str) -> str:
-    """Give the line of a key, if it stands in the file just once."""
-    pattern = re.compile(rf"\s*(?:\[[^\]]*\b{re.escape(key)}\b|{re.escape(key)}\s*=)|.*[{{,]\s*{re.escape(key)}\s*=")
-    lines = [number for number, line in enumerate(text.splitlines(), 1) if pattern.match(line)]
-    return f", line {lines[0]}" if key and len(lines) == 1 else ""
+def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> str:
+    """Give the line of a mistake: of its key, if that stands once in its block or in the file, else of its block."""
+    there = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
+    key, lines, first = re.escape(error.key), there.lines if there else text.split("\n"), there.line if there else 0
+    pattern = re.compile(rf"\s*(?:\[[^\]]*\b{key}\b|{key}\s*=)|.*[{{,]\s*{key}\s*=")
+    found = [number for number, line in enumerate(lines, first + 1) if pattern.match(line)] if key else []
+    line = found[0] if len(found) == 1 else first
+    return f", line {line}" if line else ""

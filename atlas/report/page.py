@@ -12,9 +12,10 @@ from typing import Any
 
 from atlas.errors import AtlasError, DomainError
 from atlas.families import FAMILIES, Family
-from atlas.report import toml
 from atlas.report.body_and_field import Body, Field, body_and_field
 from atlas.report.digits import plain
+from atlas.report.files import RULE
+from atlas.report.markdown import written
 from atlas.report.schema import convert
 from atlas.report.tables import compute
 from atlas.report.tables.properties import Thing
@@ -68,7 +69,7 @@ class Asked:
 
     def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
         """Return the report file by its name; `there` says whether a page of that name lies beside it."""
-        return {f"{self.name}.toml": headed(self, "".join(toml.lines(definition(self, there))))}
+        return {f"{self.name}.md": headed(self, written(definition(self, there)))}
 
     def changed(self, family: str, **options: Any) -> "Asked":
         """Return what another object near it is asked for by; an option that is None is left out."""
@@ -93,7 +94,7 @@ FIGURES = "## Figures"
 SETTING = {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
-    "# Change it as you like, and build it by `atlas report {name}.toml --format single pdf`.\n\n"
+    "# Change it as you like, and build it by `atlas report {name}.md --format single pdf`.\n\n"
 )
 
 
@@ -105,8 +106,10 @@ def name_of(words: Iterable[str]) -> str:
 
 def headed(asked: Any, content: str) -> str:
     """Return a file of a page, with the command that makes it at its head."""
+    start = f"{RULE}\n" * content.startswith(RULE)
+    content = content.removeprefix(start)
     digest = sha256(content.encode()).hexdigest()[:12]
-    return HEAD.format(command=asked.command.replace("\n", " "), digest=digest, name=asked.name) + content
+    return start + HEAD.format(command=asked.command.replace("\n", " "), digest=digest, name=asked.name) + content
 
 
 def edited(file: str) -> bool:

@@ -19,7 +19,7 @@ def pictures(report: Report) -> dict[str, Picture]:
     """
     drawn: dict[str, Picture] = {}
     for page in report.pages:
-        for place, block in enumerate(page.blocks, 1):
+        for place, block in enumerate(page.blocks):
             if not isinstance(block, Figure):
                 continue
             try:
@@ -28,8 +28,7 @@ def pictures(report: Report) -> dict[str, Picture]:
                         picture.stem = f"{len(drawn) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
                         drawn[name] = picture
             except AtlasError as error:
-                where = f"{report.name}.toml: page {page.slug!r}, block {place} (figure)"
-                raise AtlasError(f"{where}: {error}") from error
+                raise AtlasError(f"{report.place(page, place)}: {error}") from error
     return drawn
 
 

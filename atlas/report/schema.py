@@ -1,4 +1,4 @@
-"""Tables of a TOML file as typed records, and what is wrong with one that does not fit, in a sentence with its key."""
+"""Tables of a report as typed records, and what is wrong with one that does not fit, in a sentence with its key."""
 
 import math
 import re
@@ -28,15 +28,15 @@ T = TypeVar("T")
 
 
 class StrictStruct(msgspec.Struct, frozen=True):
-    """A table of the file; `convert` refuses a key that it does not have."""
+    """A table of the file; `convert` refuses a key that it does not have, and one that is a dataclass of Python."""
 
 
 class SchemaError(AtlasError):
-    """A sentence about a TOML file, and the key that it is about, by which its line is found."""
+    """A sentence about a report file, the key that it is about, and the places in lists on the way to that key."""
 
-    def __init__(self, where: str, sentence: str, key: str = "") -> None:
+    def __init__(self, where: str, sentence: str, key: str = "", path: tuple[int, ...] = ()) -> None:
         super().__init__(f"{where or 'at the top'}: {sentence}")
-        self.key = key
+        self.key, self.path = key, path
 
 
 def convert(raw: Any, kind: type[T], where: str = "") -> T:
@@ -94,7 +94,7 @@ def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> No
 
 def _check_record(raw: dict[str, Any], kind: inspect.StructType, where: str) -> None:
     """Check the keys of a table, and what they hold."""
-    fields = {field.encode_name: field for field in kind.fields}
+    fields = {field.encode_name: field for field in kind.fields if not isinstance(field.type, inspect.DataclassType)}
     for key, value in raw.items():
         if key in fields:
             _check(value, fields[key].type, f"{where}, {key}" if where else key, key)
@@ -109,7 +109,11 @@ def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: 
     """Check the items of a list; pages are named by their slugs."""
     for place, (value, kind) in enumerate(zip(raw, kinds, strict=True), 1):
         name = repr(value["slug"]) if isinstance(value, dict) and "slug" in value else place
-        _check(value, kind, f"{where.removesuffix('s')} {name}", key)
+        try:
+            _check(value, kind, f"{where.removesuffix('s')} {name}", key)
+        except SchemaError as error:
+            error.path = (place - 1, *error.path)
+            raise
 
 
 def _fits(raw: Any, kind: inspect.Type) -> bool:

@@ -82,7 +82,7 @@ def keys(pristine: Path) -> Keys:
     def found(gl: str | None = "egl", **changed: FigureBuild) -> dict[str, str]:
         sources = Sources(Cache(pristine / "cache"))
         wanted = {name: digest(parts_of(one, sources, gl)) for name, one in (WANTED | changed).items()}
-        return wanted | {"report": key_of(places.folder("reports") / "atlas.toml", sources)}
+        return wanted | {"report": key_of(places.folder("reports") / "atlas.md", sources)}
 
     return found
 
@@ -123,7 +123,7 @@ CHANGES = [
     ("the vector renderer", "atlas/draw/plane.py", '"""', '"""New: ', EVERY),
     ("the shaded renderer", "atlas/draw/shaded.py", '"""', '"""New: ', EVERY),
     ("a stored record", "reports/data/bench.json", '"date"', '"date" ', {"horizon"}),
-    ("the prose", "reports/atlas.toml", "title", "title ", set()),
+    ("the prose", "reports/atlas.md", "title", "title ", set()),
     ("a template", "templates/html/page.html", "<", " <", set()),
     ("code that no figure reaches", "atlas/report/html.py", "\ndef pages", "\nNEW = 1\n\n\ndef pages", set()),
 ]

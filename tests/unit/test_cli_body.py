@@ -14,8 +14,8 @@ from atlas.cli import family
 from atlas.cli.app import atlas as command
 from atlas.families import FAMILIES, Command
 from atlas.report.body_and_field import body_and_field
+from atlas.report.files import find
 from atlas.report.load import load
-from atlas.report.toml import find
 
 SHELL = "--shape cylindrical-shell --radius 1e-6 --height 1.2e-6 --mass 1.5e-15 --charge 2e-15 --magnetic 0.75 1.3"
 TETRAGON = "x [m],y,z,mass [kg],charge\n1e-6,0,0,1,-2\n0,1e-6,0,1,-2\n-1e-6,0,0,1,-2\n0,-1e-6,0,1,-2\n"

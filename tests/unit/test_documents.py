@@ -23,11 +23,12 @@ from atlas.paper import EQUATIONS, topic
 from atlas.paper.citation import cited, marked
 from atlas.places import folder
 from atlas.report.blocks import KINDS, Block
+from atlas.report.files import files
 from atlas.report.texts import citations
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 README = (CHECKOUT / "README.md").read_text("utf-8")
-GUIDE = (CHECKOUT / "reports" / "guide.toml").read_text("utf-8")
+GUIDE = (CHECKOUT / "reports" / "guide.md").read_text("utf-8")
 EXAMPLES = [
     *re.findall(r"^    atlas (.+?)(?:\s{2,}#.*|\s+# .*)?$", README, re.MULTILINE),
     *re.findall(r'^  \["`atlas ([^`]+)`"', GUIDE, re.MULTILINE),
@@ -89,10 +90,10 @@ def test_the_readme_quotes_the_benchmark(line: str, method: str, tolerance: floa
 
 
 def test_every_kind_of_block_has_its_name() -> None:
-    """CONTRIBUTING lists the kinds of blocks that a report may have, and no other."""
+    """CONTRIBUTING lists the kinds of blocks that stand in fences, and no other."""
     text = (CHECKOUT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    listed = text[text.index("A block's `kind` is") : text.index("`atlas/report/blocks`")]
-    assert set(re.findall(r"`(\w+)`", listed)) - {"kind"} == set(KINDS)
+    listed = text[text.index("The word in braces is") : text.index("`atlas/report/blocks`")]
+    assert set(re.findall(r"`(\w+)`", listed)) == set(KINDS) - {"prose"}
 
 
 def test_the_table_of_blocks_is_what_a_page_may_hold() -> None:
@@ -176,7 +177,7 @@ def test_every_citation_of_the_sources_is_in_the_ledger() -> None:
     assert [place for place in found if place[2] not in {*EQUATIONS, *css}] == []
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "reports").glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(files().values()), ids=lambda path: path.stem)
 def test_every_equation_that_a_report_cites_is_in_the_ledger(path: Path) -> None:
     """What stands after the sign of citation and begins as the names of the ledger do."""
     names = {name for name in citations(path.read_text("utf-8")) if name.startswith(("(", "text-", "theorem-"))}

@@ -22,8 +22,8 @@ from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import motion_of
 from atlas.errors import AtlasError
-from atlas.report import toml
 from atlas.report.fitted import MEANINGS
+from atlas.report.markdown import read
 from atlas.study.fit.models import MODELS
 
 NOISE = 0.01
@@ -114,7 +114,7 @@ def test_its_commands_make_it_again(folder: Path, monkeypatch: pytest.MonkeyPatc
     """The first one the same files; the one of the motion is a page of the motion that was measured."""
     out = folder / "out"
     before = {file.name: file.read_bytes() for file in out.glob("fit-mine*") if "costs" not in file.name}
-    assert {Path(name).suffix for name in before} == {".toml", ".py", ".html", ".pdf"}
+    assert {Path(name).suffix for name in before} == {".md", ".py", ".html", ".pdf"}
     texts = reader.fromstring((out / "fit-mine-predict-20.html").read_bytes()).xpath("//main//pre")
     (first,) = (
         line for text in texts for line in text.text_content().splitlines() if line.startswith("$ atlas page --fit")
@@ -142,7 +142,7 @@ def test_what_is_not_determined_is_told(tmp_path: Path) -> None:
     file = written(tmp_path / "steady.csv", atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7))
     with pytest.raises(AtlasError, match="not built here"):
         asked(file, tmp_path)
-    blocks = toml.loads((tmp_path / "fit-steady.toml").read_text("utf-8"))["pages"][0]["blocks"]
+    blocks = read((tmp_path / "fit-steady.md").read_text("utf-8"))[0]["pages"][0]["blocks"]
     assert "What the data do not determine:\n\n- No nutation is seen" in blocks[0]["text"]
     assert "are not determined apart" in blocks[0]["text"]
     assert "Nothing in the residuals speaks against" in blocks[0]["text"]
@@ -173,7 +173,7 @@ def test_the_picture_is_of_the_fit_in_the_table(tmp_path: Path) -> None:
     caption = runpy.run_path(str(tmp_path / "fit-few.py"))["scene"]().caption
     sigma = re.search(r"sigma (\S+) found", caption)
     assert sigma
-    assert f"is {sigma[1]}." in (tmp_path / "fit-few.toml").read_text("utf-8")
+    assert f"is {sigma[1]}." in (tmp_path / "fit-few.md").read_text("utf-8")
 
 
 @pytest.mark.slow

@@ -3,7 +3,6 @@
 import doctest
 import re
 import shlex
-import tomllib
 from importlib import import_module
 from pathlib import Path
 
@@ -12,19 +11,20 @@ import pytest
 import atlas
 from atlas.build.appendices import described
 from atlas.cli import main
-from atlas.places import folder
 from atlas.report.blocks.reference import markdown
+from atlas.report.files import find
+from atlas.report.load import load
 from atlas.report.texts import Link, Text, Texts
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^(`{3,})(\w+)\n(.*?)^\1$", re.MULTILINE | re.DOTALL)
 
 
 def blocks() -> list[tuple[str, str, str]]:
     """Return the page, the language and the text of each block of code, in their order."""
-    pages = tomllib.loads((folder("reports") / "guide.toml").read_text("utf-8"))["pages"]
-    texts = [(page["slug"], block["text"]) for page in pages for block in page["blocks"] if "text" in block]
-    return [(slug, *found) for slug, text in texts for found in BLOCK.findall(text)]
+    pages = load(find("guide")).pages
+    texts = [(page.slug, block.text) for page in pages for block in page.blocks if hasattr(block, "text")]
+    return [(slug, *found) for slug, text in texts for _, *found in BLOCK.findall(text)]
 
 
 @pytest.mark.slow
@@ -38,7 +38,7 @@ def test_every_block_of_the_guide_gives_what_it_shows(
     for page, language, text in blocks():
         if text.startswith("# "):
             place = text.split()[1]
-            (tmp_path / place).write_text(text.partition("\n")[2] if place.endswith(".py") else text, "utf-8")
+            (tmp_path / place).write_text(text.partition("\n")[2], "utf-8")
         elif language == "python":
             test = doctest.DocTestParser().get_doctest(text, names, page, None, None)
             runner = doctest.DocTestRunner(optionflags=FLAGS, verbose=False)
@@ -68,8 +68,8 @@ def shell(typed: str, shown: str, capsys: pytest.CaptureFixture[str]) -> str:
 
 def test_the_reference_holds_every_public_name() -> None:
     """Each public name of the package stands in the reference, with its arguments, its docstring and its members."""
-    pages = tomllib.loads((folder("reports") / "guide.toml").read_text("utf-8"))["pages"]
-    listed = [name for page in pages for block in page["blocks"] for name in block.get("names", ())]
+    pages = load(find("guide")).pages
+    listed = [name for page in pages for block in page.blocks for name in getattr(block, "names", ())]
     assert sorted(listed) == sorted(set(atlas.__all__) - {"__version__"})
     known = described()
     assert known["Quadric"].arguments == "(ratio, field)"

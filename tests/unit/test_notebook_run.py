@@ -1,11 +1,12 @@
 """The guide's notebook runs as it is written, and prints what stands in it."""
 
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from atlas.places import folder
+from atlas.report.files import find
+from atlas.report.load import load
 
 
 @pytest.fixture(scope="module")
@@ -57,4 +58,6 @@ def test_objects_and_figures_show_themselves(ran: Any) -> None:
 
 def test_the_guide_holds_it() -> None:
     """It is a page of the guide."""
-    assert 'kind = "notebook"\nfile = "notebook.md"' in Path(folder("reports") / "guide.toml").read_text("utf-8")
+    assert any(
+        getattr(block, "file", "") == "notebook.md" for page in load(find("guide")).pages for block in page.blocks
+    )

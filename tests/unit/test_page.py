@@ -27,8 +27,8 @@ from atlas.cli.page import best
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
-from atlas.report import toml
 from atlas.report.body_and_field import Body, Field, body_and_field
+from atlas.report.markdown import read
 from atlas.report.page import Asked
 from atlas.report.tables import compute
 from atlas.report.tables.closed import convergents
@@ -193,8 +193,8 @@ def test_a_report_file_that_was_changed_is_not_overwritten(
 ) -> None:
     """The page says what to do instead, in one line with status 2, and the good page stays."""
     made = shutil.copytree(ball[0].parent, tmp_path, dirs_exist_ok=True) / ball[0].name
-    good, file = made.read_bytes(), made.parent / f"{made.name.removesuffix('.html')}.toml"
-    assert file.read_text("utf-8").startswith("# Made by `atlas page ball --larmor 0.5 --momentum 0.3 -0.7`")
+    good, file = made.read_bytes(), made.parent / f"{made.name.removesuffix('.html')}.md"
+    assert file.read_text("utf-8").startswith("+++\n# Made by `atlas page ball --larmor 0.5 --momentum 0.3 -0.7`")
     file.write_text(file.read_text("utf-8").replace("charged ball", "my ball"), "utf-8")
     with pytest.raises(SystemExit) as ended:
         main(["page", *BALL.split(), "--out", str(tmp_path)])
@@ -258,8 +258,8 @@ def unbuilt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
     def record(words: str) -> dict[str, Any]:
         with pytest.raises(AtlasError, match="not built here"):
             CliRunner().invoke(command, ["page", *words.split(), "--out", str(tmp_path)], catch_exceptions=False)
-        (file,) = tmp_path.glob("*.toml")
-        return toml.loads(file.read_text("utf-8"))
+        (file,) = tmp_path.glob("*.md")
+        return read(file.read_text("utf-8"))[0]
 
     monkeypatch.setattr("atlas.build.report.build_report", build)
     return record

@@ -9,10 +9,10 @@ import pytest
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.report.blocks.equation import Equation
+from atlas.report.files import find
 from atlas.report.load import load
 from atlas.report.pandoc import Target, _upright
 from atlas.report.texts import Link, Texts
-from atlas.report.toml import find
 
 
 def one(tex: str, target: Target = "html") -> str:

@@ -10,9 +10,9 @@ from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report import bibliography
 from atlas.report.compose import compose
+from atlas.report.files import find, names
 from atlas.report.load import load
 from atlas.report.pictures import pictures
-from atlas.report.toml import find, names
 from atlas.scene import recipes
 
 HEAD = 'name = "a"\ntitle = "A"\n'
@@ -113,7 +113,7 @@ def test_an_unknown_report_is_told_with_the_nearest_name() -> None:
 def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
     """A file that is there but bears another ending is told what a report is."""
     (tmp_path / "data.csv").write_text("1,2\n")
-    with pytest.raises(AtlasError, match=r"data\.csv is no report: a report is a \.toml file\.$"):
+    with pytest.raises(AtlasError, match=r"data\.csv is no report: a report is a \.md or a \.toml file\.$"):
         find(str(tmp_path / "data.csv"))
 
 

@@ -16,10 +16,10 @@ from atlas.places import folder
 from atlas.report import bibliography
 from atlas.report.compose import compose
 from atlas.report.document import THEOREMS, Document
+from atlas.report.files import find, names, related_to
 from atlas.report.load import load
 from atlas.report.pictures import pictures
 from atlas.report.texts import Link, citations
-from atlas.report.toml import find, names, related_to
 
 VOLUMES = ("atlas", "trial")
 

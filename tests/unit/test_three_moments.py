@@ -16,10 +16,10 @@ from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.table import Table
 from atlas.report.digits import Number
+from atlas.report.files import find
 from atlas.report.load import load
 from atlas.report.tables import compute
 from atlas.report.tables.table import Request
-from atlas.report.toml import find
 from atlas.scene import recipes
 
 REPORT = load(find("three_moments"))

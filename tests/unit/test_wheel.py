@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 Run = Callable[..., subprocess.CompletedProcess[str]]
-GUIDE = (ROOT / "reports" / "guide.toml").read_text(encoding="utf-8")
+GUIDE = (ROOT / "reports" / "guide.md").read_text(encoding="utf-8")
 RECIPE = re.search(r"^```python\n# (my_precession\.py)\n(.*?)^```$", GUIDE, re.MULTILINE | re.DOTALL)
 COMMAND = re.search(r"^\$ (atlas figure \./my_precession\.py .*)\n((?:build/.*\n)+)", GUIDE, re.MULTILINE)
 REPORT = """

@@ -115,7 +115,7 @@ def report_keys() -> Data:
     from atlas.report.definition import Index, Page, Report, Thumbnail
 
     where = {
-        "at the top": Report, "`[[pages]]`": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
+        "in the head": Report, "`{page}`, below its title": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
         "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
     }  # fmt: skip
     says = (
@@ -153,6 +153,8 @@ def _keys(kind: Any) -> Iterator[str]:
             yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"
         return
     for key in msgspec.structs.fields(kind):
+        if is_dataclass(key.type) or key.name in {"pages", "blocks"}:  # which have no key in the file
+            continue
         plain = isinstance(key.default, str | int | float | bool) and key.default != ""
         left_out = f"`{key.name}` = {toml.written(key.default)}" if plain else f"`{key.name}`"
         yield f"**`{key.name}`**" if key.required else left_out
