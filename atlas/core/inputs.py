@@ -2,16 +2,16 @@
 
 import reprlib
 from collections.abc import Sequence
-from functools import cached_property
 from math import isfinite
 from numbers import Number
-from typing import Any, Self, TypeVar, overload
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.core.quantities import bare
 from atlas.errors import AtlasError, DomainError
+from atlas.lazy import cached_property
 
 FloatArray = NDArray[np.float64]
 Value = TypeVar("Value")
@@ -167,13 +167,9 @@ def frozen(value: Value) -> Value:
 class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
     """A `cached_property` whose arrays can't be written into: other values hang on them."""
 
-    @overload
-    def __get__(self, instance: None, owner: type[Any] | None = None) -> Self: ...
-    @overload
-    def __get__(self, instance: object, owner: type[Any] | None = None) -> Value: ...
-    def __get__(self, instance: object | None, owner: type[Any] | None = None) -> Any:
-        found = super().__get__(instance, owner)
-        return found if instance is None else frozen(found)
+    def complete(self, value: Value) -> Value:
+        """Return the value with its arrays made read-only."""
+        return frozen(value)
 
 
 def plain(array: Any) -> Any:

@@ -66,9 +66,10 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
         """Return the value, made if the precision of the moment is above what it was made with."""
         if one is None:
             return self
-        known: tuple[int, Value] | None = vars(one).get(self._place)
-        if known is None or known[0] < ctx.prec:
-            vars(one)[self._place] = known = ctx.prec, self._of(one)
+        with _LOCK:  # else the precision could be another thread's, or change while the value is made
+            known: tuple[int, Value] | None = vars(one).get(self._place)
+            if known is None or known[0] < ctx.prec:
+                vars(one)[self._place] = known = ctx.prec, self._of(one)
         return known[1]
 
 

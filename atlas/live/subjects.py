@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 from atlas.errors import AtlasError, nearest
 from atlas.families import FAMILIES, Family
 from atlas.families.sliders import Slider, letters, sliders_of, step_of
+from atlas.lazy import cached_property
 from atlas.scene import recipes
 from atlas.scene.layers import Scene
 from atlas.scene.parameters import MEANINGS

@@ -4,10 +4,10 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 from atlas.errors import AtlasError, unknown
+from atlas.lazy import cached_property
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
 from atlas.paper.plain import plain

@@ -6,7 +6,6 @@ their rounding errors, and the whole turns are dropped before anything is rounde
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 from math import frexp, inf, ldexp, nextafter
 from typing import Self
 
@@ -18,6 +17,7 @@ from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, turn_of
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.formulas.numbers import Number, nearest, workprec
+from atlas.lazy import cached_property
 
 LIMIT = 2.0**50
 """Largest phase |f t| in radians: beyond it two words of f no longer hold the turn."""

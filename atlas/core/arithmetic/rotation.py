@@ -10,7 +10,6 @@ F_r being products of functions of k s and phi s. With tau = 0 that gives R(s) i
 
 import reprlib
 from collections.abc import Callable, Mapping
-from functools import cached_property
 from math import prod
 from types import MappingProxyType
 from typing import Any
@@ -24,6 +23,7 @@ from atlas.core.arithmetic.words import TURN, words
 from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
 from atlas.formulas.numbers import Number, nearest, workprec
+from atlas.lazy import cached_property
 
 Axis = tuple[Number, Number, Number]
 """A unit vector of exact numbers."""

@@ -25,7 +25,6 @@ All functions are pure, in plain floats, and broadcast: they serve figures and c
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import Any, Literal
 
@@ -39,6 +38,7 @@ from atlas.core.motions.clebsch import clebsch
 from atlas.core.motions.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.formulas.elliptic import split
+from atlas.lazy import cached_property
 
 
 @dataclass(frozen=True)

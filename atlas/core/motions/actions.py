@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from flint import arb
 
 from atlas.core.inputs import FloatArray, finite, scaled
 from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.motions.sensitivity import One
 from atlas.core.motions.spectrum import coefficients, wheels_of
 from atlas.errors import AtlasError
+from atlas.formulas.numbers import nearest
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def _mean(function: Callable[[FloatArray], FloatArray]) -> float:
 def _of_torus(single: Any, J: FloatArray) -> list[float]:
     """Return the actions of the two phases of a torus: along the flows of H and F/2, and back about the field."""
     kernel, actions_of_cycles = single.closed, []
-    unit = float(arb(single.exact.inertia[0] / single.exact.on_torus.moments[0]).mid())
+    unit = nearest(single.exact.inertia[0] / single.exact.on_torus.moments[0])
     for i, period in enumerate(kernel.periods):
         T_H, T_F, angle = (float(x.mid()) for x in (period.H, period.F, period.angle))
         angle -= 2 * np.pi * round(angle / (2 * np.pi))

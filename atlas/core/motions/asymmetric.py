@@ -1,10 +1,9 @@
 """Any motion of a charged body with three different moments of inertia (not in the paper)."""
 
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from flint import arb
 
 from atlas.core.arithmetic.rotation import target
 from atlas.core.arithmetic.words import floats
@@ -19,6 +18,7 @@ from atlas.exact.digits import enclosed
 from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.motions.elliptic import EllipticMotion, EulerTop
 from atlas.formulas.numbers import nearest
+from atlas.lazy import cached_property
 
 BITS = 60
 """Relative accuracy of a frequency before it is rounded, once."""
@@ -38,7 +38,7 @@ class SingleAsymmetric:
 
     def __init__(self, exact: Balls) -> None:
         self.exact = exact
-        self.size = max(float(abs(arb(x)).upper()) for x in (*exact.field, *exact.omega)) or 1.0
+        self.size = max(nearest(abs(x)) for x in (*exact.field, *exact.omega)) or 1.0
         self.certified = Certified(exact, self.size)
 
     @cached_property

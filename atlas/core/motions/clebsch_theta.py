@@ -9,7 +9,6 @@ phases in turns, n the whole ones that are left out of f t, and theta_k the angl
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
 from itertools import chain
 from typing import Any
 
@@ -32,6 +31,7 @@ from atlas.exact.motions.clebsch_theta import ThetaMotion, frame
 from atlas.exact.motions.theta_sums import HALF, Array, Sums
 from atlas.exact.motions.torus import Period, Torus, frequencies
 from atlas.formulas.numbers import workprec
+from atlas.lazy import cached_property
 
 PART = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""

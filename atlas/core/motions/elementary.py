@@ -1,7 +1,7 @@
 """Motions of a symmetric body in elementary functions, (58) to (88), and the free body beside them, (87)."""
 
 from collections.abc import Callable
-from functools import cached_property, partial
+from functools import partial
 from math import prod
 from typing import Any
 
@@ -22,6 +22,7 @@ from atlas.formulas.domain import CASES, FREE, case_of, check_omega3
 from atlas.formulas.elementary import conserved, constants, free, quotient, scalars, turning
 from atlas.formulas.integrals import NAMES
 from atlas.formulas.numbers import direction, nearest, workprec
+from atlas.lazy import cached_property
 
 
 class Elementary(DoubleRotation):

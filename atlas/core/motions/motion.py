@@ -2,7 +2,7 @@
 
 import reprlib
 from collections.abc import Callable, Mapping
-from functools import cached_property, partial
+from functools import partial
 from importlib import import_module
 from math import prod
 from numbers import Integral
@@ -18,6 +18,7 @@ from atlas.core.inputs import FloatArray, common_shape, finite, number, real, wh
 from atlas.core.quantities import TIME, bare
 from atlas.core.shown import Shown, notebook
 from atlas.errors import AtlasError
+from atlas.lazy import cached_property
 
 OTHERS = {
     "omega2": "atlas.ElementaryMotion(ratio, field, omega2), the paper's family",
@@ -74,13 +75,14 @@ class Motion(Shown, Generic[Single]):
 
     def _single(self, i: int = 0) -> Single:
         """Return the i-th motion, made by itself."""
-        if i not in self._made:
+        single = self._made.get(i)
+        if single is None:
             if len(self._made) >= KEPT:
                 self._made.clear()
             values = (np.asarray(x) for x in self._inputs)
             row = (np.broadcast_to(x, self.shape).flat[i] if self.shape else x[()] for x in values)
-            self._made[i] = self._make(*(x if x is None else float(x) for x in row))
-        return self._made[i]
+            single = self._made.setdefault(i, self._make(*(x if x is None else float(x) for x in row)))
+        return single
 
     def _of_each(self, value: Callable[[Single], Any]) -> Any:
         """Return a value of each motion made by itself: plain for one motion, else an array."""

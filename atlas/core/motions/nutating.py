@@ -1,7 +1,6 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
 from collections.abc import Callable, Container, Sequence
-from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
@@ -17,6 +16,7 @@ from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.nutation.nutating import Nutating
 from atlas.formulas.numbers import nearest
+from atlas.lazy import cached_property
 
 NAME = "U28"
 """Names of kinds, none of which is longer."""

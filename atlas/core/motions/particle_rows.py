@@ -8,7 +8,6 @@ a phase do not cancel where it is zero.
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
-from functools import cached_property
 from math import factorial
 from typing import Any, Self
 
@@ -23,6 +22,7 @@ from atlas.errors import DomainError
 from atlas.formulas import particle
 from atlas.formulas.domain import check_force
 from atlas.formulas.numbers import Number, nearest, rational, workprec
+from atlas.lazy import cached_property
 
 SERIES = np.array([(-1) ** n / factorial(2 * n + 3) for n in range(12, -1, -1)])
 """Coefficients of (x - sin x)/x^3 in powers of x^2, highest first: to the last digit for |x| < 2."""

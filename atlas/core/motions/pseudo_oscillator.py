@@ -1,7 +1,6 @@
 """The cubic pseudo-oscillator that Omega3 obeys, (46) to (49), and its first integral, a quartic."""
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from atlas.core.inputs import FloatArray, common_shape, finite, kept, plain, rea
 from atlas.core.motions.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
 from atlas.formulas.integrals import cubic, quartic
+from atlas.lazy import cached_property
 
 
 class PseudoOscillator:

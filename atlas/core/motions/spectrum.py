@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import arb
+from flint import arb, fmpq
 from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray, finite, number, real, scaled
@@ -23,6 +23,7 @@ from atlas.core.quantities import TIME, bare
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.nutation.cayley_klein import infinite
+from atlas.formulas.numbers import nearest
 
 OF = ("rotation", "axis", "angular_velocity", "field")
 """What may be asked for."""
@@ -206,15 +207,15 @@ def wheels_of(motion: Any) -> Wheels:
             return _of_torus(single, closed, L, C)
         if single.exact.kind in ("ball", "symmetric body"):
             state = motion.field_in_body(0.0), motion.angular_velocity(0.0)
-            moments = [float(arb(x).mid()) for x in single.exact.inertia]
+            moments = [nearest(x) for x in single.exact.inertia]
             return wheels_of(import_module("atlas.core.motions.chosen").motion(C.T * moments @ C, *state))
         if closed is None:
             raise DomainError(f"The motion has no lines in closed form: it is {single.exact.kind}, {single.agreement}")
         return _of_nutation(motion, closed.exact, L, C)
     if isinstance(single, SingleMotion):
         return _of_nutation(motion, single.exact, L @ single.rotation(0.0), C)
-    n = np.array([float(arb(x).mid()) for x in single.axis])
-    k, phi = (float(arb(x).mid()) for x in single.frequencies)
+    n = np.array([nearest(x) for x in single.axis])
+    k, phi = (nearest(x) for x in single.frequencies)
     turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)
     return Wheels(
         L @ turns[0], turns[1], turns[2] @ C, turns[3], np.empty(0), lambda of, _: _values(motion, of)(0.0)[None]
@@ -232,9 +233,9 @@ def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheel
     rates = enclosed(lambda: _rates(exact), BITS)
     half, p, s = (float(x.mid()) for x in rates)
     finite(2 * half, "The period")
-    n, third = (np.array([float(arb(x).mid()) for x in v]) for v in (exact.field, exact.omega))
+    n, third = (np.array([nearest(x) for x in v]) for v in (exact.field, exact.omega))
     if not n.any():  # a free body precesses about its momentum
-        n = third * (1.0, 1.0, float(arb(getattr(exact, "I", 1)).mid()))
+        n = third * (1.0, 1.0, nearest(getattr(exact, "I", fmpq(1))))
     n = L @ scaled(n)[0]
     n /= np.linalg.norm(n) or 1.0
     a = np.eye(3)[getattr(exact, "places", (0, 1, 2))[2]] @ C

@@ -1,7 +1,7 @@
 """A motion seen in other axes: those of the laboratory and of the body that a user has."""
 
 from collections.abc import Mapping
-from functools import cache, cached_property
+from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from atlas.core.motions.motion import Motion, check_column
 from atlas.core.quantities import TIME, bare
 from atlas.core.shown import made
 from atlas.errors import AtlasError
+from atlas.lazy import cached_property
 
 
 class Turned(Motion[Any]):

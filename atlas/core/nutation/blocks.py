@@ -7,7 +7,6 @@ Where kappa is not zero, the integral of nu adds to the turn about the axis that
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import prod
 from typing import Any, NamedTuple
 
@@ -21,6 +20,7 @@ from atlas.core.nutation.pair import TERMS, Pair
 from atlas.core.nutation.roots import Roots, roots_of, roots_of_tops
 from atlas.core.nutation.spheres import sphere_of_field
 from atlas.core.nutation.swing_rows import Swings, SwingSums, swing_sums
+from atlas.lazy import cached_property
 
 SPREAD = 2.0**-60
 """Least part of the largest frequency that another one is, if it is not zero."""

@@ -4,7 +4,6 @@ alpha and beta, up to a common real factor, are sums of the functions of time of
 """
 
 from collections.abc import Callable, Mapping
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from atlas.errors import DomainError
 from atlas.exact.nutation.cayley_klein import Solution, infinite
 from atlas.exact.nutation.swing import Crossing as ExactCrossing
 from atlas.formulas.numbers import rational, workprec
+from atlas.lazy import cached_property
 
 FIRST = 256
 """Binary digits with which the constants are tried first."""
@@ -49,16 +49,7 @@ class CayleyKlein:
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
         self.precision, self.sloping, self._solution = FIRST, slopes, solution
         while not self._are_constants_known(solution, self.precision):
-            self._refine()
-
-    def _refine(self) -> None:
-        """Double the precision. Raises DomainError where that is hopeless."""
-        self.precision *= 2
-        if self.precision > MOST:
-            raise DomainError(
-                f"The constants of this motion are not known with {MOST} binary digits: it is too near to a case of "
-                "its own, as is a separatrix, or its rates are of sizes too different."
-            )
+            self.precision = _doubled(self.precision)
 
     def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Return what `Evaluation.parts` does, each time by itself: where the turn of a top is too long for words."""
@@ -69,8 +60,9 @@ class CayleyKlein:
 
     def _in_balls(self, t: fmpq) -> list[float]:
         """Return the real parts, the imaginary parts and, if `sloping`, those of the derivatives at a time."""
+        precision = self.precision
         while True:
-            with workprec(self.precision):
+            with workprec(precision):
                 solution = self._solution()
                 a, b, da, db = solution.parameters(t, turning=False)
                 unit = (abs(a) ** 2 + abs(b) ** 2).sqrt() * (-1 if solution.is_flipped(t) else 1)
@@ -79,7 +71,7 @@ class CayleyKlein:
                 sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in parts]
                 if all(_radius(x) <= WEIGHT * float(y) for four, y in zip(parts, sizes, strict=True) for x in four):
                     return [float(x.mid()) for four in parts for x in four]
-            self._refine()
+            precision = _doubled(precision)
 
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
         """Take the constants at one precision; return whether it suffices."""
@@ -132,6 +124,16 @@ class CayleyKlein:
         if hyperbolic or (self.swing and self.swing.is_large):
             phases.near = -1.0
         return phases
+
+
+def _doubled(precision: int) -> int:
+    """Return twice the precision. Raises DomainError where more digits are hopeless."""
+    if 2 * precision > MOST:
+        raise DomainError(
+            f"The constants of this motion are not known with {MOST} binary digits: it is too near to a case of "
+            "its own, as is a separatrix, or its rates are of sizes too different."
+        )
+    return 2 * precision
 
 
 def _swing(exact: Any) -> Any:

@@ -13,7 +13,6 @@ where nothing cancels but w, next to a separatrix. Kinds other than "elliptic" a
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -26,6 +25,7 @@ from atlas.core.nutation.roots import Turning, poles_of
 from atlas.core.nutation.rows import MotionsAtTimes, Pairs
 from atlas.core.nutation.scalars import HALF_TURN, Rounded, Scalars, of_period, rounded
 from atlas.core.nutation.spheres import Sphere, half_angles
+from atlas.lazy import cached_property
 
 PLANE = 1 + 1e-12
 """Factor to the largest moment from which on a body is all but plane, and whether it is one is told exactly."""

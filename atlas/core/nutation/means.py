@@ -5,11 +5,11 @@ With the turning points and the other factor f of Q, let N = sqrt(f(low) f(high)
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from atlas.core.arithmetic.double_double import ONE, DoubleDouble, chosen, constant
 from atlas.core.nutation.roots import Turning
+from atlas.lazy import cached_property
 
 MEANS = 12
 """Steps of the means in two words."""

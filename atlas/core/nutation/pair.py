@@ -6,7 +6,6 @@ kind (Gauss), and, of p = M coth y, the depth y of the zero: p' = (p^2 + a g)/(2
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +22,7 @@ from atlas.core.arithmetic.double_double import (
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, Circle, Level, Means
 from atlas.core.nutation.spheres import Sphere
+from atlas.lazy import cached_property
 
 STEPS = 60
 """Steps of what is made along with the means."""

@@ -9,7 +9,6 @@ or not.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +24,7 @@ from atlas.core.arithmetic.double_double import (
 )
 from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
+from atlas.lazy import cached_property
 
 STEPS = 60
 """Most steps to a turning point in doubles; next to a double root more would be needed."""

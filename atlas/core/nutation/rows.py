@@ -6,7 +6,6 @@ different sizes.
 """
 
 from collections.abc import Callable
-from functools import cached_property
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -19,6 +18,7 @@ from atlas.core.nutation.blocks import KNOWN, Block, Blocks, Constants
 from atlas.core.nutation.pair import Pair, multiples
 from atlas.core.nutation.spheres import sphere_of_velocity
 from atlas.core.nutation.swing_rows import TURN_ERROR, Swings
+from atlas.lazy import cached_property
 
 CANCELLING = 6.0
 """By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `Pairs`."""

@@ -5,7 +5,7 @@ the pair of its axis.
 """
 
 from collections.abc import Callable
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 from atlas.exact.nutation.nutating import Nutating
 from atlas.formulas.numbers import nearest, workprec
+from atlas.lazy import cached_property
 
 BITS = 60
 """Relative accuracy of a scalar before it is rounded, once."""

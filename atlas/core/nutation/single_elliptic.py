@@ -1,6 +1,5 @@
 """One motion in Jacobi's functions, elliptic or of a free body: what turns times into matrices and into Omega."""
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,8 @@ from atlas.core.inputs import FloatArray
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.elliptic import EllipticMotion, EulerTop
+from atlas.formulas.numbers import rounded
+from atlas.lazy import cached_property
 
 WITHIN = 3.6e-15
 """Bound on errors of entries of R, and of the vector that turns like K, beside its length."""
@@ -37,7 +38,7 @@ class SingleElliptic(SingleMotion):
 
     def accuracy(self, size: float) -> float:
         """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
-        return WITHIN * max(1.0, float(abs(self._rates).max()) * float(arb(self.exact.b).upper()) / size)
+        return WITHIN * max(1.0, float(abs(self._rates).max()) * rounded(lambda: self.exact.b) / size)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""

@@ -5,7 +5,6 @@ the upper, beta at the lower.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from atlas.core.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.roots import Roots, Turning
+from atlas.lazy import cached_property
 
 
 @dataclass(frozen=True)

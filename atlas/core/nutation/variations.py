@@ -9,7 +9,6 @@ with all other constants; v_s and the bounded part are those of the pair (alpha,
 """
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.nutation.varied_pair import Array, Pair
 from atlas.exact.nutation.differences import Differences
 from atlas.exact.nutation.variations import Variation
+from atlas.lazy import cached_property
 
 BLOCK = 2048
 """Times at once: products of so few the library does not thread."""

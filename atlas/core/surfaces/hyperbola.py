@@ -1,7 +1,6 @@
 """The hyperbola of elementary motions, (67) to (72), sampled by hyperbolic parameter, and its stability."""
 
 from collections.abc import Callable
-from functools import cached_property
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.formulas.domain import check_asymptotes, check_curve
 from atlas.formulas.hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.formulas.numbers import Number, length, nearest, root, workprec
+from atlas.lazy import cached_property
 
 if TYPE_CHECKING:
     from atlas.core.motions.general import GeneralMotion

@@ -89,11 +89,12 @@ class OnTorus:
         """Return W, K and the quaternion of S at time t, and the angle about the field that comes before S."""
         t = rational(t, "the time") * self.rate
         key = t, ctx.prec
-        if key not in self._arrived:
+        arrived = self._arrived.get(key)
+        if arrived is None:
             if len(self._arrived) >= KEPT:
                 self._arrived.clear()
-            self._arrived[key] = self._state(t)
-        return self._arrived[key]
+            arrived = self._arrived[key] = self._state(t)
+        return arrived
 
     def _state(self, t: fmpq) -> tuple[Arrival, arb]:
         bits, more = ctx.prec + GUARD, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8

@@ -9,7 +9,6 @@ each with one simple zero in a cell of the lattice of Omega3: so each is a theta
 factor that both share, and the matrix is that of the quaternion (alpha, beta) over its length.
 """
 
-from functools import cached_property
 from typing import Any, Self
 
 from flint import acb, arb, fmpq
@@ -22,6 +21,7 @@ from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.quartic import Quartic, Vector
 from atlas.exact.nutation.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
 from atlas.formulas.numbers import by_precision, dot, root
+from atlas.lazy import cached_property
 
 
 class GeneralMotion(Nutating):
@@ -50,7 +50,7 @@ class GeneralMotion(Nutating):
         self.kind = self._kind()
 
     @cached_property
-    def cancelled(self) -> int:  # type: ignore[override]  # not writable
+    def cancelled(self) -> int:
         """Digits, of base two, that the spin in a period loses: it is of the order of 1 - I."""
         less = abs(1 - self.I)
         return max(0, int(less.q).bit_length() - int(less.p).bit_length()) if less != 0 else 0

@@ -6,7 +6,6 @@ type (1, 2) is the torus. Its branch points over that curve are the zeros of g +
 v = -g/2c. All coefficients are rational, of the inputs as doubles or decimals.
 """
 
-from functools import cached_property
 from math import log2
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from atlas.exact.motions.clebsch_cycles import action, cycles, riemann_matrix
 from atlas.exact.motions.clebsch_theta import ThetaMotion
 from atlas.exact.motions.theta_sums import CHARACTERISTICS
 from atlas.formulas.numbers import by_precision, workprec
+from atlas.lazy import cached_property
 
 if TYPE_CHECKING:
     from atlas.exact.motions.clebsch_periods import Integrals

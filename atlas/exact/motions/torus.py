@@ -13,7 +13,6 @@ components are then those of the start, since H, F and both Casimirs are, and th
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import combinations
 
 from flint import arb, arb_mat, fmpq
@@ -23,6 +22,7 @@ from atlas.exact.motions.clebsch_flow import Arrival, Flow
 from atlas.exact.motions.clebsch_lattice import Lattice, lattice
 from atlas.exact.motions.clebsch_periods import Integrals, nearest, real_periods
 from atlas.formulas.numbers import Vector, cross, dot, workprec
+from atlas.lazy import cached_property
 
 GOOD, FIRST = 320, 200
 """Bits to which periods are proved at once from where they start, and those of a first flow that improves them."""
@@ -74,7 +74,7 @@ class Torus:
 
     def periods(self, bits: int) -> tuple[Period, Period]:
         """Return two periods with so many bits; NotCertifiedError where none are found."""
-        bits = min((known for known in self._known if known >= bits), default=-(-bits // 32) * 32)
+        bits = min((known for known in tuple(self._known) if known >= bits), default=-(-bits // 32) * 32)
         if bits not in self._known:
             lost, reason = self._lost
             if bits <= lost:  # a long way, which no fewer bits go

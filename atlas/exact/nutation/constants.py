@@ -8,13 +8,13 @@ that is, the sign of the torque says.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 
 from flint import acb, arb, fmpq
 
 from atlas.exact.nutation.cayley_klein import Lattice, Parameter, Solution, Sum, constant, infinite, vanishing_at
 from atlas.exact.nutation.quartic import Quartic, Root
 from atlas.exact.nutation.spheres import Sphere
+from atlas.lazy import cached_property
 
 
 @dataclass(frozen=True)

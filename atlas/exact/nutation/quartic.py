@@ -18,7 +18,6 @@ coefficients are x + y sqrt(n2^2 + n3^2) with rational x, y, so that a multiple 
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq
@@ -27,6 +26,7 @@ from atlas.exact.arithmetic.surd import Polynomial, Surd, derivative, evaluated,
 from atlas.exact.inputs import Real
 from atlas.formulas.integrals import along_field, integrals, quartic
 from atlas.formulas.numbers import by_precision, workprec
+from atlas.lazy import cached_property
 
 Vector = tuple[fmpq, fmpq, fmpq]
 

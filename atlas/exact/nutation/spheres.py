@@ -14,7 +14,6 @@ P(u) = u^2 - (2-I) c3 u + c5, and f = 0. So Omega keeps its digits however slow 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 from flint import acb, arb, fmpq
 
@@ -22,6 +21,7 @@ from atlas.exact.arithmetic.surd import Surd
 from atlas.exact.inputs import Real
 from atlas.exact.nutation.quartic import Quartic, Vector
 from atlas.formulas.numbers import root
+from atlas.lazy import cached_property
 
 POLES = (-1, 1)
 

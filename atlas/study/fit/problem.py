@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
+from atlas.lazy import cached_property
 from atlas.study.fit.data import STEP, Data
 from atlas.study.fit.flow import ERROR, FINE
 from atlas.study.fit.least import RHO

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray, positive, real
 from atlas.core.shown import notebook
 from atlas.errors import AtlasError
+from atlas.lazy import cached_property
 from atlas.paper.plain import html_table, table
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.study.fit.data import KINDS, Data

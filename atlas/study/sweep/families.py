@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from atlas import families
 from atlas.errors import AtlasError, DomainError
 from atlas.families import Family, Quantity
 from atlas.families.family import TIME
+from atlas.lazy import cached_property
 
 Row = Mapping[str, Any]
 NAME = "U28"

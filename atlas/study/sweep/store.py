@@ -15,13 +15,14 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from datetime import datetime
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from tempfile import gettempdir
 from typing import IO, Any
 
 from atlas import files
 from atlas.errors import AtlasError
+from atlas.lazy import cached_property
 from atlas.places import own_folder
 from atlas.study.sweep.tables import check_format
 

@@ -1,0 +1,36 @@
+"""Attributes that are made when they are first asked for, by any thread."""
+
+import functools
+from typing import Any, Self, TypeVar, overload
+
+Value = TypeVar("Value")
+
+
+class cached_property(functools.cached_property[Value]):  # noqa: N801, TID251  used as the one of the library
+    """A property that is computed once and kept in the instance, with no lock and for all threads.
+
+    Threads that ask at the same time may compute the value at the same time; all of them get the one that was stored
+    first. The lock of Python 3.11's property, one for all instances of a class, waits for ever where a thread that
+    holds it waits for `workprec`, and a thread in `workprec` waits for it.
+
+    A method of a subclass may use the value of the parent, `super().name`: that is not stored, since it would stand
+    where the subclass's value belongs.
+    """
+
+    @overload
+    def __get__(self, instance: None, owner: type[Any] | None = None) -> Self: ...
+    @overload
+    def __get__(self, instance: object, owner: type[Any] | None = None) -> Value: ...
+    def __get__(self, instance: object | None, owner: type[Any] | None = None) -> Any:
+        """Return the value, computed if there is none yet."""
+        if instance is None:
+            return self
+        name = str(self.attrname)
+        if getattr(type(instance), name) is not self:
+            return self.complete(self.func(instance))
+        values = vars(instance)
+        return values[name] if name in values else values.setdefault(name, self.complete(self.func(instance)))
+
+    def complete(self, value: Value) -> Value:
+        """Return the value as it is stored."""
+        return value
