@@ -1,8 +1,8 @@
 """A folder of what was built, each thing in a file named after the digest of everything it depends on.
 
-An entry begins with the digest of what follows. It is written whole or not at all, and checked when it is read: one
-that was damaged counts as missing and is made again. Two processes that write the same entry do no harm. The folder
-may be deleted at any time.
+An entry begins with the digest of its key and of what follows. It is written whole or not at all, and checked when it
+is read: one that was damaged, or that is the entry of another key, counts as missing and is made again. Two processes
+that write the same entry do no harm. The folder may be deleted at any time.
 
 It is not diskcache, which has had no release since 2023 and unpickles what it reads (CVE-2025-69872), nor
 joblib.Memory, which pickles too: nothing that is read here can run code.
@@ -34,7 +34,7 @@ class Cache:
         self.folder = folder.absolute()
 
     def get(self, key: str) -> bytes | None:
-        """Return the entry of a key, or None if there is none or it is damaged."""
+        """Return the entry of a key, or None if there is none, or a damaged one, or that of another key."""
         path = self._path(key)
         try:
             expected, _, content = path.read_bytes().partition(b"\n")
@@ -42,11 +42,11 @@ class Cache:
                 os.utime(path)  # it is in use
         except OSError:
             return None
-        return content if _hash(content) == expected else None
+        return content if _hash(key, content) == expected else None
 
     def put(self, key: str, content: bytes) -> bytes:
         """Write the entry of a key, and return it."""
-        files.write(self._path(key), _hash(content) + b"\n" + content)
+        files.write(self._path(key), _hash(key, content) + b"\n" + content)
         return content
 
     def recall(self, key: str, make: Callable[[], bytes]) -> bytes:
@@ -89,5 +89,5 @@ class Cache:
         return self.folder / key[:2] / key
 
 
-def _hash(content: bytes) -> bytes:
-    return hashlib.sha256(content).hexdigest().encode()
+def _hash(key: str, content: bytes) -> bytes:
+    return hashlib.sha256(key.encode() + b"\n" + content).hexdigest().encode()

@@ -51,6 +51,7 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
     from atlas import proof
+    from atlas.build.cache import Cache
     from atlas.paper import find
     from atlas.places import cache_folder
     from atlas.proof.run import CACHE
@@ -58,7 +59,7 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
     if script and (as_json or len({entry.name for name in names for entry in find(name)}) != 1):
         raise click.UsageError("--script prints one script: name one equation, without --json.")
 
-    options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else cache_folder(CACHE) / "proofs"}
+    options: dict[str, Any] = {"jobs": jobs, "store": None if anew else Cache(cache_folder(CACHE))}
     with bar("trials") as tell:
         verdicts = proof.verify(names or None, lambda name, done, total: tell(done, total, name), **options)
     if script:

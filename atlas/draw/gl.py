@@ -60,14 +60,14 @@ def library() -> str | None:
         return choice
     file = _answer_file()
     try:
-        known = json.loads(file.read_text(encoding="utf-8"))["library"] if file else None
+        known = json.loads(file.read_text(encoding="utf-8"))[file.stem] if file else None
     except (OSError, ValueError, KeyError, TypeError):
         known = None  # there is none, or half of one: probe again
     if known not in {*KNOWN, NONE}:
         known = next((name for name in _candidates() if _draws(name)), NONE)
         if file:
             with suppress(OSError):  # it is probed again next time
-                files.write(file, json.dumps({"library": known}))
+                files.write(file, json.dumps({file.stem: known}))
     return None if known == NONE else str(known)
 
 

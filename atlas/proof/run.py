@@ -15,14 +15,15 @@ from typing import Any
 from atlas import processes
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, equation, find, topic
-from atlas.paper.equation import slug
 from atlas.proof import recorded
 from atlas.proof.decide import Outcome
 from atlas.proof.trial import Part, Trial
 from atlas.proof.verdict import Verdict
+from atlas.sources import digest
 
 LIMIT = 60.0  # seconds of the processor that one trial may take; more is undecided
 CACHE = Path("build") / "proofs"
+FIELDS = sorted(Verdict.__dataclass_fields__)
 
 Progress = Callable[[str, int, int], None]
 
@@ -120,27 +121,24 @@ def verify(
     progress: Progress | None = None,
     *,
     jobs: int = 1,
-    cache_folder: Path | None = None,
+    store: Any = None,
 ) -> list[Verdict]:
     """Try entries of the ledger, all if none is named, and return their verdicts in the ledger's order.
 
     progress      called with (name, how many are done, how many there are) after each trial
     jobs          processes side by side
-    cache_folder  where verdicts are kept by the fingerprint of their proof; None tries everything anew
+    store         cache in which verdicts are kept by the fingerprint of their proof; None tries everything anew
     """
     meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
     wanted = [name for name in EQUATIONS if name in meant]
-    folder = cache_folder
-    places = {name: folder / f"verdict-{slug(name)}-{recorded.source(name)}.json" for name in wanted} if folder else {}
-    verdicts = {name: Verdict(**json.loads(path.read_text("utf-8"))) for name, path in places.items() if path.is_file()}
+    keys = {name: digest("verdict", FIELDS, name, recorded.source(name)) for name in wanted} if store else {}
+    known = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
+    verdicts = {name: Verdict(**json.loads(entry)) for name, entry in known.items()}
     missing = [name for name in wanted if name not in verdicts]
     for done, (name, result) in enumerate(_each(missing, jobs), len(verdicts) + 1):
         verdicts[name] = result
-        if folder:
-            folder.mkdir(parents=True, exist_ok=True)
-            fresh = places[name].with_suffix(".new")
-            fresh.write_text(json.dumps(result.as_dict()), "utf-8")
-            fresh.replace(places[name])
+        if store:
+            store.put(keys[name], json.dumps(result.as_dict()).encode())
         if progress:
             progress(name, done, len(wanted))
     return [verdicts[name] for name in wanted]

@@ -35,6 +35,19 @@ def test_a_damaged_entry_is_missing_and_heals(tmp_path: Path, damage: bytes | No
     assert cache.get(KEY) == b"one"
 
 
+def test_the_entry_of_another_key_is_missing(tmp_path: Path) -> None:
+    """Two entries that were exchanged, by a copy or by hand, are no entries; what is made anew stays."""
+    cache = Cache(tmp_path)
+    cache.put(KEY, b"one")
+    cache.put(OTHER, b"two")
+    one, other = path_of(cache, KEY), path_of(cache, OTHER)
+    content = one.read_bytes()
+    one.write_bytes(other.read_bytes())
+    other.write_bytes(content)
+    assert cache.get(KEY) is cache.get(OTHER) is None
+    assert cache.recall(KEY, lambda: b"one") == cache.get(KEY) == b"one"
+
+
 def put(folder: str) -> None:
     """Put a large entry, a few times over."""
     for _ in range(5):

@@ -30,10 +30,14 @@ def test_the_first_that_draws_is_taken_and_remembered(fresh: Path, monkeypatch: 
     assert gl.library() == "osmesa"
     assert asked == ["egl", "osmesa"]
     (note,) = (fresh / "atlas").iterdir()
-    assert json.loads(note.read_text(encoding="utf-8")) == {"library": "osmesa"}
+    assert json.loads(note.read_text(encoding="utf-8")) == {note.stem: "osmesa"}
     gl.library.cache_clear()
     assert gl.library() == "osmesa"
     assert asked == ["egl", "osmesa"]
+    note.write_text(json.dumps({"gl-elsewhere": "egl"}), encoding="utf-8")  # the answer of another machine
+    gl.library.cache_clear()
+    assert gl.library() == "osmesa"
+    assert len(asked) == 4
 
 
 def test_a_no_is_remembered_until_libraries_are_installed(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,11 +3,13 @@
 import re
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 import sympy
 from tests_support import stale
 
+from atlas.build.cache import Cache
 from atlas.paper import EQUATIONS, topic
 from atlas.proof import recorded, run, verify
 from atlas.proof.decide import decide
@@ -450,12 +452,19 @@ def test_signs_are_decided_term_by_term() -> None:
     assert not positive(x * 0, strict=True)
 
 
-def test_verify_reports_progress_and_uses_its_cache(tmp_path: object) -> None:
+def test_verify_reports_progress_and_uses_its_cache(tmp_path: Path) -> None:
     """Labels come back in the ledger's order; a second run reads what the first has written."""
     seen: list[tuple[str, int, int]] = []
-    folder = tmp_path / "proofs"  # type: ignore[operator]
-    first = verify(["(77)", "(39)"], lambda *call: seen.append(call), cache_folder=folder)
+    store = Cache(tmp_path)
+    first = verify(["(77)", "(39)"], lambda *call: seen.append(call), store=store)
     assert [verdict.name for verdict in first] == ["(39)", "(77)"]
     assert seen == [("(39)", 1, 2), ("(77)", 2, 2)]
-    assert verify(["(77)", "(39)"], lambda *call: seen.append(call), cache_folder=folder) == first
+    assert verify(["(77)", "(39)"], lambda *call: seen.append(call), store=store) == first
     assert len(seen) == 2
+    one, other = store.folder.glob("??/*")
+    one.rename(tmp_path / "one")
+    other.rename(one)
+    (tmp_path / "one").rename(other)
+    again = verify(["(77)", "(39)"], lambda *call: seen.append(call), store=store)
+    assert [(one.name, one.printed) for one in again] == [(one.name, one.printed) for one in first]
+    assert len(seen) == 4  # entries that were exchanged are made anew

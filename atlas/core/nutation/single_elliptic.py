@@ -38,7 +38,7 @@ class SingleElliptic(SingleMotion):
 
     def accuracy(self, size: float) -> float:
         """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
-        return WITHIN * max(1.0, float(abs(self._rates).max()) * rounded(lambda: self.exact.b) / size)
+        return float(WITHIN * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""
