@@ -1,5 +1,37 @@
-"""``python -m atlas`` is the command ``atlas``."""
+"""``python -m atlas`` and the program ``atlas``: the command line, and the signals that end it."""
 
-from atlas.cli import main
+# not the module signal, which imports enum first: Ctrl-C meanwhile would print a traceback
+import _signal as signal  # type: ignore[import-not-found]
+import sys
 
-main()
+if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # while the imports below run there is nothing to put in order
+signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the program of a checkout blocks it while Python starts
+
+from atlas.cli import main as run  # noqa: E402
+
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""Signals that end a command in order, unless the process that started it had them ignored."""
+
+
+def interrupt(number: int, _: object) -> None:
+    """Raise KeyboardInterrupt with the number of the signal."""
+    raise KeyboardInterrupt(number)
+
+
+def main() -> None:
+    """Run the command line; while the process ends a signal ends it at once."""
+    heeded = [number for number in ENDING if signal.getsignal(number) is signal.SIG_DFL]
+    try:
+        for number in heeded:
+            signal.signal(number, interrupt)
+        run()
+    except KeyboardInterrupt as error:  # in the first or last instructions of the command line
+        sys.exit(128 + error.args[0])
+    finally:
+        for number in heeded:
+            signal.signal(number, signal.SIG_DFL)
+
+
+if __name__ == "__main__":
+    main()

@@ -6,25 +6,30 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from threading import Thread
+from signal import SIG_BLOCK, SIG_DFL, SIG_SETMASK, SIGHUP, SIGINT, SIGTERM, getsignal, pthread_sigmask, signal
+from threading import Thread, current_thread, main_thread
 from typing import Any
 
 SAFE = "PYTHONSAFEPATH"
 """As the option -P of Python, which a process inherits."""
+ENDING = (SIGINT, SIGTERM, SIGHUP)
+"""Signals that end a command in order."""
 DRAWING = "atlas.build.loaded"
 """The module that loads what figures are drawn with."""
 
 
 def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "spawn") -> ProcessPoolExecutor | None:
-    """Return an executor with so many processes, each of which calls `begin` first.
+    """Return an executor with `workers` processes, each of which calls `begin` first.
 
-    None where the system has no semaphores, as with a /dev/shm that can't be written: then the work is to be done here.
+    A worker ends with the process that started it, which alone decides what Ctrl-C means: in a worker SIGINT is blocked
+    from its first instruction on. Leaving the executor's `with` block cancels the calls that have not begun. Return
+    None where the system has no semaphores, as with a /dev/shm that can't be written: then do the work in this process.
     """
     from multiprocessing import get_context
 
     try:
-        with _without_main():
-            return _Pool(workers, get_context(context), begin)
+        with _as_worker():
+            return _Pool(workers, get_context(context), _begin, (begin,))
     except (OSError, ImportError, NotImplementedError):
         return None
 
@@ -34,22 +39,25 @@ def prepare(module: str) -> str:
 
     Where it can't be started, as without a folder for its socket, workers are spawned and import what they need.
     """
-    from multiprocessing import forkserver, resource_tracker
+    from multiprocessing import forkserver
 
     try:
-        with _without_main():
-            resource_tracker.ensure_running()
+        with _as_worker():
             forkserver.set_forkserver_preload([module])
-            with _without_interrupts():
-                forkserver.ensure_running()
+            forkserver.ensure_running()
     except (OSError, ImportError):
         return "spawn"
     return "forkserver"
 
 
-def end_with_parent() -> None:
-    """Let this process end as soon as the one that started it has ended, however that was."""
+def _begin(more: Callable[[], Any] | None) -> None:
+    """Let this worker end as soon as the process that started it has ended, however that was; then call `more`."""
+    for number in ENDING:  # a fork has the handlers of the command line
+        if callable(getsignal(number)):
+            signal(number, SIG_DFL)
     Thread(target=_wait_for_parent, daemon=True).start()
+    if more is not None:
+        more()
 
 
 def _wait_for_parent() -> None:
@@ -67,7 +75,7 @@ class _Pool(ProcessPoolExecutor):
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Start a process if one is wanted, and hand over the call."""
         try:
-            with _without_main():
+            with _as_worker():
                 return super().submit(function, *args, **kwargs)
         except (EOFError, ConnectionError) as error:  # the process that it would be a fork of has ended
             raise BrokenProcessPool from error
@@ -79,17 +87,46 @@ class _Pool(ProcessPoolExecutor):
                 process.kill()
         super().shutdown(wait, cancel_futures=cancel_futures)
 
+    def __exit__(self, *_: object) -> None:
+        """Wait for the calls under way, without those that have not begun.
+
+        The executor's own thread cancels those. `Future.cancel` called from here while a worker dies would stop that
+        thread by an InvalidStateError, and nothing would end the waiting.
+        """
+        self.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _as_worker() -> Iterator[None]:
+    """Start processes meanwhile that run no main program and are never interrupted."""
+    from multiprocessing import resource_tracker
+
+    with _without_main():
+        resource_tracker.ensure_running()  # its start lets SIGINT through again
+        with _without_interrupts():
+            yield
+
 
 @contextmanager
 def _without_interrupts() -> Iterator[None]:
-    """Block SIGINT in a process that is started meanwhile: what Ctrl-C means is decided by this one."""
-    from signal import SIG_BLOCK, SIG_SETMASK, SIGINT, pthread_sigmask
+    """Block SIGINT in a process that is started meanwhile; put off the signals that this process heeds.
 
+    A process that is half started when this one raises KeyboardInterrupt would print a traceback.
+    """
+    came, heeded = list[int](), dict[int, Callable[[int, Any], Any]]()
+    if current_thread() is main_thread():
+        heeded = {number: done for number in ENDING if callable(done := getsignal(number))}
+    for number in heeded:
+        signal(number, lambda number, _: came.append(number))
     before = pthread_sigmask(SIG_BLOCK, {SIGINT})
     try:
         yield
     finally:
         pthread_sigmask(SIG_SETMASK, before)
+        for number, done in heeded.items():
+            signal(number, done)
+        for number in came:
+            heeded[number](number, None)
 
 
 @contextmanager

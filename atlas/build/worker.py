@@ -4,7 +4,6 @@ import gzip
 import json
 import os
 import resource
-import signal
 import sys
 import time
 import warnings
@@ -18,7 +17,6 @@ from typing import Any
 from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.places import settle_matplotlib
-from atlas.processes import end_with_parent
 from atlas.scene import Curve, Image, Points, Region, Scene, Surface, data, recipes
 from atlas.scene.arrange import arranged, narrowed, suited
 from atlas.targets import find
@@ -150,14 +148,9 @@ def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 def begin(environment: Mapping[str, str]) -> None:
-    """Prepare a worker process: it ends with the process that started it, which alone decides what Ctrl-C means.
-
-    Its environment is that of the caller now, which may have changed since the fork server was started.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Give a worker process the caller's environment, which may have changed since the fork server was started."""
     os.environ.clear()
     os.environ.update(environment)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     if not sys.warnoptions:  # as on the command line: a float that overflows is told by what shows it
         warnings.simplefilter("ignore", RuntimeWarning)
-    end_with_parent()

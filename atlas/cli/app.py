@@ -6,6 +6,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
+from signal import SIGINT, SIGPIPE
 from typing import Any
 
 import click
@@ -76,7 +77,10 @@ class Atlas(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read vectors in each of their spellings."""
-        return super().parse_args(ctx, list(apart(args)))
+        try:
+            return super().parse_args(ctx, list(apart(args)))
+        except BrokenPipeError as error:  # of a page of help, for which click would end the process with status 1
+            raise click.exceptions.Exit(_reader_gone()) from error
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
         """Find the command; say where one is that has gone. `help NAME` is the help of a command, or of all."""
@@ -97,6 +101,8 @@ class Atlas(click.Group):
         """Run a command. Raises click.ClickException for a library that is not installed."""
         try:
             return super().invoke(context)
+        except BrokenPipeError as error:
+            raise click.exceptions.Exit(_reader_gone()) from error
         except ModuleNotFoundError as error:
             if (error.name or "").startswith("atlas"):
                 raise
@@ -135,7 +141,11 @@ for name, says in {
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and end the process: 0 well, 1 something failed, 2 a wrong input, 130 interrupted."""
+    """Run the command line and end the process.
+
+    The exit status is 0 if all went well, 1 if something failed, 2 for a wrong input, and as a shell counts them for
+    what a signal ended: 130 SIGINT, 129 SIGHUP, 143 SIGTERM, and 141 (SIGPIPE) where the reader of the output has gone.
+    """
     if sys.stdout is None:
         sys.exit(complain("standard output is closed", 1))
     write_plainly()
@@ -151,14 +161,20 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except AtlasError as error:
         status = complain(str(error), 2)
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the reader has gone: say nothing more
-        status = 1
+        status = _reader_gone()
     except OSError as error:
         where = f": {error.filename}" if error.filename else ""
         status = complain(f"{error.strerror or error}{where}", 1)
-    except (KeyboardInterrupt, click.Abort):
-        status = complain("interrupted", 130)
+    except (KeyboardInterrupt, click.Abort) as error:
+        interrupt = error.__cause__ or error
+        status = complain("interrupted", 128 + int(interrupt.args[0] if interrupt.args else SIGINT))
     sys.exit(status if isinstance(status, int) else 0)
+
+
+def _reader_gone() -> int:
+    """Let no more be written to a pipe whose reader has gone; return the exit status of who dies by SIGPIPE."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 128 + SIGPIPE
 
 
 def complain(sentence: str, status: int) -> int:

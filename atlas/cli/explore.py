@@ -1,6 +1,9 @@
 """``atlas explore``: bodies to turn and numbers to slide, in the user's browser."""
 
 import webbrowser
+from html import escape
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from urllib.parse import urlencode
 
 import click
@@ -28,32 +31,36 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
 
     NAME is a family (elementary, general, top, elliptic, asymmetric, quadric, ...) or a recipe, also a file of your
     own. Numbers come from the kernels while a slider moves, in proven digits when it rests; the command that gives the
-    same stands below, and the figure can be saved. The server answers on 127.0.0.1 only, and only to who has the
-    address that is printed. Ctrl-C ends it.
+    same stands below, and the figure can be saved. The server answers on 127.0.0.1 only, and only to the browser that
+    opened the address that is printed, which works once. Ctrl-C ends it.
 
     With the options of atlas motion in the place of NAME the sliders start at that motion, in principal axes.
     """
-    from atlas.live.server import Explorer
-    from atlas.live.subjects import subject
+    from atlas.live.server import OPENS, Explorer
+    from atlas.live.subjects import subject_or_file
     from atlas.places import settle_matplotlib
 
     settle_matplotlib()
     place = ""
     if name.startswith("-") or context.args:
         name, place = started([*([name] if name != "general" else []), *context.args])
-    subject(name)
-    with Explorer(name, port) as server:
+    subject_or_file(name)
+    # every user of the machine can read a browser's arguments: it is given a file that only this one can read
+    with Explorer(name, port, place) as server, TemporaryDirectory(prefix="atlas-") as folder:
         try:
-            click.echo(server.address + place)
+            click.echo(server.ticket())
             if not no_browser:
-                webbrowser.open(server.address + place)
+                page = Path(folder, "explore.html")
+                page.write_text(OPENS.format(escape(server.ticket())), "utf-8")
+                page.chmod(0o600)
+                webbrowser.open(page.as_uri())
             server.serve_forever()
         except KeyboardInterrupt:
             click.echo("ended", err=True)
 
 
 def started(args: list[str]) -> tuple[str, str]:
-    """Return the family of the motion that options of atlas motion are of, and the end of an address with its numbers.
+    """Return the family of a motion, from options of atlas motion, and the fragment of an address with its numbers.
 
     Raises click.UsageError for what is no such option.
     """

@@ -3,7 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
+from itertools import chain
 from math import hypot, isfinite, pi
 from typing import Any, NamedTuple
 
@@ -47,6 +48,9 @@ from atlas.families.family import RATE, TIME
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
+
+AT_ONCE = 200
+"""Times whose rows of a table are computed together, then printed."""
 
 UNKNOWN = (
     f"with {SPARE} binary digits the number cannot be told from zero, and that it is zero does not follow from a "
@@ -184,7 +188,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
             except NotCertifiedError:
                 return [None for _ in times]
 
-        def balls() -> dict[str, Any]:
+        def balls(times: Sequence[float], quantities: Family) -> dict[str, Any]:
             motion = family.balls()(*values_of(family, options, exact=True))
             moments = [exactly(t, options) for t in times]
             values = {s.name: [sample(s, motion, t, best) for t in moments] for s in sampled if not s.uncertified}
@@ -193,19 +197,38 @@ def _command_of(family: Family, described: Described) -> click.Command:
             if options["as_json"] and "R" in values:
                 values["q"] = [_quaternion(R, q) for R, q in zip(values["R"], near(), strict=True)]
             columns = {s.name: values[s.name] for s in sampled if s.name in values}
-            return named | _quantities(family, motion, times, columns, exact=True)
+            return named | _quantities(quantities, motion, times, columns, exact=True)
 
         best, named = Best(), {"family": family.name} if described.name == "motion" else {}
         parameters = _parameters(family, options)
         if _shown_otherwise(family, described, options, parameters, times):
             return
-        texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
+        first, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
+        texts = answer(options, parameters, floats, partial(balls, first, family), spare)
         if texts is not None:
+            texts["samples"] = chain(
+                texts.get("samples", []), _later(balls, family, times[len(first) :], options, spare)
+            )
             show(_printout(family, described, texts, options, certificate(options), _in_hertz(family, texts, options)))
             _show_lines(family, options)
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
     return click.command(described.name, cls=Command, carries=True, **texts)(stack(*decorators)(run))
+
+
+def _later(
+    balls: Callable[[Sequence[float], Family], dict[str, Any]],
+    family: Family,
+    times: Sequence[float],
+    options: dict[str, Any],
+    spare: int,
+) -> Iterator[dict[str, Any]]:
+    """Yield the records of later times, some at a time: a table prints them while the next are computed."""
+    from atlas.exact.digits import certified
+
+    for start in range(0, len(times), AT_ONCE):
+        some = partial(balls, times[start : start + AT_ONCE], replace(family, quantities=()))
+        yield from certified(some, options["digits"] or TABLE_DIGITS, spare=spare)["samples"]
 
 
 def _shown_otherwise(
@@ -279,7 +302,7 @@ def _with_sigma(
         larmor = [Line("larmor", "Larmor frequency |B'|", texts["larmor"], "1/s", "(27)")] if "larmor" in texts else []
         beside = [*larmor, *(hertz if body.units_of(options) else [])]
         printout = _printout(family, described, texts, options, "", beside)
-        show(replace(printout, notes=[*filter(None, printout.notes), *spread_of_answers.notes]))
+        show(replace(printout, notes=chain(filter(None, printout.notes), spread_of_answers.notes)))
 
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
@@ -372,7 +395,7 @@ def _in_doubles(
         axes, third = in_principal_axes(motion).axes, THIRD.get(motion.family, "")
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
-            printout = replace(printout, notes=[says, *printout.notes])
+            printout = replace(printout, notes=chain([says], printout.notes))
         show(printout)
         _show_lines(family, options, motion)
 
@@ -569,23 +592,32 @@ def _printout(
     """Lay the certified texts out, with lines that stand beside the quantities, and three rows a time."""
     from atlas.exact.digits import NOT_CERTIFIED
 
+    uncertain_rows = False
+
+    def rows() -> Iterator[list[str]]:
+        nonlocal uncertain_rows
+        for row in in_threes(texts.get("samples", [])):
+            uncertain_rows |= NOT_CERTIFIED in row
+            yield row
+
+    def notes() -> Iterator[str]:
+        yield from (f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text)
+        yield from dict.fromkeys(texts.get("missing", {}).values())
+        yield worth.replace("printed", "printed, but of rounded lines,") if units else worth
+        if described.undecided and uncertain_rows:
+            yield f"{NOT_CERTIFIED}: {UNKNOWN}"
+
     case = texts[described.named] if described.named else ""
     units = _units(family, options)
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
-    rows = in_threes(texts.get("samples", []))
     heading = [
         head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
         for s in family.sampled
         if s.printed and not s.uncertified
         for head in s.heading
     ]
-    worth = worth.replace("printed", "printed, but of rounded lines,") if units else worth
-    turns = [f"{x.text} is {x:.10g} rad/s." for _, x in measured(options) if "Hz" in x.text]
-    notes = [*turns, *dict.fromkeys(texts.get("missing", {}).values()), worth]
-    if described.undecided and any(NOT_CERTIFIED in row for row in rows):
-        notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
-    return Printout(described.title + case, [*lines, *beside], ("t", *heading) if rows else (), rows, notes)
+    return Printout(described.title + case, [*lines, *beside], ("t", *heading), rows(), notes())
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:

@@ -5,7 +5,7 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise, takewhile
+from itertools import chain, pairwise, takewhile
 from pathlib import Path
 from typing import Any, Self, TypeVar
 
@@ -98,6 +98,13 @@ class Typed(float):
         return self.exact
 
 
+class Several(str):
+    """A range or list as it was typed, and its `numbers`: one word for click, whose time is quadratic in words."""
+
+    __slots__ = ("numbers",)
+    numbers: list[str]
+
+
 class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
     """A finite real number, the one at a place of an option whose numbers have different units."""
 
@@ -106,8 +113,10 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
     def __init__(self, place: int = 0) -> None:
         self.place = place
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
-        """Turn what was typed into a number, or say what is wrong with it."""
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Turn what was typed into a number, a range into a list of them, or say what is wrong with it."""
+        if isinstance(value, Several):
+            return [self.convert(one, param, ctx) for one in value.numbers]
         text = str(value).replace("\N{MINUS SIGN}", "-").replace("\N{DEGREE SIGN}", "deg")  # as on a page
         if (parts := UNCERTAIN.fullmatch(text)) is not None:
             return self._with_sigma(text, parts, param, ctx)
@@ -141,6 +150,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         if parts["last"] and "." not in sigma:
             sigma += f"e-{decimals}"
         rest = parts["rest"]
+        number: Typed
         number, size, scale = (self.convert(x, param, ctx) for x in (parts["size"] + rest, sigma, f"1{rest}"))
         number.sigma = float(size) * float(scale)
         number.text = text
@@ -227,6 +237,9 @@ class Command(click.Command):
                 said = error.format_message().rstrip(".")  # not of the next option, taken for a number
                 raise click.UsageError(hint if ": '--" in said else f"{said}: {hint}", ctx) from error
             raise
+        for name in (param.name for param in several if param.type is REAL):
+            values = (x if isinstance(x, list) else [x] for x in ctx.params.get(str(name)) or ())
+            ctx.params[str(name)] = tuple(chain.from_iterable(values))
         if field:
             name, known = option.removeprefix("--"), not any(x.sigma for x in field.parts)
             ctx.params[name] = Inclined(field.parts, ctx.params[name]) if known else field
@@ -361,7 +374,10 @@ def _spread(args: Sequence[str], many: set[str], numbers: set[str], words: set[s
             if not option:
                 yield word
         else:
-            for one in _listed(word, option) if option in numbers else word.split(",") if option in words else [word]:
+            if option in numbers and len(listed := _listed(word, option)) > 1:
+                word = Several(word)  # noqa: PLW2901
+                word.numbers = listed
+            for one in word.split(",") if option in words else [word]:
                 yield from (option, one)
             starts = True
     if not starts:

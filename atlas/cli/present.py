@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, Literal
@@ -31,13 +31,16 @@ class Line:
 
 @dataclass(frozen=True)
 class Printout:
-    """What a command prints: single quantities, then one table with a unit in each heading."""
+    """What a command prints: single quantities, then one table with a unit in each heading, then notes.
+
+    Rows are printed while they come, and notes asked for after the last row.
+    """
 
     title: str
     lines: Sequence[Line] = ()
     heading: Sequence[str] = ()
-    rows: Sequence[Sequence[str]] = ()
-    notes: Sequence[str] = ()
+    rows: Iterable[Sequence[str]] = ()
+    notes: Iterable[str] = ()
     justify: Literal["left", "right"] = "right"
 
 
@@ -59,14 +62,21 @@ def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
 
 def show(printout: Printout) -> None:
     """Print a printout as wide as the terminal, and wider where digits would be cut; in a pipe as wide as it needs."""
-    from rich import box
     from rich.console import Console
+
+    console = Console(emoji=False, highlight=False, soft_wrap=True)
+    for laid_out in (_quantities, _tables, _notes):
+        for text in laid_out(console, printout):
+            click.echo(text, nl=False)  # which raises BrokenPipeError where the reader has gone
+
+
+def _quantities(console: "Console", printout: Printout) -> Iterator[str]:
+    """Yield the title, and the table of single quantities."""
     from rich.table import Table
     from rich.text import Text
 
-    console = Console(emoji=False, highlight=False, soft_wrap=True)
     if printout.title:
-        console.print(printout.title, style="bold", markup=False)
+        yield _text(console, printout.title, style="bold", markup=False)
     if printout.lines:
         table = Table(box=None, show_header=False, pad_edge=False)
         quantities = [(line.symbol, line.value, line.unit, line.says, line.label) for line in printout.lines]
@@ -75,27 +85,49 @@ def show(printout: Printout) -> None:
             table.add_column(no_wrap=not words, min_width=None if words else max(map(len, cells)))
         for cells in quantities:
             table.add_row(*(Text(cell) for cell in cells))
-        _print(console, table)
-    if printout.heading:
+        yield _whole(console, table)
+
+
+def _tables(console: "Console", printout: Printout) -> Iterator[str]:
+    """Yield the table of rows, which come one after the other, some hundred rows at a time."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    rows, widths, lines = iter(printout.rows), [*map(len, printout.heading)], list[str]()
+    while piece := [*islice(rows, PIECE)]:
+        widths = [max(width, *map(len, cells)) for width, cells in zip(widths, zip(*piece, strict=True), strict=True)]
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-        for index, name in enumerate(printout.heading):
-            width = max(map(len, (name, *(row[index] for row in printout.rows))))
+        for name, width in zip(printout.heading, widths, strict=True):
             table.add_column(Text(name), justify=printout.justify, no_wrap=True, min_width=width)
-        for row in printout.rows:
+        for row in piece:
             table.add_row(*(Text(cell) for cell in row))
-        _print(console, table)
+        head, lines = 3 * bool(lines), _whole(console, table).splitlines(keepends=True)
+        yield "".join(lines[head:-1])
+    yield "".join(lines[-1:])
+
+
+def _notes(console: "Console", printout: Printout) -> Iterator[str]:
+    """Yield the notes, a line each."""
     for note in printout.notes:
-        console.print(note, style="dim", markup=False)
+        yield _text(console, note, style="dim", markup=False)
 
 
-def _print(console: "Console", table: "Table") -> None:
-    """Print a table and cut none of its numbers: where they need more room than there is, the lines get longer."""
+def _text(console: "Console", shown: Any, **how: Any) -> str:
+    """Return as text for this console what it would print."""
+    with console.capture() as printed:
+        console.print(shown, **how)
+    return printed.get()
+
+
+def _whole(console: "Console", table: "Table") -> str:
+    """Return a table with none of its numbers cut: where they need more room than there is, the lines get longer."""
     from rich.measure import Measurement
 
     needed = Measurement.get(console, console.options.update_width(1_000_000), table)
     if not console.is_terminal or console.width < needed.minimum:
         console.width = needed.maximum
-    console.print(table)
+    return _text(console, table)
 
 
 def dump(record: dict[str, Any]) -> None:
@@ -132,6 +164,9 @@ ROUNDED = {
     **dict.fromkeys(("heavy", "charged", "coat"), "the moments and couplings of the top"),
 }  # fmt: skip
 """What is computed in doubles from an option before anything is proven, by the name of that option."""
+
+PIECE = 600
+"""Rows of a table that are laid out and printed at a time."""
 
 TABLE_DIGITS = 10
 """Significant digits of a table when --digits does not say otherwise."""
@@ -196,14 +231,12 @@ def samples(times: Sequence[float], **columns: Any) -> list[dict[str, Any]]:
     return [dict(zip(("t", *columns), row, strict=True)) for row in zip(times, *columns.values(), strict=True)]
 
 
-def in_threes(records: Sequence[dict[str, Any]]) -> list[list[str]]:
-    """Return three rows of a table for each record of texts: the rows of its matrix, the components of its vectors."""
-    rows = []
+def in_threes(records: Iterable[dict[str, Any]]) -> Iterator[list[str]]:
+    """Yield three rows of a table for each record of texts: the rows of its matrix, the components of its vectors."""
     for t, *values in (record.values() for record in records):
         for i in range(3):
             parts = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
-            rows.append([f"{float(t)!r}" if i == 0 else "", *chain(*parts)])
-    return rows
+            yield [f"{float(t)!r}" if i == 0 else "", *chain(*parts)]
 
 
 Progress = Callable[[int, int, str], None]

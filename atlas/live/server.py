@@ -1,10 +1,16 @@
-"""The server of the explorer: on this machine alone, for who knows the token in its address, and for no other page."""
+"""The server of the explorer: on this machine alone, for the browser that opened an address that works once.
+
+That address sets a cookie, which script can't read and no other site's page makes a browser send, for a folder of this
+server with a random name: cookies are those of all servers at 127.0.0.1, also of another user's. What a request names
+is looked up among the families, the figures and what the user named at the start, and is never the name of a file.
+"""
 
 import hmac
 import json
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
+from html import escape
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
@@ -12,7 +18,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from atlas.errors import AtlasError
 from atlas.live import answers
-from atlas.live.subjects import everything, subject
+from atlas.live.subjects import Subject, everything, subject, subject_or_file
 from atlas.places import folder
 
 HOST = "127.0.0.1"
@@ -37,27 +43,49 @@ PAGES = {
     "explore.css": ("explore.css", "text/css"),
     "icon.svg": ("icon.svg", "image/svg+xml"),
 }
+COOKIE = "atlas"
+OPENS = '<!DOCTYPE html>\n<title>atlas explore</title>\n<meta http-equiv="refresh" content="0; url={}">\n'
+"""A page that leads on. A redirect would not do: after one that came from a file no browser sends a strict cookie."""
+CLOSED = "an address that `atlas explore` printed opens it, once: reload the page that it opened, or start it again"
 JSON = "application/json"
 Content = tuple[bytes, str]
 
 
 class Explorer(ThreadingHTTPServer):
-    """A server for one user; `address` is what to open."""
+    """A server for one user.
+
+    Parameters
+    ----------
+    start : str
+        Name of the family or figure, or file of a recipe, that is shown first.
+    port : int, optional
+        Port at 127.0.0.1; a free one for 0.
+    place : str, optional
+        Fragment of the page's address, beginning with #: where the sliders stand at first.
+    """
 
     daemon_threads = True
 
-    def __init__(self, start: str, port: int = 0) -> None:
+    def __init__(self, start: str, port: int = 0, place: str = "") -> None:
         try:
             super().__init__((HOST, port), Handler)
         except OSError as error:
             raise AtlasError(f"The port {port} cannot be used ({error.strerror}): choose another, or none.") from error
-        self.token, self.start = secrets.token_urlsafe(24), start
+        self.start, self.place, self.tickets = start, place, set[str]()
+        self.folder, self.secret = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
         self.hosts = {f"{name}:{self.server_address[1]}" for name in (HOST, "localhost")}
 
-    @property
-    def address(self) -> str:
-        """The address with the token, without which nothing is answered."""
-        return f"http://{HOST}:{self.server_address[1]}/{self.token}/"
+    def ticket(self) -> str:
+        """Return a new address that opens the explorer, once."""
+        new = secrets.token_urlsafe(24)
+        self.tickets.add(new)
+        return f"http://{HOST}:{self.server_address[1]}/{new}"
+
+    def admits(self, ticket: str) -> bool:
+        """Return whether an address opens the explorer; it does not again."""
+        used = {one for one in [*self.tickets] if _same(one, ticket)}
+        self.tickets -= used
+        return bool(used)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Say nothing of a browser that has gone away; all else is told as it is by the standard library."""
@@ -81,10 +109,15 @@ class Handler(BaseHTTPRequestHandler):
         except ValueError:  # as `http://[::1/`
             self._send(HTTPStatus.BAD_REQUEST, b"this is no address", "text/plain")
             return
-        _, token, *rest = [*url.path.split("/"), ""]
-        refused = self._refused(token)
-        if refused:
+        _, folder, *rest = [*url.path.split("/"), ""]
+        if refused := self._refused(folder):
             self._send(HTTPStatus.FORBIDDEN, refused.encode(), "text/plain")
+            return
+        if not _same(folder, self.server.folder):
+            start = f"/{self.server.folder}/"
+            cookie = f"{COOKIE}={self.server.secret}; Path={start}; HttpOnly; SameSite=Strict"
+            page = OPENS.format(escape(start + self.server.place))
+            self._send(HTTPStatus.OK, page.encode(), "text/html", {"Set-Cookie": cookie})
             return
         try:
             content = self._content("/".join(rest).rstrip("/"), dict(parse_qsl(url.query)))
@@ -97,16 +130,17 @@ class Handler(BaseHTTPRequestHandler):
         else:
             self._send(HTTPStatus.OK, *content)
 
-    def _refused(self, token: str) -> str:
-        """Return why a request is refused, or nothing."""
+    def _refused(self, folder: str) -> str:
+        """Return why a request for the first part of an address is refused, or nothing."""
         if self.headers.get("Host", "") not in self.server.hosts:
             return "this server answers at 127.0.0.1 only"
         origin = self.headers.get("Origin")
         if origin is not None and origin.removeprefix("http://") not in self.server.hosts:
             return "this server answers its own page only"
-        if not hmac.compare_digest(token.encode(), self.server.token.encode()):
-            return "the address lacks the token that `atlas explore` has printed"
-        return ""
+        if _same(folder, self.server.folder):
+            cookies = [cookie.strip() for cookie in self.headers.get("Cookie", "").split(";")]
+            return "" if any(_same(cookie, f"{COOKIE}={self.server.secret}") for cookie in cookies) else CLOSED
+        return "" if self.server.admits(folder) else CLOSED
 
     def _content(self, place: str, query: dict[str, str]) -> Content | None:
         """Return what is at a place, and its kind. Raises AtlasError for values that have no picture."""
@@ -116,16 +150,28 @@ class Handler(BaseHTTPRequestHandler):
         answer = ANSWERS.get(place)
         return answer(self.server, query) if answer else None
 
-    def _send(self, status: HTTPStatus, body: bytes, kind: str) -> None:
+    def _send(self, status: HTTPStatus, body: bytes, kind: str, more: Mapping[str, str] = {}) -> None:
         self.send_response(status)
         charset = "; charset=utf-8" if kind.startswith("text/") else ""
-        for name, value in {**HEADERS, "Content-Type": kind + charset, "Content-Length": str(len(body))}.items():
+        described = {"Content-Type": kind + charset, "Content-Length": str(len(body))}
+        for name, value in {**HEADERS, **described, **more}.items():
             self.send_header(name, value)
         self.end_headers()
         self.wfile.write(body)
 
     def log_message(self, *_: Any) -> None:
-        """Keep the terminal quiet: the address has the token."""
+        """Keep the terminal quiet: an address may be one that opens the explorer."""
+
+
+def _same(one: str, other: str) -> bool:
+    """Compare two texts in a time that does not tell where they differ."""
+    return hmac.compare_digest(one.encode(), other.encode())
+
+
+def _asked(server: Explorer, query: dict[str, str]) -> Subject:
+    """Return the subject that a query names: what was named at the start, or a listed name, never a file."""
+    name = query.pop("subject", "")
+    return subject_or_file(name) if name == server.start else subject(name)
 
 
 def _page(name: str) -> bytes:
@@ -141,23 +187,23 @@ def _subjects(server: Explorer, _query: dict[str, str]) -> Content:
     return json.dumps({"start": server.start, **everything()}).encode(), JSON
 
 
-def _sliders(_server: Explorer, query: dict[str, str]) -> Content:
-    chosen = subject(query.get("subject", ""))
+def _sliders(server: Explorer, query: dict[str, str]) -> Content:
+    chosen = _asked(server, query)
     return json.dumps({"title": chosen.title, "sliders": [asdict(slider) for slider in chosen.sliders]}).encode(), JSON
 
 
-def _state(_server: Explorer, query: dict[str, str]) -> Content:
+def _state(server: Explorer, query: dict[str, str]) -> Content:
     proven = query.pop("proven", "") == "1"
-    topic = subject(query.pop("subject", ""))
+    topic = _asked(server, query)
     answer = answers.state(topic, answers.values_of(topic, query), proven=proven)
     return json.dumps(answer, separators=(",", ":")).encode(), JSON
 
 
-def _figure(_server: Explorer, query: dict[str, str]) -> Content:
+def _figure(server: Explorer, query: dict[str, str]) -> Content:
     kind = query.pop("format", "svg")
     if kind not in answers.FILES:
         raise AtlasError(f"no figure can be saved as {kind!r}; known: {', '.join(answers.FILES)}")
-    topic = subject(query.pop("subject", ""))
+    topic = _asked(server, query)
     return answers.picture(topic, answers.values_of(topic, query), kind), answers.FILES[kind]
 
 

@@ -147,20 +147,25 @@ def _instance(kernels: Any, arguments: tuple[Any, ...]) -> Any:
 
 
 def subject(name: str) -> Subject:
-    """Return the family or recipe of a name, or of a recipe's file; figure:NAME is the recipe where both have one name.
+    """Return the family or the recipe of a name; figure:NAME is the recipe where both have one name.
 
-    Raises AtlasError where there is none.
+    A name is never that of a file. Raises AtlasError where there is none.
     """
     if name in FAMILIES:
         return OfFamily(FAMILIES[name])
     name, known = name.removeprefix(FIGURE), recipes.names()
-    if name not in known and not name.endswith(".py"):
+    if name not in known:
         options = [*FAMILIES, *known]
         raise AtlasError(
             f"there is no family or figure {name!r}{nearest(name, options)}; families are {', '.join(FAMILIES)}, and "
             "`atlas list` names the figures."
         )
     return OfRecipe(recipes.load(name))
+
+
+def subject_or_file(name: str) -> Subject:
+    """Return the subject of a name, or, for a user's own recipe, that of its file NAME.py."""
+    return OfRecipe(recipes.load(name)) if name.endswith(".py") else subject(name)
 
 
 def everything() -> dict[str, list[tuple[str, str]]]:

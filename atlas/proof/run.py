@@ -150,4 +150,5 @@ def _each(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:
         yield from ((name, try_one(name)) for name in names)
         return
     with executor as pool:
-        yield from zip(names, pool.map(try_one, names), strict=True)
+        trials = [pool.submit(try_one, name) for name in names]
+        yield from ((name, trial.result()) for name, trial in zip(names, trials, strict=True))

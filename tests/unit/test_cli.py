@@ -4,6 +4,7 @@ import contextlib
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,6 +16,7 @@ import pytest
 from click import UsageError
 from click.testing import CliRunner
 
+from atlas.cli import family, present
 from atlas.cli.app import atlas as command
 from atlas.cli.figure import setting
 from atlas.cli.options import Typed
@@ -22,6 +24,7 @@ from atlas.cli.points import point_masses, points, ratio_of_points
 
 ATLAS = [sys.executable, "-m", "atlas"]
 EPS = 2.0**-52
+MOTION = "motion --ratio 1.5 --field 1 2 --omega2 1"
 
 
 def run(*words: str) -> subprocess.CompletedProcess[str]:
@@ -393,15 +396,28 @@ def test_zero_may_have_a_unit() -> None:
     assert record(*"classify --ratio 1.5 --magnetic 1T 0T --mu 1 --json".split())["parameters"]["magnetic"] == [1, 0]
 
 
-def test_the_reader_of_a_pipe_may_leave() -> None:
-    """A closed pipe ends the program quietly."""
-    words = "motion --ratio 1.5 --field 1 2 --omega2 1 --grid 0 1 20000 --json".split()
-    with subprocess.Popen([*ATLAS, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+@pytest.mark.parametrize("words", [f"{MOTION} --grid 0 1 20000 --json", f"{MOTION} --times 0:10:100000", "--help"])
+def test_the_reader_of_a_pipe_may_leave(words: str) -> None:
+    """A closed pipe ends the program quietly, as by SIGPIPE, and long before all of a long table is computed."""
+    limited = ["/bin/sh", "-c", 'unset PYTHONUNBUFFERED; ulimit -t 30 && exec "$@"', "sh", *ATLAS, *words.split()]
+    with subprocess.Popen(limited, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout is not None
         assert process.stderr is not None
-        process.stdout.read(10)
         process.stdout.close()
         assert process.stderr.read() == b""
+    assert process.returncode == 128 + signal.SIGPIPE
+
+
+def test_a_long_table_is_the_same_as_all_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rows that are computed and printed a few at a time are those of one table; the heading stands once."""
+    words, whole = f"{MOTION} --times 0:10:40".split(), []
+    for few in (7, 1000):
+        monkeypatch.setattr(family, "AT_ONCE", few)
+        monkeypatch.setattr(present, "PIECE", few)
+        out = CliRunner().invoke(command, words, catch_exceptions=False).stdout
+        whole.append([line.split() for line in out.splitlines() if "\N{BOX DRAWINGS LIGHT HORIZONTAL}" not in line])
+    assert whole[0] == whole[1]
+    assert len(whole[0]) > 3 * 40
 
 
 def test_check_shows_what_there_is(tmp_path: Path) -> None:

@@ -1,19 +1,23 @@
 """`atlas explore`: who is answered and who is not, numbers that are those of the commands, sliders of everything."""
 
 import json
+import os
 import re
 import shlex
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import nullcontext
 from http.client import HTTPConnection, HTTPResponse
 from pathlib import Path
+from shutil import which
 from socket import create_connection
 from threading import Thread
 from typing import Any
-from urllib.parse import urlencode
+from urllib.parse import urlencode, urlsplit
+from urllib.request import url2pathname
 
 import pytest
 from click.testing import CliRunner
@@ -46,7 +50,8 @@ def ask(server: Explorer, place: str, method: str = "GET", **headers: str) -> tu
     """Ask for a place below the address, with headers of one's own."""
     port = server.server_address[1]
     connection = HTTPConnection("127.0.0.1", port, timeout=60)
-    connection.request(method, place, headers={"Host": f"127.0.0.1:{port}"} | headers)
+    own = {"Host": f"127.0.0.1:{port}", "Cookie": f"other=1; atlas={server.secret}"}
+    connection.request(method, place, headers=own | headers)
     answer = connection.getresponse()
     content = answer.read()
     connection.close()
@@ -55,16 +60,38 @@ def ask(server: Explorer, place: str, method: str = "GET", **headers: str) -> tu
 
 def own(server: Explorer, place: str, **query: Any) -> dict[str, Any]:
     """Ask as the page does, and read the answer."""
-    answer, content = ask(server, f"/{server.token}/{place}?{urlencode(query)}")
+    answer, content = ask(server, f"/{server.folder}/{place}?{urlencode(query)}")
     assert answer.status == 200
     found: dict[str, Any] = json.loads(content)
     return found
 
 
+def shell_as_another_user(script: str, *words: str) -> str:
+    """Return what a shell prints that runs as user and group 1001, without further groups."""
+    other = ["setpriv", "--reuid=1001", "--regid=1001", "--clear-groups"]
+    done = subprocess.run([*other, "sh", "-c", script, "sh", *words], capture_output=True, text=True, check=False)
+    return done.stdout
+
+
 def test_it_answers_on_this_machine_only(server: Explorer) -> None:
-    """The address is one of this machine, and has a token of 192 bits."""
+    """The address is one of this machine, and holds 192 bits that nobody guesses."""
     assert server.server_address[0] == "127.0.0.1"
-    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/[\w-]{32}/", server.address)
+    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/[\w-]{32}", server.ticket())
+
+
+def test_an_address_opens_it_once(server: Explorer) -> None:
+    """The address sets a cookie for the folder that its page leads to; who comes second gets neither."""
+    ticket = urlsplit(server.ticket()).path
+    assert ask(server, ticket, Origin="http://evil.example")[0].status == 403
+    answer, page = ask(server, ticket, Cookie="")
+    cookie, *limits = answer.getheader("Set-Cookie", "").split("; ")
+    assert {*limits} == {f"Path=/{server.folder}/", "HttpOnly", "SameSite=Strict"}
+    place = re.search(r'url=([^"]+)', page.decode())[1]
+    assert ask(server, place, Cookie=cookie)[0].status == 200
+    for used in (ticket, ticket + "/"):
+        answer, page = ask(server, used, Cookie="")
+        assert (answer.status, answer.getheader("Set-Cookie")) == (403, None)
+        assert server.folder.encode() not in page
 
 
 @pytest.mark.parametrize(
@@ -83,21 +110,30 @@ def test_foreign_hosts_and_origins_are_refused(server: Explorer, headers: dict[s
     """A name that another site has let point here, and a page of another origin, get nothing, token or not."""
     filled = {name: value.format(port=server.server_address[1]) for name, value in headers.items()}
     for place in ("", "state?subject=general", "scene.js"):
-        answer, content = ask(server, f"/{server.token}/{place}", **filled)
+        answer, content = ask(server, f"/{server.folder}/{place}", **filled)
         assert answer.status == 403
-        assert server.token.encode() not in content
+        assert server.folder.encode() not in content
 
 
-def test_without_the_token_nothing_is_answered(server: Explorer) -> None:
-    """Neither the page nor a number; its own origin and the name localhost do with the token."""
+def test_without_folder_and_cookie_nothing_is_answered(server: Explorer) -> None:
+    """Neither the page nor a number, nor for another cookie; its own origin and the name localhost do with it."""
     port = server.server_address[1]
-    for place in ("/", "/state?subject=general", f"/{server.token[:-1]}/", f"/{server.token}x/", "/scene.js", "//"):
+    for place in ("/", "/state?subject=general", f"/{server.folder[:-1]}/", f"/{server.folder}x/", "/scene.js", "//"):
         assert ask(server, place)[0].status == 403
+    for cookie in (
+        "",
+        "atlas",
+        "atlas=",
+        f"atlas={server.secret[:-1]}",
+        f"atlas={server.secret}x",
+        f"a={server.secret}",
+    ):
+        assert ask(server, f"/{server.folder}/", Cookie=cookie)[0].status == 403
     for headers in ({"Origin": f"http://127.0.0.1:{port}"}, {"Host": f"localhost:{port}"}):
-        assert ask(server, f"/{server.token}/", **headers)[0].status == 200
-    assert ask(server, f"/{server.token}/", "POST")[0].status == 501
-    assert ask(server, f"/{server.token}/nothing")[0].status == 404
-    assert ask(server, f"/{server.token}/../../etc/passwd")[0].status == 404
+        assert ask(server, f"/{server.folder}/", **headers)[0].status == 200
+    assert ask(server, f"/{server.folder}/", "POST")[0].status == 501
+    assert ask(server, f"/{server.folder}/nothing")[0].status == 404
+    assert ask(server, f"/{server.folder}/../../etc/passwd")[0].status == 404
 
 
 def test_half_a_request_and_half_an_address_are_ended(
@@ -114,7 +150,7 @@ def test_half_a_request_and_half_an_address_are_ended(
 
 def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
     """Every answer has it, refusals too; the page has no script or style of its own that it would stop."""
-    for place in (f"/{server.token}/", f"/{server.token}/state?subject=ball", "/"):
+    for place in (f"/{server.folder}/", f"/{server.folder}/state?subject=ball", "/"):
         answer, _ = ask(server, place)
         assert {name: answer.getheader(name) for name in HEADERS} == HEADERS
     assert "unsafe" not in HEADERS["Content-Security-Policy"]
@@ -122,8 +158,8 @@ def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
     page = (folder("templates") / "html" / "explore.html").read_text(encoding="utf-8")
     assert not re.search(r"<script>|<style|style=|\son\w+=|https?:", page)
     for place in PAGES:
-        assert ask(server, f"/{server.token}/{place}")[0].status == 200
-    assert b"{%" not in ask(server, f"/{server.token}/style.css")[1]
+        assert ask(server, f"/{server.folder}/{place}")[0].status == 200
+    assert b"{%" not in ask(server, f"/{server.folder}/style.css")[1]
 
 
 @pytest.mark.parametrize("name", [*FAMILIES])
@@ -204,7 +240,7 @@ def test_what_turns_fills_the_picture(server: Explorer, name: str, places: list[
 def test_figures_are_saved(server: Explorer) -> None:
     """PDF, SVG and PNG of what is shown; another format is refused in a sentence."""
     for kind, head in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):
-        answer, content = ask(server, f"/{server.token}/figure?subject=hyperbola&format={kind}")
+        answer, content = ask(server, f"/{server.folder}/figure?subject=hyperbola&format={kind}")
         assert answer.getheader("Content-Type").startswith(answers.FILES[kind])
         assert content.startswith(head)
     assert "no figure can be saved as 'exe'" in own(server, "figure", subject="hyperbola", format="exe")["error"]
@@ -231,7 +267,58 @@ def test_a_disk_without_room_is_said(server: Explorer, tmp_path: Path, monkeypat
     monkeypatch.setattr(answers, "TemporaryDirectory", lambda: nullcontext(str(tmp_path / "nosuch" / ("x" * 300))))
     assert "nothing could be saved" in own(server, "figure", subject="hyperbola")["error"]
     monkeypatch.undo()
-    assert ask(server, f"/{server.token}/figure?subject=hyperbola")[1].startswith(b"<?xml")
+    assert ask(server, f"/{server.folder}/figure?subject=hyperbola")[1].startswith(b"<?xml")
+
+
+def test_a_name_that_a_page_sends_is_never_a_file(server: Explorer, tmp_path: Path) -> None:
+    """No recipe of a path is run or read, but for the one that was named at the start, in the same words."""
+    mark, mine = tmp_path / "mark", tmp_path / "mine.py"
+    mine.write_text(f'"Mine."\nopen({str(mark)!r}, "w").close()\ndef scene(*, a=1.0): ...\n')
+    for name in (str(mine), f"figure:{mine}", f"../figures/{mine.name}", "../../figures/ball.py"):
+        for place in ("state", "sliders", "figure"):
+            assert "there is no family or figure" in own(server, place, subject=name)["error"]
+    assert not mark.exists()
+    with Explorer(str(mine)) as another:
+        Thread(target=another.serve_forever, daemon=True).start()
+        assert [slider["name"] for slider in own(another, "sliders", subject=str(mine))["sliders"]] == ["a"]
+        assert "must return a Scene" in own(another, "state", subject=str(mine))["error"]
+        another.shutdown()
+    assert mark.exists()
+
+
+@pytest.mark.skipif(os.getuid() != 0 or not which("setpriv"), reason="needs root, to become another user")
+def test_another_user_of_the_machine_gets_nothing(tmp_path: Path) -> None:
+    """The arguments of all processes, the file that the browser is given, and the socket tell another user nothing."""
+    browser = tmp_path / "browser"
+    browser.write_text(
+        f"#!/bin/sh\nprintf '%s' \"$1\" >{tmp_path}/given.new\nmv {tmp_path}/given.new {tmp_path}/given\nexec sleep 60"
+    )
+    browser.chmod(0o755)
+    words = [sys.executable, "-m", "atlas", "explore", "ball"]
+    environment = os.environ | {"BROWSER": f"{browser} %s &", "DISPLAY": ""}
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as program:
+        try:
+            address = program.stdout.readline().strip()
+            while not (tmp_path / "given").exists():
+                time.sleep(0.01)
+            page = Path(url2pathname(urlsplit((tmp_path / "given").read_text()).path))
+            ticket = re.search(r'url=([^"]+)', page.read_text())[1]
+            seen = shell_as_another_user(
+                "cat /proc/[0-9]*/cmdline | tr '\\0' ' '; cat $1 $1/* $2; ls -R $1", page.parent, page
+            )
+            assert str(page) in seen  # the arguments of the browser are seen
+            for secret in (address, ticket):
+                assert secret.rpartition("/")[2] not in seen
+            assert (page.stat().st_mode & 0o777, page.parent.stat().st_mode & 0o777) == (0o600, 0o700)
+            guessed = "import sys, urllib.request as r\ntry: r.urlopen(sys.argv[1])\nexcept OSError as e: print(e)"
+            asked = shell_as_another_user(
+                '"$@"', "python3", "-c", guessed, f"{address.rpartition('/')[0]}/state?subject=ball"
+            )
+            assert "403" in asked
+        finally:
+            program.terminate()
+            program.communicate(timeout=60)
+    assert not page.exists()
 
 
 def test_everything_has_sliders_that_start_within_their_ends() -> None:

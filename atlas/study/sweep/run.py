@@ -217,9 +217,9 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
         for span in spans:
             yield make(plan, *span, table)
             if workers > 1 and spans.long:
-                from atlas.processes import end_with_parent, pool  # which loads multiprocessing
+                from atlas.processes import pool  # which loads multiprocessing
 
-                if own := pool(workers, end_with_parent):  # if the system lets us have any
+                if own := pool(workers):  # if the system lets us have any
                     break
         else:
             return
@@ -238,7 +238,8 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
             while waiting:
                 yield waiting.popleft().result()
         finally:
-            wait([future for future in waiting if not future.cancel()])
+            if own is None:  # which cancels what has not begun by itself
+                wait([future for future in waiting if not future.cancel()])
 
 
 def key(plan: Plan, rows: int | None) -> str:

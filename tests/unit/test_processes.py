@@ -1,0 +1,84 @@
+"""Signals and the processes of a command: what Ctrl-C and SIGTERM end, and that they leave nothing behind."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from atlas import processes
+
+ROOT = Path(__file__).parents[2]
+MAIN = str(ROOT / "atlas" / "__main__.py")
+SWEEP = (
+    "sweep elementary --set ratio=0.1:2:400 --set B2=1 --set B3=0.2 --set omega2=0.1:3:50 --quantity k --quantity phi "
+    "--digits 30 --rows 100 --jobs 2 --out t.csv"
+)
+
+
+def workers_of(process: "subprocess.Popen[str]") -> list[str]:
+    """Return the numbers of the processes that a command has started."""
+    return Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+
+
+@pytest.mark.usefixtures("interrupts")
+@pytest.mark.parametrize("wait", [0.0, 0.1, 0.5])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_to_the_group_ends_a_sweep(tmp_path: Path, number: signal.Signals, wait: float) -> None:
+    """From the moment on that workers are started: one line, no process, no file of multiprocessing, no lock."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    environment = os.environ | {"TMPDIR": str(temporary)}
+    command = [sys.executable, "-P", MAIN, *SWEEP.split()]
+    with subprocess.Popen(
+        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        while len(workers_of(process)) < 3:  # the tracker of resources is one of them
+            time.sleep(0.005)
+        time.sleep(wait)
+        os.killpg(process.pid, number)
+        try:
+            _, told = process.communicate(timeout=120)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    assert (process.returncode, told.split("\n", 1)) == (128 + number, ["", "atlas: interrupted\n"])
+    assert not [*temporary.iterdir()]
+    assert {path.name for path in tmp_path.iterdir()} <= {"temporary", "t.csv.parts"}
+
+
+@pytest.mark.usefixtures("interrupts")
+@pytest.mark.parametrize("module", ["click", "flint"])
+def test_ctrl_c_while_libraries_are_loaded_prints_no_traceback(tmp_path: Path, module: str) -> None:
+    """At the start of the command line, and in the midst of a command."""
+    (tmp_path / f"{module}.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1".split()
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    for start in ([MAIN], ["-m", "atlas"]):
+        done = subprocess.run(
+            [sys.executable, *start, *words], env=environment, cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.stdout == ""
+        assert (done.returncode, done.stderr.strip()) in {(-signal.SIGINT, ""), (130, "atlas: interrupted")}
+
+
+def test_workers_are_never_interrupted() -> None:
+    """SIGINT is blocked in each from its start; what means an end is decided by the process that started it."""
+    for context in ("spawn", "fork", processes.prepare("json")):
+        with processes.pool(2, None, context) as pool:
+            assert pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, []).result() == {signal.SIGINT}
+        assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
+def test_a_worker_that_dies_while_calls_are_given_up_ends_the_pool() -> None:
+    """No call that has not begun is waited for, whatever has become of the workers."""
+    begun = time.monotonic()
+    with processes.pool(2) as pool:
+        calls = [pool.submit(time.sleep, 0.5) for _ in range(200)]
+        for pid in [*pool._processes]:
+            os.kill(pid, signal.SIGKILL)
+    assert time.monotonic() - begun < 50.0
+    assert all(call.done() for call in calls)
