@@ -24,7 +24,7 @@ help:
 	@echo 'make accessibility   the linter axe-core on every page, the search box and what turns, in Chromium: needs node and npm; FRAMES=1 tells frames a second'
 	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'
 	@echo 'make release TAG=v0.2.0   the sdist and the wheel of a tag, in dist/'
-	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
+	@echo 'make lint      ruff, deno (for scripts), mypy, import-linter;   make clean   removes build/'
 
 # What the report is made from; with nothing changed, make ends without starting Python.
 SOURCES := $(shell find atlas figures templates reports -type f -not -path '*/__pycache__/*' -not -name '.*' 2>/dev/null)
@@ -84,9 +84,13 @@ accessibility: report
 	@$(LOOK) tests/search.mjs build/report/guide build/report/atlas build/accessibility
 	@$(LOOK) tests/scenes.mjs build/report/atlas build/accessibility
 
+# The scripts of the pages and of their tests; MiniSearch is as its authors wrote it.
+SCRIPTS := $(filter-out %/minisearch.js,$(wildcard templates/html/*.js)) $(wildcard tests/*.mjs)
 lint: $(VENV)/.test
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+	@NO_COLOR=1 $(BIN)/deno lint --quiet --no-config $(SCRIPTS)
+	@NO_COLOR=1 $(BIN)/deno fmt --quiet --no-config --line-width 100 --check $(SCRIPTS)
 	@echo 'types, by mypy: half a minute the first time'
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports --no-cache

@@ -1,207 +1,679 @@
-// Motions with sliders: a point is drawn through the plane of initial angular velocities, and the body turns as R(t) says, on
-// the hyperbola by its closed form, off it by Runge and Kutta's steps; what it does next stands as a faint line. All this is
-// to draw with; certified digits come from the command that is shown. The state stands in the address, so that a link shows
-// a motion. Without this nothing is shown.
+// Motions with sliders: a point is drawn through the plane of initial angular velocities, and the
+// body turns as R(t) says, on the hyperbola by its closed form, off it by Runge and Kutta's steps;
+// what it does next stands as a faint line. All this is to draw with; certified digits come from
+// the command that is shown. The state stands in the address, so that a link shows a motion.
+// Without this nothing is shown.
 "use strict";
-(root => {
+((root) => {
+  const STEP = 0.1, norm = (...a) => Math.hypot(...a);
+  const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]),
+    dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 
-const STEP = 0.1, norm = (...a) => Math.hypot(...a);
-const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]), dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
-
-// The motion at omega2 on the hyperbola, for B2 > 0: omega3 by (71), k by (79), phi by (72), and the square of the
-// frequency of small nutations, negative where the motion is unstable (theorem-stability).
-const motion = (I, B2, B3, omega2) => {
-  const X = omega2 + B2, common = omega2 / X * (B3 / (I * B2)), less = (1 - I) * B2 * B2, slope = B3 * (X * X + less) / (B2 * X);
-  return {omega3: common * (omega2 + (2 - I) * B2), k: omega2 * (norm(B2, B3) / B2), phi: common * (1 - I) * (omega2 + 2 * B2), stability: slope * slope + (X * X - less)};
-};
-// The turn about a unit vector, row by row; R(t) = R_B(kt) R_z(phi t), (84).
-const turn = ([x, y, z], angle) => {
-  const c = Math.cos(angle), s = Math.sin(angle), h = 2 * Math.sin(angle / 2) ** 2;
-  return [[c + h * x * x, h * x * y - s * z, h * x * z + s * y], [h * y * x + s * z, c + h * y * y, h * y * z - s * x], [h * z * x - s * y, h * z * y + s * x, c + h * z * z]];
-};
-const product = (A, B) => A.map(row => [0, 1, 2].map(j => row[0] * B[0][j] + row[1] * B[1][j] + row[2] * B[2][j]));
-const rotation = (B2, B3, k, phi, t) => product(turn([0, B2 / norm(B2, B3), B3 / norm(B2, B3)], k * t), turn([0, 0, 1], phi * t));
-// The quadric (50) of constant Omega3 about its centre -B', as the symmetric form of y = omega + B' and 1, and its axis
-// e'_2, at beta/2 + pi/4 from e2, (53).
-const quadric = (I, B2, B3) => {
-  const beta = Math.atan2(B3, I * B2), half = beta / 2 + Math.PI / 4;
-  return {beta, form: [B3, 0, 0, 0, B3, -I * B2 / 2, 0, 0, 0, (I - 1) * B2 * B2 * B3], axis: [0, Math.cos(half), Math.sin(half)], other: [0, -Math.sin(half), Math.cos(half)]};
-};
-const kind = I => I > 1 ? "two-sheet hyperboloid" : I < 1 ? "one-sheet hyperboloid" : "cone";
-// The one with phi/k = p/q, theorem-closed.
-const closed = (I, B2, B3, p, q) => { const c = (1 - I) * B3 / (I * norm(B2, B3)); return c * B2 / (p / q - c) - B2; };
-// d/dt of Omega and of the rows of R by (16) and (12), in units of I2, where 2 g = diag(I, I, 2 - I).
-const rate = (I, B2, B3, [p, q, r, ...R]) => {
-  const K = [0, 1, 2].map(j => B2 * R[3 + j] + B3 * R[6 + j]), m = [p - I * K[0], q - I * K[1], I * r - (2 - I) * K[2]];
-  const turned = i => [R[i + 1] * r - R[i + 2] * q, R[i + 2] * p - R[i] * r, R[i] * q - R[i + 1] * p];
-  return [m[1] * r - m[2] * q, m[2] * p - m[0] * r, (m[0] * q - m[1] * p) / I, ...turned(0), ...turned(3), ...turned(6)];
-};
-// Omega(t) and the rows of R(t) of any motion: steps that have been made stay.
-const course = (I, B2, B3, omega) => {
-  const turns = y => rate(I, B2, B3, y), h = STEP / (1 + norm(B2, B3) + norm(...omega)), made = [[...omega, 1, 0, 0, 0, 1, 0, 0, 0, 1]];
-  const step = (y, h) => { const a = turns(y), b = turns(add(y, a, h / 2)), c = turns(add(y, b, h / 2)), d = turns(add(y, c, h)); return y.map((x, i) => x + h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i])); };
-  return t => { const whole = Math.floor(t / h); while (made.length <= whole) made.push(step(made.at(-1), h)); return step(made[whole], t - whole * h); };
-};
-const matrix = y => [y.slice(3, 6), y.slice(6, 9), y.slice(9)];
-// The square of dOmega3/dt at nu, the cosine between axis and field, of motions with the momenta of this one and an energy
-// h, with its own energy and c3 = Omega3 + b nu; and the potential, theorem-top.
-const portrait = (I, B2, B3, [p, q, r]) => {
-  const b = norm(B2, B3), M2 = q + B2, M3 = I * (r + B3), along = (M2 * B2 + M3 * B3) / b, A = (I - 1) * b * b;
-  const V = nu => A * nu * nu + (along - M3 * nu) ** 2 / (1 - nu * nu), own = p * p + M2 * M2 + A * (B3 / b) ** 2;
-  return {b, c3: r + B3, own, V, squared: (nu, h) => b * b * (1 - nu * nu) * (h - V(nu))};
-};
-root.atlasMotion = {motion, rotation, quadric, kind, closed, course, portrait, rate};
-if (!root.document || !root.atlasViewer) return;
-
-const SCALE = 0.11, REACH = 0.42, INK = "#1a1a1a", RED = "#a8182a", NAVY = "#16325c", PLUM = "#9a58b0", TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
-const frame = (azimuth, elevation) => {
-  const [a, e] = [azimuth, elevation].map(x => x * Math.PI / 180), [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
-  return [-sa, ca, 0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se];
-};
-const arrow = (colour, tube, tail, tip) => [colour, tube, 5 + tube, 0.3 * (5 + tube), tail, tip];
-const circle = (middle, a, b, radius, from = 0, to = 2 * Math.PI) => Array.from({length: 73}, (_, i) => { const w = from + (to - from) * i / 72; return middle.map((x, j) => x + radius * (Math.cos(w) * a[j] + Math.sin(w) * b[j])); });
-const empty = (azimuth, elevation) => ({frame: frame(azimuth, elevation), matt: 0, surfaces: [], lines: [], wires: [], arrows: [], dots: [], names: []});
-
-// In the space of initial data: the quadric about its centre, the hyperbola, and the point on it.
-const space = ({I, B2, B3, omega}) => {
-  const panel = empty(25, 14), {form, axis, other} = quadric(I, B2, B3), at = omega => omega.map((x, i) => SCALE * (x + [0, B2, B3][i])), size = Math.max(...form.map(Math.abs), 1e-9);
-  const scaled = form.map((x, i) => (i === 9 ? x * SCALE * SCALE : x) / size), value = y => { const [a, , , , b, c] = scaled; return a * y[0] ** 2 + b * y[1] ** 2 + 2 * c * y[1] * y[2]; };
-  const top = axis.map(x => REACH * x), across = d => Math.sqrt(Math.max(0, -(value(top) + scaled[9]) / value(d))), rim = [across([1, 0, 0]), across(other)], box = Math.max(REACH, ...rim) + 0.1;
-  panel.surfaces.push([scaled, [...axis, REACH, ...axis.map(x => -x), REACH], [], "#4f8fd0", "#f0b25c", 0.4, [-box, -box, -box], [box, box, box]]);
-  for (const side of [1, -1]) panel.lines.push([INK, 1.1, Array.from({length: 73}, (_, i) => { const w = Math.PI * i / 36; return [rim[0] * Math.cos(w), side * top[1] + rim[1] * Math.sin(w) * other[1], side * top[2] + rim[1] * Math.sin(w) * other[2]]; })]);
-  let run = []; const flush = () => { if (run.length > 2) panel.lines.push(["#4b1f78", 2.8, run]); run = []; };
-  for (let i = 1; i < 400; i++) {  // the two branches, by the angle seen from the pole
-    const w = -B2 + B2 * Math.tan(Math.PI * (i / 400 - 0.5)), y = at([0, w, motion(I, B2, B3, w).omega3]);
-    if (i === 200 || !y.every(Number.isFinite) || Math.abs(dot(axis, y)) > REACH) flush(); else run.push(y);
-  } flush();
-  const O = at([0, 0, 0]), point = at(omega);
-  [0, 1, 2].forEach(i => { const tip = O.map((x, j) => x + (i === j ? 0.3 : 0)); panel.arrows.push(arrow(INK, 1.5, O, tip)); panel.names.push([i, INK, tip, O]); });
-  panel.arrows.push(arrow(RED, 3.6, O, at([0, B2, B3]))); panel.names.push([3, RED, at([0, B2, B3]), O]);
-  if (norm(...point) < 1.2) { panel.arrows.push(arrow(PLUM, 2.6, O, point)); panel.dots.push(["#d4552b", 7, point]); panel.names.push([4, PLUM, point, O]); }
-  panel.dots.push([RED, 4.4, [0, 0, 0]]); return panel;
-};
-// In space: a cylindrical shell with this I, its axis, and the trace of that over a span of time, gone by and to come.
-const body = ({I, B2, B3, at, span}, t) => {
-  const panel = empty(20, 15), R = at(t), [a, b, n] = [0, 1, 2].map(j => R.map(row => row[j])), less = n.map(x => -x);
-  const h = Math.sqrt(12 * Math.max(1 / I - 0.5, 0)), r = 0.34 / norm(1, h / 2), half = Math.max(r * h / 2, 0.012), wood = "#dfb578", bark = "#b07a35", seam = "#6b4517", low = [-0.6, -0.6, -0.6], high = [0.6, 0.6, 0.6];
-  const P = (i, j) => (i === j ? 1 : 0) - n[i] * n[j], side = [P(0, 0), P(0, 1), P(0, 2), 0, P(1, 1), P(1, 2), 0, P(2, 2), 0, -r * r], ends = [...n, half, ...less, half], wedge = s => [...add(b.map(x => s * x), a, -0.25), 0];
-  panel.surfaces.push([side, ends, [], wood, bark, 1, low, high], [side.slice(), [...ends, ...wedge(1), ...wedge(-1)], [], seam, seam, 1, low, high]);
-  for (const s of [1, -1]) panel.lines.push([INK, 1.1, circle(n.map(x => s * half * x), a, b, r)]);
-  const B = [0, B2 / norm(B2, B3), B3 / norm(B2, B3)], gone = Math.min(t, span), rod = 0.46, trace = (from, to) => Array.from({length: 145}, (_, i) => at(from + (to - from) * i / 144).map(row => rod * row[2]));
-  panel.lines.push(["#b9c7e2", 1.6, trace(t, t + span)]); if (gone) panel.lines.push(["#2a57a5", 2.6, trace(t - gone, t)]);
-  panel.arrows.push(arrow(NAVY, 2.6, [0, 0, 0], n.map(x => rod * x)), arrow(RED, 3.6, [0, 0, 0], B.map(x => 0.5 * x)));
-  panel.names.push([5, RED, B.map(x => 0.5 * x), [0, 0, 0]], [6, NAVY, n.map(x => rod * x), [0, 0, 0]]); return panel;
-};
-
-const SVG = "http://www.w3.org/2000/svg";
-const node = (tag, attributes, ...inside) => { const made = document.createElementNS(SVG, tag); Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value)); made.append(...inside); return made; };
-// The names of a panel, as letters of the page; those that are there stay.
-const write = panel => {
-  const {names} = panel.data; if (panel.letters.length === names.length && panel.letters[0].querySelector("text")) return;
-  panel.letters.forEach(one => one.remove());
-  panel.letters = names.map(([number, colour]) => {
-    const [letters, width] = TEXTS[number], text = node("text", {fill: colour, "font-size": 176, "font-weight": 700, "text-anchor": "middle", y: 60}, letters);
-    const made = node("svg", {viewBox: [-width / 2 - 3, -9, width + 6, 18].map(x => 16 * x).join(" ")}, text); panel.viewer.letters.append(made); return made;
-  });
-};
-
-// What is drawn in a plane: {x, y: [low, high, letters], lines: [class, points], dots: [class, x, y], words: [x, y, letters]}.
-const OFF = 40 * Math.PI / 180, SIZE = 300, LEFT = 34, TOP = 10, FRAME = 256, WIDE = [-3, 3, "ω₂"], HIGH = [-5, 5, "ω₃"];
-const sampled = (low, high, count, f) => Array.from({length: count + 1}, (_, i) => f(low + (high - low) * i / count));
-const places = ({x, y}) => [v => LEFT + FRAME * (v - x[0]) / (x[1] - x[0]), v => TOP + FRAME * (y[1] - v) / (y[1] - y[0])];
-const paint = (svg, drawn) => {
-  const {x, y, lines = [], dots = [], words = []} = drawn, [X, Y] = places(drawn), far = v => !(Math.abs(v) < 3 * SIZE), n = v => v.toFixed(1), square = {x: LEFT, y: TOP, width: FRAME, height: FRAME};
-  const path = points => points.reduce(([d, pen], [u, v]) => far(X(u)) || far(Y(v)) ? [d, "M"] : [`${d}${pen}${n(X(u))} ${n(Y(v))}`, "L"], ["", "M"])[0];
-  const ticks = ([low, high]) => { const step = [0.2, 0.5, 1, 2].find(one => (high - low) / one <= 8) ?? 5, first = Math.ceil(low / step - 1e-9); return Array.from({length: Math.floor(high / step + 1e-9) - first + 1}, (_, i) => Number(((first + i) * step).toFixed(1))); };
-  const text = (u, v, letters, anchor = "start", kind = "") => node("text", {x: n(u), y: n(v), "text-anchor": anchor, class: kind}, String(letters).replace("-", "−"));
-  svg.replaceChildren(
-    node("rect", square), ...ticks(x).map(v => text(X(v), SIZE - 18, v, "middle")), ...ticks(y).map(v => text(LEFT - 5, Y(v) + 4, v, "end")),
-    node("svg", {...square, viewBox: Object.values(square).join(" ")}, ...lines.map(([kind, points]) => node("path", {class: kind, d: path(points)})),
-      ...words.map(([u, v, letters, kind]) => text(X(u) + 7, Y(v) - 7, letters, "start", kind)), ...dots.filter(([, u, v]) => !far(X(u)) && !far(Y(v))).map(([kind, u, v]) => node("circle", {class: kind, cx: n(X(u)), cy: n(Y(v)), r: kind === "point" ? 7 : 4}))),
-    text(LEFT + FRAME, SIZE - 3, x[2], "end", "axis"), text(LEFT + 7, TOP + 16, y[2], "start", "axis"));
-};
-// Lines of f over omega2, the stable motions and the unstable ones.
-const over = ({I, B2, B3}, f) => [["curve", m => m.stability > 0], ["unstable", m => !(m.stability > 0)]].map(([kind, holds]) => [kind, sampled(...WIDE.slice(0, 2), 900, w => { const m = motion(I, B2, B3, w); return [w, holds(m) && Math.abs(w + B2) > 1e-9 ? f(m) : NaN]; })]);
-const PLANES = {
-  plane: state => { const {B2, B3, omega} = state; return {
-    x: WIDE, y: HIGH, lines: [["guide", [[-3, 0], [3, 0]]], ["guide", [[0, -5], [0, 5]]], ...over(state, m => m.omega3)], dots: [["pole", -B2, -B3], ["rest", 0, 0], ["point", omega[1], omega[2]]], words: [[-B2, -B3, "−B′", "pole"], [0, -0.95, "rest"]],
-  }; },
-  frequencies: state => { const {I, B2, B3, omega} = state, m = motion(I, B2, B3, omega[1]), nutation = m => Math.sqrt(Math.max(m.stability, 0)), kinds = [["k", "curve", m => m.k], ["φ", "second", m => m.phi], ["νₙ", "third", nutation]]; return {
-    x: WIDE, y: [-6, 6, "1/time"], lines: [["guide", [[-3, 0], [3, 0]]], ["guide", [[omega[1], -6], [omega[1], 6]]], ...kinds.map(([, kind, f]) => [kind, sampled(-3, 3, 900, w => [w, Math.abs(w + B2) > 4e-3 ? f(motion(I, B2, B3, w)) : NaN])])],
-    dots: kinds.map(([, kind, f]) => [kind, omega[1], f(m)]), words: kinds.map(([name, kind, f]) => [omega[1], f(m), name, kind]),
-  }; },
-  portrait: ({I, B2, B3, omega, state}, t) => {
-    const {b, c3, own, V, squared} = portrait(I, B2, B3, omega), all = sampled(-0.999, 0.999, 600, nu => nu), heights = all.map(V), low = Math.min(...heights), humps = heights.filter((v, i) => i && v > heights[i - 1] && v >= heights[i + 1]);
-    const span = Math.max(own - low, ...humps.map(h => h - low), 0.1 * b * b), y = state(t), top = 1.25 * Math.sqrt(Math.max(...all.map(nu => squared(nu, low + 1.3 * span)), 1e-4));
-    // Where the square changes its sign between two places, the curve ends on the axis.
-    const line = (kind, h) => [1, -1].map(sign => [kind, all.flatMap((nu, i) => {
-      const before = all[Math.max(i - 1, 0)], [u, v] = [squared(before, h), squared(nu, h)], here = [c3 - b * nu, sign * Math.sqrt(v)];
-      return u * v < 0 ? [[c3 - b * (nu - (nu - before) * v / (v - u)), 0], here] : [here];
-    })]);
-    const wide = all.filter(nu => squared(nu, low + 1.3 * span) >= 0).map(nu => c3 - b * nu), [left, right] = [Math.min(...wide) - 0.1, Math.max(...wide) + 0.1];
-    return {x: [left, right, "Ω₃"], y: [-top, top, "dΩ₃/dt"], lines: [["guide", [[left, 0], [right, 0]]], ...[0.04, 0.16, 0.36, 0.64, 1, 1.3].flatMap(part => line("level", low + part * span)), ...humps.flatMap(h => line("unstable", h)), ...line("curve", own + 1e-9)], dots: [["point", y[2], rate(I, B2, B3, y)[2]]]};
-  },
-  rosette: ({B2, B3, at, span}, t) => {
-    const b = norm(B2, B3), flat = s => { const [x, y, z] = at(s).map(row => Math.sin(OFF) * row[0] + Math.cos(OFF) * row[2]); return [x, (B3 * y - B2 * z) / b, (B2 * y + B3 * z) / b]; }, way = sampled(0, span, 1500, flat), part = side => way.map(([x, y, z]) => z * side >= 0 ? [x, y] : [NaN, NaN]);
-    return {x: [-1.1, 1.1, "across B"], y: [-1.1, 1.1, ""], lines: [["guide", sampled(0, 2 * Math.PI, 90, w => [Math.cos(w), Math.sin(w)])], ["level", part(-1)], ["trace", part(1)]], dots: [["point", ...flat(t % span).slice(0, 2)]]};
-  },
-};
-const SPACES = {space, body};
-const DIGITS = x => Number.isFinite(x) ? String(Number(x.toPrecision(6))).replace("-", "−") : "none, at the pole", NEAR = 0.12, AHEAD = 12;
-
-for (const [number, section] of document.querySelectorAll(".explorer").entries()) {
-  const form = section.querySelector("form"), out = section.querySelector("output"), line = section.querySelector("code"), box = section.querySelector(".stage"), calm = matchMedia("(prefers-reduced-motion: reduce)"), mark = `#motion${number || ""}:`;
-  const [first, second] = section.dataset.field.split(" ").map(Number), b = norm(first, second), shown = section.dataset.panels.split(" "), flat = [...section.querySelectorAll(".plane")];
-  const value = (name, other = 0) => sliders.find(name)?.value ?? other;
-  let seen = false, free = false, viewer, kept = {};
-  const place = () => {
-    const I = value("I", 1.5), angle = sliders.find("angle"), still = !angle || angle.value === angle.start, [B2, B3] = still ? [first, second] : [Math.cos, Math.sin].map(f => b * f(angle.value * Math.PI / 180));
-    const omega2 = sliders.find("q") ? closed(I, B2, B3, value("p"), value("q")) : value("omega2"); return {I, B2, B3, omega2, ...motion(I, B2, B3, omega2)};
-  };
-  const state = () => {
-    const {I, B2, B3, omega2, omega3, k, phi, stability} = place(), omega = [value("omega1"), omega2, free ? value("omega3") : omega3], key = [I, B2, B3, ...omega].join(" ");
-    if (kept.key === key) return kept;
-    const field = `--ratio ${I} --field ${Number(B2.toPrecision(12))} ${Number(B3.toPrecision(12))}`, on = !free && !omega[0], spin = Number.isFinite(phi) ? phi : 0, moved = course(I, B2, B3, omega.map(x => Number.isFinite(x) ? x : 0));
-    if (on) return kept = {key, I, B2, B3, omega, on, state: moved, at: t => rotation(B2, B3, k, spin, t), span: 2 * Math.PI * value("q", 1) / Math.abs(k || 1), says: `${kind(I)}; ω₂ = ${DIGITS(omega2)}, ω₃ = ${DIGITS(omega3)}, k = ${DIGITS(k)}, φ = ${DIGITS(phi)}; ${stability > 0 ? "stable" : "unstable"}`, command: `atlas motion ${field} --omega2 ${omega2}`};
-    const swing = sampled(0, 4 * AHEAD, 400, t => moved(t)[2]), [low, high] = [Math.min(...swing), Math.max(...swing)].map(DIGITS);
-    return kept = {key, I, B2, B3, omega, on, state: moved, at: t => matrix(moved(t)), span: AHEAD, says: `off the hyperbola: the axis nutates, Ω₃ swings from ${low} to ${high}`, command: `atlas motion ${field} --omega ${omega.join(" ")}`};
-  };
-  // A point near the hyperbola is on it, and stays there while other sliders move.
-  const follow = () => { if (!free && Number.isFinite(place().omega3)) sliders.find("omega3")?.set(Number(place().omega3.toPrecision(7))); };
-  const settle = near => { const other = sliders.find("omega3"); if (!other) return; const at = w => motion(place().I, place().B2, place().B3, w).omega3, w = value("omega2"), slope = (at(w + 1e-3) - at(w - 1e-3)) / 2e-3; free = !(Math.abs(other.value - at(w)) <= near * norm(1, slope)); follow(); };
-  const read = () => { if (location.hash.startsWith(mark)) { sliders.read(new URLSearchParams(location.hash.slice(mark.length))); settle(1e-6); } };  // the state that the address names
-  const say = () => { const {says, command} = state(); out.textContent = says; line.textContent = command; };
-  const spaces = shown.filter(name => name in SPACES), planes = shown.filter(name => name in PLANES), made = name => SPACES[name](state(), value("t"));
-  const still = name => ["space", "plane", "frequencies"].includes(name);
-  const show = all => {
-    planes.forEach((name, i) => { if (all || !still(name)) paint(flat[i].firstChild, PLANES[name](state(), value("t"))); });
-    if (viewer) { spaces.forEach((name, i) => { if (all || !still(name)) viewer.panels[i].set(made(name)); }); viewer.hurry(sliders.playing && seen ? 1500 : 250); }
-  };
-  const changed = name => { if (!flat.concat(viewer ?? []).length) return; if (name === "t") { show(false); return; } if (name === "omega3") settle(NEAR / 2); else follow(); say(); show(true); };
-  const keep = () => history.replaceState(null, "", `${mark}${new URLSearchParams(sliders.entries())}`);
-  const sliders = new root.atlasSliders.Sliders(form, JSON.parse(form.dataset.sliders), changed, keep, () => seen);
-  if (form.dataset.free) free = true; else follow();
-  read(); section.hidden = false;
-  planes.forEach((name, i) => {
-    const drawn = node("svg", {viewBox: `0 0 ${SIZE} ${SIZE}`, role: "img", "aria-label": flat[i].dataset.says}); flat[i].append(drawn);
-    if (name !== "plane" || !sliders.find("omega3")) return;
-    const drag = ({clientX, clientY}) => {
-      const rect = drawn.getBoundingClientRect(), u = SIZE * (clientX - rect.left) / rect.width, v = SIZE * (clientY - rect.top) / rect.height, into = (x, [low, high]) => Math.round(100 * Math.min(high, Math.max(low, x))) / 100;
-      sliders.find("omega2").set(into(WIDE[0] + (u - LEFT) * (WIDE[1] - WIDE[0]) / FRAME, WIDE)); sliders.find("omega3").set(into(HIGH[1] - (v - TOP) * (HIGH[1] - HIGH[0]) / FRAME, HIGH)); settle(NEAR); say(); show(true);
+  // The motion at omega2 on the hyperbola, for B2 > 0: omega3 by (71), k by (79), phi by (72), and
+  // the square of the frequency of small nutations, negative where the motion is unstable
+  // (theorem-stability).
+  const motion = (I, B2, B3, omega2) => {
+    const X = omega2 + B2,
+      common = omega2 / X * (B3 / (I * B2)),
+      less = (1 - I) * B2 * B2,
+      slope = B3 * (X * X + less) / (B2 * X);
+    return {
+      omega3: common * (omega2 + (2 - I) * B2),
+      k: omega2 * (norm(B2, B3) / B2),
+      phi: common * (1 - I) * (omega2 + 2 * B2),
+      stability: slope * slope + (X * X - less),
     };
-    drawn.addEventListener("pointerdown", event => { drawn.setPointerCapture(event.pointerId); drag(event); });
-    drawn.addEventListener("pointermove", event => { if (drawn.hasPointerCapture(event.pointerId)) drag(event); });
-    drawn.addEventListener("pointerup", keep);
+  };
+  // The turn about a unit vector, row by row; R(t) = R_B(kt) R_z(phi t), (84).
+  const turn = ([x, y, z], angle) => {
+    const c = Math.cos(angle), s = Math.sin(angle), h = 2 * Math.sin(angle / 2) ** 2;
+    return [[c + h * x * x, h * x * y - s * z, h * x * z + s * y], [
+      h * y * x + s * z,
+      c + h * y * y,
+      h * y * z - s * x,
+    ], [h * z * x - s * y, h * z * y + s * x, c + h * z * z]];
+  };
+  const product = (A, B) =>
+    A.map((row) => [0, 1, 2].map((j) => row[0] * B[0][j] + row[1] * B[1][j] + row[2] * B[2][j]));
+  const rotation = (B2, B3, k, phi, t) =>
+    product(turn([0, B2 / norm(B2, B3), B3 / norm(B2, B3)], k * t), turn([0, 0, 1], phi * t));
+  // The quadric (50) of constant Omega3 about its centre -B', as the symmetric form of y = omega +
+  // B' and 1, and its axis e'_2, at beta/2 + pi/4 from e2, (53).
+  const quadric = (I, B2, B3) => {
+    const beta = Math.atan2(B3, I * B2), half = beta / 2 + Math.PI / 4;
+    return {
+      beta,
+      form: [B3, 0, 0, 0, B3, -I * B2 / 2, 0, 0, 0, (I - 1) * B2 * B2 * B3],
+      axis: [0, Math.cos(half), Math.sin(half)],
+      other: [0, -Math.sin(half), Math.cos(half)],
+    };
+  };
+  const kind = (I) => I > 1 ? "two-sheet hyperboloid" : I < 1 ? "one-sheet hyperboloid" : "cone";
+  // The one with phi/k = p/q, theorem-closed.
+  const closed = (I, B2, B3, p, q) => {
+    const c = (1 - I) * B3 / (I * norm(B2, B3));
+    return c * B2 / (p / q - c) - B2;
+  };
+  // d/dt of Omega and of the rows of R by (16) and (12), in units of I2, where 2 g = diag(I, I, 2 -
+  // I).
+  const rate = (I, B2, B3, [p, q, r, ...R]) => {
+    const K = [0, 1, 2].map((j) => B2 * R[3 + j] + B3 * R[6 + j]),
+      m = [p - I * K[0], q - I * K[1], I * r - (2 - I) * K[2]];
+    const turned = (
+      i,
+    ) => [R[i + 1] * r - R[i + 2] * q, R[i + 2] * p - R[i] * r, R[i] * q - R[i + 1] * p];
+    return [
+      m[1] * r - m[2] * q,
+      m[2] * p - m[0] * r,
+      (m[0] * q - m[1] * p) / I,
+      ...turned(0),
+      ...turned(3),
+      ...turned(6),
+    ];
+  };
+  // Omega(t) and the rows of R(t) of any motion: steps that have been made stay.
+  const course = (I, B2, B3, omega) => {
+    const turns = (y) => rate(I, B2, B3, y),
+      h = STEP / (1 + norm(B2, B3) + norm(...omega)),
+      made = [[...omega, 1, 0, 0, 0, 1, 0, 0, 0, 1]];
+    const step = (y, h) => {
+      const a = turns(y),
+        b = turns(add(y, a, h / 2)),
+        c = turns(add(y, b, h / 2)),
+        d = turns(add(y, c, h));
+      return y.map((x, i) => x + h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]));
+    };
+    return (t) => {
+      const whole = Math.floor(t / h);
+      while (made.length <= whole) made.push(step(made.at(-1), h));
+      return step(made[whole], t - whole * h);
+    };
+  };
+  const matrix = (y) => [y.slice(3, 6), y.slice(6, 9), y.slice(9)];
+  // The square of dOmega3/dt at nu, the cosine between axis and field, of motions with the momenta
+  // of this one and an energy h, with its own energy and c3 = Omega3 + b nu; and the potential,
+  // theorem-top.
+  const portrait = (I, B2, B3, [p, q, r]) => {
+    const b = norm(B2, B3),
+      M2 = q + B2,
+      M3 = I * (r + B3),
+      along = (M2 * B2 + M3 * B3) / b,
+      A = (I - 1) * b * b;
+    const V = (nu) => A * nu * nu + (along - M3 * nu) ** 2 / (1 - nu * nu),
+      own = p * p + M2 * M2 + A * (B3 / b) ** 2;
+    return { b, c3: r + B3, own, V, squared: (nu, h) => b * b * (1 - nu * nu) * (h - V(nu)) };
+  };
+  root.atlasMotion = { motion, rotation, quadric, kind, closed, course, portrait, rate };
+  if (!root.document || !root.atlasViewer) return;
+
+  const SCALE = 0.11,
+    REACH = 0.42,
+    INK = "#1a1a1a",
+    RED = "#a8182a",
+    NAVY = "#16325c",
+    PLUM = "#9a58b0",
+    TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
+  const frame = (azimuth, elevation) => {
+    const [a, e] = [azimuth, elevation].map((x) => x * Math.PI / 180),
+      [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
+    return [-sa, ca, 0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se];
+  };
+  const arrow = (colour, tube, tail, tip) => [colour, tube, 5 + tube, 0.3 * (5 + tube), tail, tip];
+  const circle = (middle, a, b, radius, from = 0, to = 2 * Math.PI) =>
+    Array.from({ length: 73 }, (_, i) => {
+      const w = from + (to - from) * i / 72;
+      return middle.map((x, j) => x + radius * (Math.cos(w) * a[j] + Math.sin(w) * b[j]));
+    });
+  const empty = (azimuth, elevation) => ({
+    frame: frame(azimuth, elevation),
+    matt: 0,
+    surfaces: [],
+    lines: [],
+    wires: [],
+    arrows: [],
+    dots: [],
+    names: [],
   });
-  const share = 1 / spaces.length, layout = () => spaces.map((_, i) => [i * share, 0, share, 1, 450 * share, 300, spaces.length > 1 ? 215 : 300, 225 * share, 150]);
-  if (spaces.length) try {
-    const scene = box.appendChild(document.createElement("div")); scene.className = "scene";
-    viewer = new root.atlasViewer.Viewer(scene, {wide: {places: layout(), panels: spaces.map(made)}, texts: TEXTS.map(([letters, width]) => [width, 12, "", letters])}, box.dataset.says);
-    for (const panel of viewer.panels) { panel.write = () => write(panel); panel.write(); }
-  } catch (error) { box.hidden = true; console.warn(error.message); }
-  say(); show(true);
-  if (sliders.time) { sliders.go(!calm.matches); calm.addEventListener("change", () => sliders.go(!calm.matches)); }
-  addEventListener("hashchange", () => { read(); say(); show(true); });
-  new IntersectionObserver(([{isIntersecting}]) => { seen = isIntersecting; if (seen && sliders.time) sliders.go(sliders.playing); }).observe(section);
-}
+
+  // In the space of initial data: the quadric about its centre, the hyperbola, and the point on it.
+  const space = ({ I, B2, B3, omega }) => {
+    const panel = empty(25, 14),
+      { form, axis, other } = quadric(I, B2, B3),
+      at = (omega) => omega.map((x, i) => SCALE * (x + [0, B2, B3][i])),
+      size = Math.max(...form.map(Math.abs), 1e-9);
+    const scaled = form.map((x, i) => (i === 9 ? x * SCALE * SCALE : x) / size),
+      value = (y) => {
+        const [a, , , , b, c] = scaled;
+        return a * y[0] ** 2 + b * y[1] ** 2 + 2 * c * y[1] * y[2];
+      };
+    const top = axis.map((x) => REACH * x),
+      across = (d) => Math.sqrt(Math.max(0, -(value(top) + scaled[9]) / value(d))),
+      rim = [across([1, 0, 0]), across(other)],
+      box = Math.max(REACH, ...rim) + 0.1;
+    panel.surfaces.push([
+      scaled,
+      [...axis, REACH, ...axis.map((x) => -x), REACH],
+      [],
+      "#4f8fd0",
+      "#f0b25c",
+      0.4,
+      [-box, -box, -box],
+      [box, box, box],
+    ]);
+    for (const side of [1, -1]) {
+      panel.lines.push([
+        INK,
+        1.1,
+        Array.from({ length: 73 }, (_, i) => {
+          const w = Math.PI * i / 36;
+          return [
+            rim[0] * Math.cos(w),
+            side * top[1] + rim[1] * Math.sin(w) * other[1],
+            side * top[2] + rim[1] * Math.sin(w) * other[2],
+          ];
+        }),
+      ]);
+    }
+    let run = [];
+    const flush = () => {
+      if (run.length > 2) panel.lines.push(["#4b1f78", 2.8, run]);
+      run = [];
+    };
+    for (let i = 1; i < 400; i++) { // the two branches, by the angle seen from the pole
+      const w = -B2 + B2 * Math.tan(Math.PI * (i / 400 - 0.5)),
+        y = at([0, w, motion(I, B2, B3, w).omega3]);
+      if (i === 200 || !y.every(Number.isFinite) || Math.abs(dot(axis, y)) > REACH) flush();
+      else run.push(y);
+    }
+    flush();
+    const O = at([0, 0, 0]), point = at(omega);
+    [0, 1, 2].forEach((i) => {
+      const tip = O.map((x, j) => x + (i === j ? 0.3 : 0));
+      panel.arrows.push(arrow(INK, 1.5, O, tip));
+      panel.names.push([i, INK, tip, O]);
+    });
+    panel.arrows.push(arrow(RED, 3.6, O, at([0, B2, B3])));
+    panel.names.push([3, RED, at([0, B2, B3]), O]);
+    if (norm(...point) < 1.2) {
+      panel.arrows.push(arrow(PLUM, 2.6, O, point));
+      panel.dots.push(["#d4552b", 7, point]);
+      panel.names.push([4, PLUM, point, O]);
+    }
+    panel.dots.push([RED, 4.4, [0, 0, 0]]);
+    return panel;
+  };
+  // In space: a cylindrical shell with this I, its axis, and the trace of that over a span of time,
+  // gone by and to come.
+  const body = ({ I, B2, B3, at, span }, t) => {
+    const panel = empty(20, 15),
+      R = at(t),
+      [a, b, n] = [0, 1, 2].map((j) => R.map((row) => row[j])),
+      less = n.map((x) => -x);
+    const h = Math.sqrt(12 * Math.max(1 / I - 0.5, 0)),
+      r = 0.34 / norm(1, h / 2),
+      half = Math.max(r * h / 2, 0.012),
+      wood = "#dfb578",
+      bark = "#b07a35",
+      seam = "#6b4517",
+      low = [-0.6, -0.6, -0.6],
+      high = [0.6, 0.6, 0.6];
+    const P = (i, j) => (i === j ? 1 : 0) - n[i] * n[j],
+      side = [P(0, 0), P(0, 1), P(0, 2), 0, P(1, 1), P(1, 2), 0, P(2, 2), 0, -r * r],
+      ends = [...n, half, ...less, half],
+      wedge = (s) => [...add(b.map((x) => s * x), a, -0.25), 0];
+    panel.surfaces.push([side, ends, [], wood, bark, 1, low, high], [
+      side.slice(),
+      [...ends, ...wedge(1), ...wedge(-1)],
+      [],
+      seam,
+      seam,
+      1,
+      low,
+      high,
+    ]);
+    for (const s of [1, -1]) {
+      panel.lines.push([
+        INK,
+        1.1,
+        circle(n.map((x) => s * half * x), a, b, r),
+      ]);
+    }
+    const B = [0, B2 / norm(B2, B3), B3 / norm(B2, B3)],
+      gone = Math.min(t, span),
+      rod = 0.46,
+      trace = (from, to) =>
+        Array.from(
+          { length: 145 },
+          (_, i) => at(from + (to - from) * i / 144).map((row) => rod * row[2]),
+        );
+    panel.lines.push(["#b9c7e2", 1.6, trace(t, t + span)]);
+    if (gone) panel.lines.push(["#2a57a5", 2.6, trace(t - gone, t)]);
+    panel.arrows.push(
+      arrow(NAVY, 2.6, [0, 0, 0], n.map((x) => rod * x)),
+      arrow(RED, 3.6, [0, 0, 0], B.map((x) => 0.5 * x)),
+    );
+    panel.names.push([5, RED, B.map((x) => 0.5 * x), [0, 0, 0]], [6, NAVY, n.map((x) => rod * x), [
+      0,
+      0,
+      0,
+    ]]);
+    return panel;
+  };
+
+  const SVG = "http://www.w3.org/2000/svg";
+  const node = (tag, attributes, ...inside) => {
+    const made = document.createElementNS(SVG, tag);
+    Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
+    made.append(...inside);
+    return made;
+  };
+  // The names of a panel, as letters of the page; those that are there stay.
+  const write = (panel) => {
+    const { names } = panel.data;
+    if (panel.letters.length === names.length && panel.letters[0].querySelector("text")) return;
+    panel.letters.forEach((one) => one.remove());
+    panel.letters = names.map(([number, colour]) => {
+      const [letters, width] = TEXTS[number],
+        text = node("text", {
+          fill: colour,
+          "font-size": 176,
+          "font-weight": 700,
+          "text-anchor": "middle",
+          y: 60,
+        }, letters);
+      const made = node("svg", {
+        viewBox: [-width / 2 - 3, -9, width + 6, 18].map((x) => 16 * x).join(" "),
+      }, text);
+      panel.viewer.letters.append(made);
+      return made;
+    });
+  };
+
+  // What is drawn in a plane: {x, y: [low, high, letters], lines: [class, points], dots: [class, x,
+  // y], words: [x, y, letters]}.
+  const OFF = 40 * Math.PI / 180,
+    SIZE = 300,
+    LEFT = 34,
+    TOP = 10,
+    FRAME = 256,
+    WIDE = [-3, 3, "ω₂"],
+    HIGH = [-5, 5, "ω₃"];
+  const sampled = (low, high, count, f) =>
+    Array.from({ length: count + 1 }, (_, i) => f(low + (high - low) * i / count));
+  const places = (
+    { x, y },
+  ) => [
+    (v) => LEFT + FRAME * (v - x[0]) / (x[1] - x[0]),
+    (v) => TOP + FRAME * (y[1] - v) / (y[1] - y[0]),
+  ];
+  const paint = (svg, drawn) => {
+    const { x, y, lines = [], dots = [], words = [] } = drawn,
+      [X, Y] = places(drawn),
+      far = (v) => !(Math.abs(v) < 3 * SIZE),
+      n = (v) => v.toFixed(1),
+      square = { x: LEFT, y: TOP, width: FRAME, height: FRAME };
+    const path = (points) =>
+      points.reduce(
+        ([d, pen], [u, v]) =>
+          far(X(u)) || far(Y(v)) ? [d, "M"] : [`${d}${pen}${n(X(u))} ${n(Y(v))}`, "L"],
+        ["", "M"],
+      )[0];
+    const ticks = ([low, high]) => {
+      const step = [0.2, 0.5, 1, 2].find((one) => (high - low) / one <= 8) ?? 5,
+        first = Math.ceil(low / step - 1e-9);
+      return Array.from(
+        { length: Math.floor(high / step + 1e-9) - first + 1 },
+        (_, i) => Number(((first + i) * step).toFixed(1)),
+      );
+    };
+    const text = (u, v, letters, anchor = "start", kind = "") =>
+      node(
+        "text",
+        { x: n(u), y: n(v), "text-anchor": anchor, class: kind },
+        String(letters).replace("-", "−"),
+      );
+    svg.replaceChildren(
+      node("rect", square),
+      ...ticks(x).map((v) => text(X(v), SIZE - 18, v, "middle")),
+      ...ticks(y).map((v) => text(LEFT - 5, Y(v) + 4, v, "end")),
+      node(
+        "svg",
+        { ...square, viewBox: Object.values(square).join(" ") },
+        ...lines.map(([kind, points]) => node("path", { class: kind, d: path(points) })),
+        ...words.map(([u, v, letters, kind]) => text(X(u) + 7, Y(v) - 7, letters, "start", kind)),
+        ...dots.filter(([, u, v]) => !far(X(u)) && !far(Y(v))).map(([kind, u, v]) =>
+          node("circle", { class: kind, cx: n(X(u)), cy: n(Y(v)), r: kind === "point" ? 7 : 4 })
+        ),
+      ),
+      text(LEFT + FRAME, SIZE - 3, x[2], "end", "axis"),
+      text(LEFT + 7, TOP + 16, y[2], "start", "axis"),
+    );
+  };
+  // Lines of f over omega2, the stable motions and the unstable ones.
+  const over = ({ I, B2, B3 }, f) =>
+    [["curve", (m) => m.stability > 0], ["unstable", (m) => !(m.stability > 0)]].map((
+      [kind, holds],
+    ) => [
+      kind,
+      sampled(...WIDE.slice(0, 2), 900, (w) => {
+        const m = motion(I, B2, B3, w);
+        return [w, holds(m) && Math.abs(w + B2) > 1e-9 ? f(m) : NaN];
+      }),
+    ]);
+  const PLANES = {
+    plane: (state) => {
+      const { B2, B3, omega } = state;
+      return {
+        x: WIDE,
+        y: HIGH,
+        lines: [
+          ["guide", [[-3, 0], [3, 0]]],
+          ["guide", [[0, -5], [0, 5]]],
+          ...over(state, (m) => m.omega3),
+        ],
+        dots: [["pole", -B2, -B3], ["rest", 0, 0], ["point", omega[1], omega[2]]],
+        words: [[-B2, -B3, "−B′", "pole"], [0, -0.95, "rest"]],
+      };
+    },
+    frequencies: (state) => {
+      const { I, B2, B3, omega } = state,
+        m = motion(I, B2, B3, omega[1]),
+        nutation = (m) => Math.sqrt(Math.max(m.stability, 0)),
+        kinds = [["k", "curve", (m) => m.k], ["φ", "second", (m) => m.phi], [
+          "νₙ",
+          "third",
+          nutation,
+        ]];
+      return {
+        x: WIDE,
+        y: [-6, 6, "1/time"],
+        lines: [
+          ["guide", [[-3, 0], [3, 0]]],
+          ["guide", [[omega[1], -6], [omega[1], 6]]],
+          ...kinds.map((
+            [, kind, f],
+          ) => [
+            kind,
+            sampled(
+              -3,
+              3,
+              900,
+              (w) => [w, Math.abs(w + B2) > 4e-3 ? f(motion(I, B2, B3, w)) : NaN],
+            ),
+          ]),
+        ],
+        dots: kinds.map(([, kind, f]) => [kind, omega[1], f(m)]),
+        words: kinds.map(([name, kind, f]) => [omega[1], f(m), name, kind]),
+      };
+    },
+    portrait: ({ I, B2, B3, omega, state }, t) => {
+      const { b, c3, own, V, squared } = portrait(I, B2, B3, omega),
+        all = sampled(-0.999, 0.999, 600, (nu) => nu),
+        heights = all.map(V),
+        low = Math.min(...heights),
+        humps = heights.filter((v, i) => i && v > heights[i - 1] && v >= heights[i + 1]);
+      const span = Math.max(own - low, ...humps.map((h) => h - low), 0.1 * b * b),
+        y = state(t),
+        top = 1.25 * Math.sqrt(Math.max(...all.map((nu) => squared(nu, low + 1.3 * span)), 1e-4));
+      // Where the square changes its sign between two places, the curve ends on the axis.
+      const line = (kind, h) =>
+        [1, -1].map((sign) => [
+          kind,
+          all.flatMap((nu, i) => {
+            const before = all[Math.max(i - 1, 0)],
+              [u, v] = [squared(before, h), squared(nu, h)],
+              here = [c3 - b * nu, sign * Math.sqrt(v)];
+            return u * v < 0 ? [[c3 - b * (nu - (nu - before) * v / (v - u)), 0], here] : [here];
+          }),
+        ]);
+      const wide = all.filter((nu) => squared(nu, low + 1.3 * span) >= 0).map((nu) => c3 - b * nu),
+        [left, right] = [Math.min(...wide) - 0.1, Math.max(...wide) + 0.1];
+      return {
+        x: [left, right, "Ω₃"],
+        y: [-top, top, "dΩ₃/dt"],
+        lines: [
+          ["guide", [[left, 0], [right, 0]]],
+          ...[0.04, 0.16, 0.36, 0.64, 1, 1.3].flatMap((part) => line("level", low + part * span)),
+          ...humps.flatMap((h) => line("unstable", h)),
+          ...line("curve", own + 1e-9),
+        ],
+        dots: [["point", y[2], rate(I, B2, B3, y)[2]]],
+      };
+    },
+    rosette: ({ B2, B3, at, span }, t) => {
+      const b = norm(B2, B3),
+        flat = (s) => {
+          const [x, y, z] = at(s).map((row) => Math.sin(OFF) * row[0] + Math.cos(OFF) * row[2]);
+          return [x, (B3 * y - B2 * z) / b, (B2 * y + B3 * z) / b];
+        },
+        way = sampled(0, span, 1500, flat),
+        part = (side) => way.map(([x, y, z]) => z * side >= 0 ? [x, y] : [NaN, NaN]);
+      return {
+        x: [-1.1, 1.1, "across B"],
+        y: [-1.1, 1.1, ""],
+        lines: [["guide", sampled(0, 2 * Math.PI, 90, (w) => [Math.cos(w), Math.sin(w)])], [
+          "level",
+          part(-1),
+        ], ["trace", part(1)]],
+        dots: [["point", ...flat(t % span).slice(0, 2)]],
+      };
+    },
+  };
+  const SPACES = { space, body };
+  const DIGITS = (x) =>
+      Number.isFinite(x) ? String(Number(x.toPrecision(6))).replace("-", "−") : "none, at the pole",
+    NEAR = 0.12,
+    AHEAD = 12;
+
+  for (const [number, section] of document.querySelectorAll(".explorer").entries()) {
+    const form = section.querySelector("form"),
+      out = section.querySelector("output"),
+      line = section.querySelector("code"),
+      box = section.querySelector(".stage"),
+      calm = matchMedia("(prefers-reduced-motion: reduce)"),
+      mark = `#motion${number || ""}:`;
+    const [first, second] = section.dataset.field.split(" ").map(Number),
+      b = norm(first, second),
+      shown = section.dataset.panels.split(" "),
+      flat = [...section.querySelectorAll(".plane")];
+    const value = (name, other = 0) => sliders.find(name)?.value ?? other;
+    let seen = false, free = false, viewer, kept = {};
+    const place = () => {
+      const I = value("I", 1.5),
+        angle = sliders.find("angle"),
+        still = !angle || angle.value === angle.start,
+        [B2, B3] = still
+          ? [first, second]
+          : [Math.cos, Math.sin].map((f) => b * f(angle.value * Math.PI / 180));
+      const omega2 = sliders.find("q")
+        ? closed(I, B2, B3, value("p"), value("q"))
+        : value("omega2");
+      return { I, B2, B3, omega2, ...motion(I, B2, B3, omega2) };
+    };
+    const state = () => {
+      const { I, B2, B3, omega2, omega3, k, phi, stability } = place(),
+        omega = [value("omega1"), omega2, free ? value("omega3") : omega3],
+        key = [I, B2, B3, ...omega].join(" ");
+      if (kept.key === key) return kept;
+      const field = `--ratio ${I} --field ${Number(B2.toPrecision(12))} ${
+          Number(B3.toPrecision(12))
+        }`,
+        on = !free && !omega[0],
+        spin = Number.isFinite(phi) ? phi : 0,
+        moved = course(I, B2, B3, omega.map((x) => Number.isFinite(x) ? x : 0));
+      if (on) {
+        return kept = {
+          key,
+          I,
+          B2,
+          B3,
+          omega,
+          on,
+          state: moved,
+          at: (t) => rotation(B2, B3, k, spin, t),
+          span: 2 * Math.PI * value("q", 1) / Math.abs(k || 1),
+          says: `${kind(I)}; ω₂ = ${DIGITS(omega2)}, ω₃ = ${DIGITS(omega3)}, k = ${
+            DIGITS(k)
+          }, φ = ${DIGITS(phi)}; ${stability > 0 ? "stable" : "unstable"}`,
+          command: `atlas motion ${field} --omega2 ${omega2}`,
+        };
+      }
+      const swing = sampled(0, 4 * AHEAD, 400, (t) => moved(t)[2]),
+        [low, high] = [Math.min(...swing), Math.max(...swing)].map(DIGITS);
+      return kept = {
+        key,
+        I,
+        B2,
+        B3,
+        omega,
+        on,
+        state: moved,
+        at: (t) => matrix(moved(t)),
+        span: AHEAD,
+        says: `off the hyperbola: the axis nutates, Ω₃ swings from ${low} to ${high}`,
+        command: `atlas motion ${field} --omega ${omega.join(" ")}`,
+      };
+    };
+    // A point near the hyperbola is on it, and stays there while other sliders move.
+    const follow = () => {
+      if (!free && Number.isFinite(place().omega3)) {
+        sliders.find("omega3")?.set(Number(place().omega3.toPrecision(7)));
+      }
+    };
+    const settle = (near) => {
+      const other = sliders.find("omega3");
+      if (!other) return;
+      const at = (w) => motion(place().I, place().B2, place().B3, w).omega3,
+        w = value("omega2"),
+        slope = (at(w + 1e-3) - at(w - 1e-3)) / 2e-3;
+      free = !(Math.abs(other.value - at(w)) <= near * norm(1, slope));
+      follow();
+    };
+    const read = () => {
+      if (location.hash.startsWith(mark)) {
+        sliders.read(new URLSearchParams(location.hash.slice(mark.length)));
+        settle(1e-6);
+      }
+    }; // the state that the address names
+    const say = () => {
+      const { says, command } = state();
+      out.textContent = says;
+      line.textContent = command;
+    };
+    const spaces = shown.filter((name) => name in SPACES),
+      planes = shown.filter((name) => name in PLANES),
+      made = (name) => SPACES[name](state(), value("t"));
+    const still = (name) => ["space", "plane", "frequencies"].includes(name);
+    const show = (all) => {
+      planes.forEach((name, i) => {
+        if (all || !still(name)) paint(flat[i].firstChild, PLANES[name](state(), value("t")));
+      });
+      if (viewer) {
+        spaces.forEach((name, i) => {
+          if (all || !still(name)) viewer.panels[i].set(made(name));
+        });
+        viewer.hurry(sliders.playing && seen ? 1500 : 250);
+      }
+    };
+    const changed = (name) => {
+      if (!flat.concat(viewer ?? []).length) return;
+      if (name === "t") {
+        show(false);
+        return;
+      }
+      if (name === "omega3") settle(NEAR / 2);
+      else follow();
+      say();
+      show(true);
+    };
+    const keep = () =>
+      history.replaceState(null, "", `${mark}${new URLSearchParams(sliders.entries())}`);
+    const sliders = new root.atlasSliders.Sliders(
+      form,
+      JSON.parse(form.dataset.sliders),
+      changed,
+      keep,
+      () => seen,
+    );
+    if (form.dataset.free) free = true;
+    else follow();
+    read();
+    section.hidden = false;
+    planes.forEach((name, i) => {
+      const drawn = node("svg", {
+        viewBox: `0 0 ${SIZE} ${SIZE}`,
+        role: "img",
+        "aria-label": flat[i].dataset.says,
+      });
+      flat[i].append(drawn);
+      if (name !== "plane" || !sliders.find("omega3")) return;
+      const drag = ({ clientX, clientY }) => {
+        const rect = drawn.getBoundingClientRect(),
+          u = SIZE * (clientX - rect.left) / rect.width,
+          v = SIZE * (clientY - rect.top) / rect.height,
+          into = (x, [low, high]) => Math.round(100 * Math.min(high, Math.max(low, x))) / 100;
+        sliders.find("omega2").set(into(WIDE[0] + (u - LEFT) * (WIDE[1] - WIDE[0]) / FRAME, WIDE));
+        sliders.find("omega3").set(into(HIGH[1] - (v - TOP) * (HIGH[1] - HIGH[0]) / FRAME, HIGH));
+        settle(NEAR);
+        say();
+        show(true);
+      };
+      drawn.addEventListener("pointerdown", (event) => {
+        drawn.setPointerCapture(event.pointerId);
+        drag(event);
+      });
+      drawn.addEventListener("pointermove", (event) => {
+        if (drawn.hasPointerCapture(event.pointerId)) drag(event);
+      });
+      drawn.addEventListener("pointerup", keep);
+    });
+    const share = 1 / spaces.length,
+      layout = () =>
+        spaces.map((
+          _,
+          i,
+        ) => [
+          i * share,
+          0,
+          share,
+          1,
+          450 * share,
+          300,
+          spaces.length > 1 ? 215 : 300,
+          225 * share,
+          150,
+        ]);
+    if (spaces.length) {
+      try {
+        const scene = box.appendChild(document.createElement("div"));
+        scene.className = "scene";
+        viewer = new root.atlasViewer.Viewer(scene, {
+          wide: { places: layout(), panels: spaces.map(made) },
+          texts: TEXTS.map(([letters, width]) => [width, 12, "", letters]),
+        }, box.dataset.says);
+        for (const panel of viewer.panels) {
+          panel.write = () => write(panel);
+          panel.write();
+        }
+      } catch (error) {
+        box.hidden = true;
+        console.warn(error.message);
+      }
+    }
+    say();
+    show(true);
+    if (sliders.time) {
+      sliders.go(!calm.matches);
+      calm.addEventListener("change", () => sliders.go(!calm.matches));
+    }
+    addEventListener("hashchange", () => {
+      read();
+      say();
+      show(true);
+    });
+    new IntersectionObserver(([{ isIntersecting }]) => {
+      seen = isIntersecting;
+      if (seen && sliders.time) sliders.go(sliders.playing);
+    }).observe(section);
+  }
 })(globalThis);
