@@ -4,49 +4,29 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
-from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
+from atlas.draw.meeting import Texts
 from atlas.targets import Target
 
 _INCH, _POINTS = 25.4, 72.0
 _FORMULAS: Any = MathTextParser("path")
 
 
-class Marks(RendererBase):
+class Marks(Texts):
     """A renderer that draws nothing and notes texts and the widths of strokes, in points."""
 
     def __init__(self, figure: Figure) -> None:
         """Look at everything that is drawn."""
-        super().__init__()
-        self.figure = figure
-        self.texts: list[tuple[Text, Bbox]] = []
         self.widths: list[float] = []
-        figure.draw(self)
+        super().__init__(figure)
 
-    def get_canvas_width_height(self) -> tuple[float, float]:
-        """Return the size in pixels."""
-        return self.figure.bbox.width, self.figure.bbox.height
-
-    def points_to_pixels(self, points: float) -> float:
-        """Return a length in pixels."""
-        return points * self.figure.dpi / _POINTS
-
-    def draw_path(self, gc: Any, path: Any, _transform: Any, _face: Any = None) -> None:
+    def draw_path(self, gc: Any, path: Any, *_: Any) -> None:
         """Note the width of a line; the white outlines of names are none."""
         if gc.get_linewidth() > 0.0 and len(path.vertices) and gc.get_rgb()[:3] != (1.0, 1.0, 1.0):
             self.widths.append(gc.get_linewidth())
-
-    def draw_image(self, *_: Any) -> None:
-        """Pass over a picture."""
-
-    def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
-        """Note a text."""
-        if mtext is not None and s.strip():
-            self.texts.append((mtext, mtext.get_window_extent(self)))
 
     @property
     def types(self) -> list[float]:

@@ -2,6 +2,7 @@
 
 import reprlib
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from io import BytesIO
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -29,6 +30,8 @@ from atlas.targets import Target
 
 _INCH, _SCREEN = 25.4, 96
 _KEPT = ("pdf.fonttype", "ps.fonttype")
+_WIDER = (1.15, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0)
+"""Widths, over that of a target, at which a figure that can't be read there is tried."""
 Hold: TypeAlias = Callable[[int, tuple[float, float]], Held]
 
 
@@ -74,9 +77,37 @@ def to_figure(
     Raises AtlasError where a panel cannot hold one of its layers, and for a scene that can't be read at the target.
     """
     if target:
-        from atlas.scene.arrange import arranged
+        return _readable(scene, style, target, shaded=shaded, figure=figure)
+    return _drawn(scene, style, shaded=shaded, figure=figure, held=held)
 
-        scene = arranged(scene, target)
+
+def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
+    """Return a scene as a figure for a target. Raises AtlasError where texts would stand on one another."""
+    from atlas.draw.meeting import unreadable
+    from atlas.scene.arrange import arranged
+
+    drawn = _drawn(arranged(scene, target), style, target, **options)
+    fault = unreadable(drawn)
+    if not fault:
+        return drawn
+    wider = (replace(target, width=share * target.width) for share in _WIDER)
+    wide = (one for one in wider if not unreadable(_drawn(arranged(scene, one), style, one)))
+    needed = next((f"it can be from about {one.width:.0f} mm on" for one in wide), "draw it without a target")
+    raise AtlasError(
+        f"{scene.title}: it can't be read at {target.width:g} mm x {target.height:g} mm, for {fault}; {needed}."
+    )
+
+
+def _drawn(
+    scene: Scene,
+    style: Any,
+    target: Target | None = None,
+    *,
+    shaded: bool = False,
+    figure: Figure | None = None,
+    held: Hold | None = None,
+) -> Figure:
+    """Return a scene as a figure of its size, with the type and the lines of a target."""
     with context(style, target):
         figure, panels = laid_out(scene, figure)
         if target and isinstance(figure, SceneFigure):

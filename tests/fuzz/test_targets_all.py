@@ -10,8 +10,11 @@ from atlas.scene import recipes
 from atlas.targets import TARGETS
 
 ALL = recipes.names() if EXAMPLES else []
-LOW = {"cost", "cusps", "flight_poster", "horizon", "monodromy", "work_precision"}
-"""Recipes that are too small in the height of a slide."""
+LOW = {
+    "bifurcation", "cost", "cusps", "flight_poster", "horizon", "monodromy", "spectrum", "stability_map",
+    "work_precision",
+}  # fmt: skip
+"""Recipes that are too small in the height of a slide, or whose names would stand on one another there."""
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -1,5 +1,6 @@
 """Figures for journals, slides and posters: of the width that is asked, with its type and lines, no names that meet."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from atlas.build.figures import build_figures
 from atlas.draw import save, to_figure
 from atlas.report.tables import compute
 from atlas.report.tables.table import Request
-from atlas.scene import Curve, Plane, Scene, Space, recipes
+from atlas.scene import Curve, Label, Plane, Scene, Space, recipes
 from atlas.scene.arrange import arranged, suited
 from atlas.targets import TARGETS, TYPE, find
 
@@ -75,6 +76,24 @@ def test_what_is_too_high_for_a_slide_says_so() -> None:
     """Three panels of many curves would be too small in the height of a slide."""
     with pytest.raises(AtlasError, match=r"can't be read at a height of 68 mm; its panels would have only 0\.19"):
         arranged(recipes.load("horizon").scene(), find("beamer"))
+
+
+def test_a_figure_whose_names_would_stand_on_one_another_is_refused() -> None:
+    """It says which names, and from which width on none do; there the figure is made, and nothing breaks the law."""
+    x = np.array([[0.0, 0.0], [1.0, 1.0]])
+    names = (
+        Label(np.array([0.25, 0.5]), "a very long solenoid"),
+        Label(np.array([0.75, 0.5]), "a very short solenoid"),
+    )
+    scene = Scene(
+        "Two names", "A caption.", "Two.", (Plane((Curve(x, "main"), *names), "$x$", "$y$"),), size=(60.0, 50.0)
+    )
+    slim = replace(find("aps"), width=60.0)
+    with pytest.raises(AtlasError, match="'a very long solenoid' and 'a very short solenoid' would stand on") as raised:
+        to_figure(scene, target=slim)
+    (width,) = re.findall(r"it can be from about (\d+) mm on", str(raised.value))
+    wide = replace(slim, width=float(width))
+    assert faults(to_figure(scene, target=wide), wide) == []
 
 
 def test_panels_of_a_row_stand_below_one_another_with_their_labels() -> None:

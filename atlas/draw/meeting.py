@@ -1,0 +1,54 @@
+"""Texts of a figure that stand on one another or leave the page: what cannot be read is not made for a target."""
+
+from itertools import combinations
+from typing import Any
+
+from matplotlib.backend_bases import RendererBase
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+_ACROSS, _UP = 0.1, 0.35
+"""Shares of the size of letters by which boxes of texts that are told apart overlap at most: a box is as high as a
+line, of which letters fill two thirds."""
+
+
+class Texts(RendererBase):
+    """A renderer that draws nothing and notes each text with its box, in pixels."""
+
+    def __init__(self, figure: Figure) -> None:
+        super().__init__()
+        self.figure = figure
+        self.texts: list[tuple[Text, Any]] = []
+        figure.draw(self)
+
+    def get_canvas_width_height(self) -> tuple[float, float]:
+        """Return the size in pixels."""
+        return self.figure.bbox.width, self.figure.bbox.height
+
+    def points_to_pixels(self, points: float) -> float:
+        """Return a length in pixels."""
+        return points * self.figure.dpi / 72.0
+
+    def draw_path(self, *_: Any) -> None:
+        """Pass over a line."""
+
+    def draw_image(self, *_: Any) -> None:
+        """Pass over a picture."""
+
+    def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
+        """Note a text."""
+        if mtext is not None and s.strip():
+            self.texts.append((mtext, mtext.get_window_extent(self)))
+
+
+def unreadable(figure: Figure) -> str:
+    """Return in words which texts of a figure stand on one another, or which leaves the page; empty where none do."""
+    drawn = Texts(figure)
+    for (one, a), (other, b) in combinations(drawn.texts, 2):
+        size = drawn.points_to_pixels(min(one.get_fontsize(), other.get_fontsize()))
+        across, up = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+        if across > _ACROSS * size and up > _UP * size:
+            return f"{one.get_text()!r} and {other.get_text()!r} would stand on one another"
+    page = figure.bbox.padded(drawn.points_to_pixels(1.0))
+    beyond = (text for text, box in drawn.texts if min(*(box.p0 - page.p0), *(page.p1 - box.p1)) < 0.0)
+    return next((f"{text.get_text()!r} would leave the page" for text in beyond), "")
