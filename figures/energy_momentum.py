@@ -97,9 +97,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     lines = [
         (run, "unstable_line" if unstable else "main") for branch in branches for run, unstable in runs(branch, rest)
     ]
-    level = np.array([[-1.0, rest], [1.0, rest]]) * [min(abs(M3), reach * scale), 1.0]
-    free = bool(M3) and not wells.A and not wells.a  # of a ball w = 0 is a branch, p = M3 nu at any nu
-    lines += [(level, "main")] if free else []
+    free = any(not branch.w.any() for branch in branches)  # w = 0 at any nu, as of a ball
     near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
     if not len(near):
         raise DomainError(
@@ -116,8 +114,8 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     above = [[p[-1], high + pad], [p[0], high + pad]]
     layers: list[Layer] = [Region(np.array([*np.stack([p, least], axis=1), *above]), "region")]
     layers += [Curve(line, role) for line, role in lines]
-    layers += [label for branch in branches for label in names(branch, reach * scale, rest)]
-    layers += [Label(level.mean(axis=0), "$w=0$", "note", (0.0, 6.0))] if free else []
+    layers += [label for x in branches if x.w.any() for label in names(x, reach * scale, rest)]
+    layers += [Label(np.array([0.0, rest]), "$w=0$", "note", (0.0, 6.0))] if free else []
     layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers += [Label(np.array(spin[:2]), what, "note", (9, -4) if free else (5, 6)) for spin in spins[:1]]

@@ -1,6 +1,6 @@
 """Any motion of a charged body with three different moments of inertia."""
 
-from atlas.families.family import RATE, Command, Family, Quantity, Sampled
+from atlas.families.family import RATE, TIME, Command, Family, Quantity, Sampled
 from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, rotation
 
 FAMILY = Family(
@@ -18,8 +18,18 @@ FAMILY = Family(
         Quantity(
             "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
             slow=True,
-            lines=(("f1", "frequency of M and K"), ("f2", "frequency of M and K"), ("f3", "about B besides")),
+            lines=(
+                ("f1", "of M and K; the basis is a convention"), ("f2", "of M and K; the basis is a convention"),
+                ("f3", "about B, or m of a free body, but for whole f1, f2"),
+            ),
         ),
+        Quantity("mode", "axis that the momentum goes round", tabled=False, missing="in a field"),
+        Quantity("period", "period of Omega and K", TIME, missing="no one period", certified=True),
+        Quantity(
+            "precession_rate", "mean, of the axis that m, or K, goes round", RATE, missing="no one period",
+            certified=True,
+        ),
+        Quantity("spin_rate", "mean, about that axis", RATE, missing="no one period", certified=True),
         Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
         Quantity("F", "integral of Clebsch", "(inertia/time)^2", "theorem-clebsch", certified=True),
         Quantity("MK", "(M, K)", "inertia/time^2", "theorem-lie-poisson", certified=True),

@@ -31,7 +31,15 @@ FAMILY = Family(
             text=in_brackets, checked="elliptic omega", certified=True,
         ),
         Quantity("period", "period of K", TIME, checked="elliptic period", certified=True),
-        Quantity("precession_per_period", "turn about B in one period", "rad", missing="no period", certified=True),
+        Quantity(
+            "precession_per_period", "turn about B in one period, of the axis that K goes round", "rad",
+            missing="no period", certified=True,
+        ),
+        Quantity(
+            "precession_rate", "mean, about B, of the axis that K goes round", RATE, missing="no period",
+            certified=True,
+        ),
+        Quantity("spin_rate", "mean, about the axis that K goes round", RATE, missing="no period", certified=True),
         Quantity("modulus", "of the elliptic functions", certified=True),
         Quantity("nome", "of the elliptic functions", certified=True),
     ),

@@ -11,7 +11,10 @@ FAMILY = Family(
     (
         Quantity("k", "frequency of precession about m", RATE, "(87)", checked="free k", certified=True),
         Quantity("phi", "frequency of proper rotation", RATE, "(87)", checked="free phi", certified=True),
-        Quantity("period", "period of precession, 2 pi/k", TIME, certified=True),
+        Quantity("mode", "axis that the momentum goes round", tabled=False),
+        Quantity("period", "period of Omega, 2 pi/|phi|", TIME, certified=True),
+        Quantity("precession_rate", "about the momentum, k", RATE, certified=True),
+        Quantity("spin_rate", "about the body's axis, phi", RATE, certified=True),
     ),
     (
         *rotation("(87)", "free R"),

@@ -65,15 +65,10 @@ def nutation(axis: str) -> tuple[Quantity, ...]:
             for name, what in turns
         ),
         *(
-            Quantity(f"{name}_rate", unit=RATE, exact=partial(_mean, f"{name}_per_period"), missing="no period",
-                     certified=True, **of(f"mean, about {what}"))
+            Quantity(f"{name}_rate", unit=RATE, missing="no period", certified=True, **of(f"mean, about {what}"))
             for name, what in turns
         ),
     )  # fmt: skip
-
-
-def _mean(name: str, motion: Any) -> Any:
-    return getattr(motion, name) / motion.period
 
 
 ELLIPTIC = tuple(

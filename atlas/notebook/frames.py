@@ -12,7 +12,7 @@ from atlas.core.quantities import TIME
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.libraries import of_sweeps
-from atlas.scene.any_motion import pieces, turns
+from atlas.scene.any_motion import axis_period, pieces, turns
 from atlas.scene.sample import knots
 from atlas.study.sweep.families import FAMILIES, Swept
 
@@ -75,8 +75,7 @@ def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> 
     name = type(motion).__name__
     if motion.shape:
         raise AtlasError(f"A trace is of one {name}, not of several: make one with numbers in place of arrays.")
-    quantities = FAMILIES[motion.family].family.quantities
-    period = next((float(q.value(motion)) for q in quantities if q.name == "period"), 0.0)
+    period = axis_period(motion)
     if stop is None:
         if not isfinite(period) or not period:
             raise AtlasError(f"This {name} has no period: say stop=..., the time up to which its axis is followed.")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray, positive
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, DomainError
 from atlas.scene import axis_trace
 from atlas.scene.bodies import body_of
 from atlas.scene.captions import plain_vector, quotient, spelt, tex_vector
@@ -149,7 +149,7 @@ def picture(
 
 def slow_turn(motion: Any, length: float) -> float:
     """Return the time of one precession, where nothing is seen of the axis for a `length` of time; 0 elsewhere."""
-    rate = float(getattr(motion, "precession_rate", 0.0))
+    rate = _number(motion, "precession_rate")
     looks = motion.third_axis(np.linspace(0.0, length, 65))
     return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < SEEN else 0.0
 
@@ -194,15 +194,29 @@ def scene_at(motion: Any, t: float, length: float) -> Scene:
 
 
 def period(motion: Any) -> float:
-    """Return how long a motion takes to come back but for a turn: its period, or that of its precession.
+    """Return how long a motion takes to come back but for a turn: its period, of a symmetric free body 2 pi/k.
 
     Raises AtlasError for an array of motions.
     """
     if motion.shape:
         raise AtlasError(f"one motion can be drawn at a time, not an array of the shape {motion.shape}.")
-    own = float(getattr(motion, "period", 0.0)) or 2 * pi / max(abs(float(getattr(motion, "k", 0.0))), 1e-300)
-    first = turns(motion, 0.0)
-    return own if own < _LONG else 1 / first if first else 1.0
+    own, first = axis_period(motion), turns(motion, 0.0)
+    return own if 0 < own < _LONG else 1 / first if first else 1.0
+
+
+def axis_period(motion: Any) -> float:
+    """Return the time after which the axis of one motion is back but for a turn, 0 where there is none."""
+    if motion.family == "free":
+        return float(2 * pi / motion.k) if motion.k else 0.0
+    return _number(motion, "period")
+
+
+def _number(motion: Any, name: str) -> float:
+    """Return a number of a motion, 0 where it has none."""
+    try:
+        return float(getattr(motion, name, 0.0))
+    except DomainError:
+        return 0.0
 
 
 def start(omega: Sequence[float]) -> tuple[str, str]:

@@ -219,8 +219,8 @@ SPECIAL = (
         of_spun(f"ElementaryMotion.{name}", FREE_LABELS, lambda say, p, name=name: free_constants(say, p)[name], FREE)
         for name in ("k", "phi")
     ),
-    of_free(
-        "FreeMotion.period", FREE_LABELS, lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["k"])
+    of(free, [p for p in SPINS if p.I != 1])(  # of a ball Omega is constant
+        "FreeMotion.period", FREE_LABELS, lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["phi"])
     ),
     of_spun(
         "ElementaryMotion.rotation",

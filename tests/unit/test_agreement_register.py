@@ -28,10 +28,14 @@ TOP = "compared with Taylor series of the equations of a top, in test_top"
 GIVEN, AXES, NAME = "what was given, or another way to give it", "a choice of axes, not in the ledger", "no number"
 SERIES = "compared with Taylor series in balls, and with the elementary motions, in test_general and test_exact_general"
 
+RATES = ("period", "precession_rate", "spin_rate")
+
 UNTIED = {
     "Quadric.kind": NAME,
     "ElementaryMotion.case": NAME,
     **{f"{name}Motion.kind": NAME for name in ("Ball", "Elementary", "Free")},
+    **{f"{name}Motion.mode": NAME for name in ("Asymmetric", "Free")},
+    **{f"AsymmetricMotion.{name}": "held against integrated motions, in test_rates" for name in RATES},
     "ElementaryMotion.omega2": GIVEN,
     "ParticleMotion.case": NAME,
     "ParticleMotion.kind": NAME,
@@ -92,6 +96,7 @@ UNTIED = {
     **{
         f"EllipticMotion.{name}": "compared with Taylor series of (12), (16), and with its theorem, in test_elliptic"
         for name in (
+            "circled is_middle "
             "frame E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame "
             "invariants is_plane is_steady kind modulus nome omega period precesses_evenly precession "
             "precession_per_period quaternion rate_of rotation rotation_grid solution sphere spin_per_period "

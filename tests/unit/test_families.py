@@ -14,6 +14,7 @@ from stress.run import PROMISES
 from syrupy.assertion import SnapshotAssertion
 from ulps import absolute, of_length, own
 
+from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
@@ -97,6 +98,11 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
     for q in one.quantities:
         if not (q.certified or q.printed or q.checked):
             continue  # of kernels alone
+        if one.name == "asymmetric" and q.missing and q.name != "frequencies":  # the default is a motion on a torus
+            for thing in (found, exact):
+                with pytest.raises(DomainError, match="no one period"):
+                    q.value(thing)
+            continue
         if q.name == "agreement":
             assert q.value(found).startswith("proved for this motion, at all times within ")
             assert q.value(exact, exact=True) == "every digit is proven"
@@ -158,16 +164,22 @@ def test_every_equation_of_the_register_is_in_the_ledger() -> None:
 
 
 @pytest.mark.parametrize(
-    ("family", "moving", "resting"),
-    [("elementary", ((1.0, 2.0), 0.7), ((1.0, 2.0), 0.0)), ("free", ((0.3, 0.7, 0.2),), ((0.0, 0.0, 0.0),))],
+    ("family", "moving", "resting", "comes_back"),
+    [
+        ("elementary", ((1.0, 2.0), 0.7), ((1.0, 2.0), 0.0), "third_axis"),
+        ("free", ((0.3, 0.7, 0.2),), ((0.0, 0.0, 0.0),), "angular_velocity"),
+    ],
 )
-def test_a_motion_without_nutation_has_the_period_of_its_precession(family: str, moving: Any, resting: Any) -> None:
-    """It is 2 pi/|k|, after which the body's axis is where it was; without precession it is infinite."""
+def test_a_motion_without_nutation_has_the_period_of_its_register(
+    family: str, moving: Any, resting: Any, comes_back: str
+) -> None:
+    """A charged body 2 pi/|k|, after which its axis is where it was, a free one that of Omega; at rest it is inf."""
     made, rest = (FAMILIES[family].kernels()(1.5, *start) for start in (moving, resting))
     exact, still = (FAMILIES[family].balls()(1.5, *start) for start in (moving, resting))
     T = made.period
-    assert np.abs(made.third_axis(0.4 + T) - made.third_axis(0.4)).max() < 1e-15
-    assert np.abs(made.third_axis(0.4 + T / 2) - made.third_axis(0.4)).max() > 0.1
+    of_time = getattr(made, comes_back)
+    assert np.abs(of_time(0.4 + T) - of_time(0.4)).max() < 1e-15
+    assert np.abs(of_time(0.4 + T / 2) - of_time(0.4)).max() > 0.1
     with ctx.workprec(128):
         assert abs(arb(T) - exact.period) <= 4 * 2.0**-53 * T
     assert (rest.period, still.period) == (np.inf, arb("inf"))

@@ -177,3 +177,38 @@ def test_the_matrix_does_not_depend_on_the_unit_of_inertia(
     assert found.p[0] == found.p[-1]
     assert found.radius < 1e-30
     assert found.step < 0.25
+
+
+def test_a_stable_spin_is_refused_whatever_other_wells_there_are() -> None:
+    """D decides: 14.01 and 18.01 here, where a second well leaves room for a loop that goes round nothing."""
+    for p in (0.1, -0.1):
+        with pytest.raises(atlas.DomainError, match=r"D is not negative, but 1[48].01: the spin is stable"):
+            atlas.monodromy((1, 1), 0.1, linear=0.5, quadratic=-4, p=p)
+    with pytest.raises(atlas.DomainError, match="D is not negative, but 0: "):
+        atlas.monodromy((1, 0.5), 2.0, linear=1)
+    with pytest.raises(atlas.DomainError, match=r"p: a spin about n has the momentum M3 or -M3, 0.5 or -0.5, not 0.4"):
+        atlas.monodromy((1, 0.5), 0.5, linear=1, p=0.4)
+
+
+@pytest.mark.parametrize("M3", [1.9, 1.99, 1.9999])
+def test_an_unstable_spin_next_to_a_stable_one_has_its_matrix(M3: float) -> None:
+    """D = M3^2 - 4 is as little as -4e-4; by theorem-residue the matrix is that of any isolated value."""
+    found = atlas.monodromy((1, 0.5), M3, linear=1)
+    assert found.matrix == ((1, 0, 0), (0, 1, 0), (-1, 1, 1))
+    assert found.step < 0.1
+
+
+@pytest.mark.parametrize("wells", [Wells(0.93, 0.0, 0.0), Wells(0.0, -1.0, 0.0), Wells(0.5, -1.0, 0.5)])
+def test_precessions_at_any_cosine_are_motions_at_rest_in_the_potential(wells: Wells) -> None:
+    """Of w^2 = -A, M3 w = a: the free body that spins about its axis is one. V has no slope there, and a bend."""
+    found = [x for x in wells.precessions(6.0, 50) if np.ptp(x.w) == 0]
+    assert len(found) == (2 if not wells.M3 and wells.A else 1)
+    for branch in found:
+        assert np.ptp(branch.r) > 1.99
+        for r, p, g, bend in zip(*(x[5:-5] for x in (branch.r, branch.p, branch.g, branch.stable)), strict=True):
+            h = 1e-4 * (1 - r * r)
+            below, here, above = (float(wells.potential(p, x)) for x in (r - h, r, r + h))
+            assert here == pytest.approx(g, abs=1e-12)
+            assert (above - below) / (2 * h) == pytest.approx(0.0, abs=1e-5)
+            # of dtheta^2 = g - V with nu = cos theta: the square of the frequency is V''(nu) (1 - nu^2)/2
+            assert (above - 2 * here + below) / h**2 * (1 - r * r) / 2 == pytest.approx(bend, rel=1e-3, abs=1e-4)

@@ -426,3 +426,12 @@ def test_the_fast_top_of_multibody_codes_is_met_as_closely_as_they_publish_it() 
 def heavy(gravity: float = 9.8, mass: float = 1.0) -> atlas.TopMotion:
     """Return a heavy top."""
     return atlas.TopMotion.heavy(BALL, gravity, 0.5, (0, 1), (0, 0, 1), mass=mass)
+
+
+@pytest.mark.parametrize("n", [(0.6, 0.8), (0.8, -0.6)])
+def test_the_mean_precession_about_a_direction_beside_the_cone_of_a_free_top_is_zero(n: tuple[float, float]) -> None:
+    """Exactly: the axis of a top without forces goes round its momentum, which is n's only where it goes round n."""
+    top = Balls((1.0, 0.5), (0.0, 0.0), n, (0.3, 0.1, 2.0))
+    assert certified(lambda: top.precession_per_period, 15) == "0"
+    around = Balls((1.0, 0.5), (0.0, 0.0), n, (0.3, 0.75, 0.2))
+    assert certified(lambda: around.precession_per_period, 15) == "6.28318530717959"

@@ -9,6 +9,7 @@ a = 0, A = (I-1) b^2 is the paper's body, A = 0 Lagrange's heavy top. All is in 
 it certifies nothing.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -83,7 +84,8 @@ class Wells:
 
         The cosine r = (M3 w - a)/(w^2 + A) must lie within [-1, 1]; each branch is an interval of w where it does, up
         to |w| = `reach`, and ends on the axis, r = ±1, or at `reach`. The curves have cusps where `stable` changes
-        sign.
+        sign. Where w^2 = -A and M3 w = a, as of a free body that spins about its axis, any cosine goes with this w:
+        such a branch comes last.
         """
         A, a, M3 = self.A, self.a, self.M3
         ends = [-reach, reach, 0.0] if A <= 0 and not M3 and not a else [-reach, reach]
@@ -106,7 +108,20 @@ class Wells:
             r = np.clip((M3 * w - a) / (w * w + A), -1.0, 1.0)
             p = w * (1 - r * r) + r * M3
             branches.append(Branch(w, r, p, self.energy(r, w), np.asarray(nutation_squared(A, a, w, r))))
-        return tuple(branches)
+        return (*branches, *self._at_any_cosine(reach, points))
+
+    def _at_any_cosine(self, reach: float, points: int) -> Iterator[Branch]:
+        """Yield the precessions that go with one rate at every cosine, w^2 = -A and M3 w = a.
+
+        One is the free body, A = a = 0, that spins about its axis wherever that points: w = 0, p = M3 r, g = 0.
+        """
+        A, a, M3 = self.A, self.a, self.M3
+        r, size = -np.cos(np.pi * (np.arange(points) + 0.5) / points), float(np.sqrt(max(-A, 0.0)))
+        for w in () if A > 0 else (-size, size) if size else (0.0,):
+            if M3 * w == a and abs(w) <= reach:
+                p = w * (1 - r * r) + r * M3
+                stable = w * w - A * (3 * r * r - 1) - 2 * a * r + (M3 - r * w) ** 2
+                yield Branch(np.full(points, w), r, p, self.energy(r, w), stable)
 
     def cusps(self, nu: Any, k2: float = 0.0) -> tuple[Any, Any]:
         """Return p and g of the motion whose axis stops at the cosine nu, a cusp of its trace, theorem-cusp."""

@@ -11,6 +11,7 @@ from atlas.core.inputs import FloatArray, components, finite, kept, plain, real
 from atlas.core.motions.certified import Certified
 from atlas.core.motions.clebsch_theta import LOST, ThetaKernel, closed_form
 from atlas.core.motions.motion import Motion
+from atlas.core.motions.nutating import scalar
 from atlas.core.nutation.single_elliptic import WITHIN, SingleElliptic, SingleEulerTop
 from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
@@ -262,14 +263,57 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._of_each(lambda single: single.accuracy)
 
     @kept
-    def frequencies(self) -> Any:
-        """Angular frequencies (f1, f2, f3) of a motion on a torus, shape (..., 3), each rounded once from proven balls.
+    def period(self) -> Any:
+        """Period of Omega of a free body, of Omega and K of an elliptic motion, inf where they are constant.
 
-        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one
-        but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
+        Of any other motion, which has `frequencies`, there is none, nor are there mean rates: DomainError for one
+        motion, NaN for one of an array. Raises DomainError where it is beyond all floats.
+        """
+        return self._scalar("period")
+
+    @kept
+    def precession_rate(self) -> Any:
+        """Mean rate of precession, about the momentum m, of the axis of a free body that m goes round, in rad/time.
+
+        That is the axis of the least or of the largest moment, see `mode`; any other precesses by whole nutations more
+        or less. Of an elliptic motion in a field it is that of `EllipticMotion`, about the field. Where two moments
+        become equal it is |m|/I1, that of `FreeMotion`. On a separatrix, and where there is no period, there is none:
+        DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("precession_rate")
+
+    @kept
+    def spin_rate(self) -> Any:
+        """Mean rate at which the body turns about the axis that m, or K, goes round: 2 pi over the period, with a sign.
+
+        None where there is no `precession_rate`.
+        """
+        return self._scalar("spin_rate")
+
+    @kept
+    def mode(self) -> Any:
+        """Axis that the momentum of a free body goes round, a string, or an array of them.
+
+        "long axis", of the least moment; "short axis", of the largest; "separatrix", "ball" or "at rest". Raises
+        DomainError in a field.
+        """
+        return self._of_each(lambda single: single.exact.mode)
+
+    def _scalar(self, name: str) -> Any:
+        return self._of_each(lambda single: scalar(single.exact, name, alone=not self.shape))
+
+    @kept
+    def frequencies(self) -> Any:
+        """Angular frequencies (f1, f2, f3) of a motion, shape (..., 3), each rounded once from proven balls.
+
+        On a torus M and K turn with f1 and f2, and R with f3 about B besides. It is a convention which basis f1, f2
+        are, and f3 is one but for integer multiples of them: in a period the body turns by at most half a turn about B
+        beside -B'. Of a free body, and of an elliptic motion, f1 = |spin_rate|, f2 = 0 and f3 = precession_rate.
         Raises DomainError for other motions.
         """
-        frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
+        frequencies = self._of_each(
+            lambda single: floats(enclosed(lambda: list(map(arb, single.exact.frequencies)), BITS))
+        )
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
     @property

@@ -139,6 +139,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     def period(self) -> Any:
         """Time 2 pi/|k| of one precession, after which the axis is back; inf without one. See `Hyperbola.closed`.
 
+        That is a convention: nothing nutates here, and the period of Omega and K is 2 pi/|phi|.
+
         Raises DomainError where it is beyond all floats.
         """
         return turn_time(self.k)
@@ -292,11 +294,18 @@ class FreeMotion(DoubleTurn[Free]):
 
     @property
     def period(self) -> Any:
-        """Time 2 pi/k of one precession, after which the axis is back; inf at rest.
+        """Period 2 pi/|phi| of Omega, as of a free body of three moments; inf where Omega is constant.
 
-        Raises DomainError where it is beyond all floats.
+        The axis is back after 2 pi/k. Raises DomainError where it is beyond all floats.
         """
-        return turn_time(self.k)
+        return turn_time(self.phi)
+
+    @kept
+    def mode(self) -> Any:
+        """Axis that the momentum goes round: "long axis" for I3 < I2, "short axis" for I3 > I2; "ball"; "at rest"."""
+        I2, I3, *omega = np.broadcast_arrays(*self._inputs)
+        names = np.select([~np.any(omega, axis=0), I3 == I2, I3 < I2], ["at rest", "ball", "long axis"], "short axis")
+        return names if self.shape else str(names)
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3).

@@ -81,6 +81,31 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return self._scalar("period")
 
     @kept
+    def precession_per_period(self) -> Any:
+        """Angle, in one period, by which the axis that K goes round precesses about the field, radians.
+
+        That is the axis of the largest or of the least E_i; any other precesses by whole turns more or less. For I1 =
+        I2 it is the axis of symmetry. Where K stands on an axis, it is the limit of the motions next to it. Where there
+        is no period there is none: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("precession_per_period")
+
+    @kept
+    def spin_per_period(self) -> Any:
+        """Angle by which the body turns about the axis that K goes round in one period: 2 pi or -2 pi."""
+        return self._scalar("spin_per_period")
+
+    @kept
+    def precession_rate(self) -> Any:
+        """Mean rate of precession of that axis about the field; also where K stands, and there is no period."""
+        return self._scalar("precession_rate")
+
+    @kept
+    def spin_rate(self) -> Any:
+        """Mean rate at which the body turns about the axis that K goes round, 2 pi or -2 pi over the period, or 0."""
+        return self._scalar("spin_rate")
+
+    @kept
     def stability(self) -> Any:
         """Whether every motion that starts near stays beside the curve of K and M: a string, or an array of them.
 

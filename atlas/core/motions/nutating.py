@@ -14,7 +14,6 @@ from atlas.core.nutation.scalars import Scalars
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
-from atlas.exact.nutation.nutating import Nutating
 from atlas.formulas.numbers import nearest
 from atlas.lazy import cached_property
 
@@ -127,18 +126,7 @@ class NutatingMotion(Motion[Nutation]):
 
     def _scalar(self, name: str) -> Any:
         """Return a number for each motion, in an array NaN for a motion that has none."""
-
-        def value(exact: Nutating) -> float:
-            try:
-                ball = enclosed(lambda: getattr(exact, name), BITS)
-            except DomainError:
-                if not self.shape:
-                    raise
-                return np.nan
-            number = nearest(ball)
-            return number if ball == arb("inf") else finite(number, f"The {name}")
-
-        return self._each(name, value)
+        return self._each(name, lambda exact: scalar(exact, name, alone=not self.shape))
 
     def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
         """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
@@ -155,6 +143,18 @@ class NutatingMotion(Motion[Nutation]):
         from atlas.core.nutation.grid import fill_grid
 
         fill_grid(single, start, step, out)
+
+
+def scalar(exact: Any, name: str, *, alone: bool) -> float:
+    """Return a number of a motion in balls, rounded once; where there is none NaN, and DomainError if it is `alone`."""
+    try:
+        ball = enclosed(lambda: arb(getattr(exact, name)), BITS)
+    except DomainError:
+        if alone:
+            raise
+        return np.nan
+    number = nearest(ball)
+    return number if ball == arb("inf") else float(finite(number, f"The {name}"))
 
 
 class SymmetricMotion(NutatingMotion[Nutation]):

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from operator import add
+from operator import add, attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,8 +28,9 @@ from atlas.exact.nutation.variations import Constants, TooNearError, constants, 
 from atlas.formulas import ball, elementary
 from atlas.formulas.numbers import direction, rational
 
-NUTATION = ("period", "precession_per_period", "spin_per_period", "precession_rate", "spin_rate", "modulus", "nome")
-"""Scalars of motions that nutate, and of the others."""
+_NUMBERS = "period", "precession_per_period", "spin_per_period", "precession_rate", "spin_rate", "modulus", "nome"
+NUTATION: dict[str, Callable[[Any], Any]] = {name: attrgetter(name) for name in _NUMBERS}
+"""Scalars of motions that nutate."""
 
 
 @dataclass(frozen=True)
@@ -129,24 +130,13 @@ def _length(vector: Iterable[fmpq]) -> arb:
     return arb(sum((x * x for x in vector), fmpq(0))).sqrt()
 
 
-def _nutation() -> dict[str, Callable[[Nutating], Any]]:
-    """Return the scalars of a motion that nutates."""
-    scalars: dict[str, Callable[[Nutating], Any]] = {
-        name: lambda twin, name=name: getattr(twin, name)  # type: ignore[misc]
-        for name in NUTATION
-    }
-    for name in ("precession", "spin"):
-        scalars[f"{name}_rate"] = lambda twin, name=name: getattr(twin, f"{name}_per_period") / twin.period  # type: ignore[misc]
-    return scalars
-
-
 def of_general(I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
     """Return the inputs of a body in a field: the ratio, and field and angular velocity in the body at t = 0."""
     size, J = _size(*K, *omega), np.array([1.0, 1.0, *floats([I])])
     return Inputs(
         ("ratio", "K1", "K2", "K3", "omega1", "omega2", "omega3"), (I, *K, *omega), (I, *[size] * 6),
         lambda I, *x: GeneralMotion.at_state(I, x[3:], x[:3]),
-        _nutation(), (J, J, 0.0, 0.0), floats(K), _units(("K1", "K2", "K3")),
+        NUTATION, (J, J, 0.0, 0.0), floats(K), _units(("K1", "K2", "K3")),
     )  # fmt: skip
 
 
@@ -166,7 +156,7 @@ def of_top(row: Sequence[float]) -> Inputs:
     return Inputs(
         ("I2", "I3", "k2", "k3", "n2", "n3", "omega1", "omega2", "omega3", "linear", "quadratic"), values,
         (I2, I3, I2 * w, I2 * w, n, n, w, w, w, I2 * w * w, I2 * w * w),
-        lambda *x: TopMotion(x[:2], x[2:4], x[4:6], x[6:9], *x[9:]), _nutation(),
+        lambda *x: TopMotion(x[:2], x[2:4], x[4:6], x[6:9], *x[9:]), NUTATION,
         (np.array([row[0], row[0], row[1]]), np.array([row[2], row[2], row[3]]), row[9], row[10]),
         unit, {"n2": across[:, 0], "n3": across[:, 1]},
     )  # fmt: skip
@@ -179,7 +169,7 @@ def of_elliptic(exact: EllipticMotion) -> Inputs:
         ("I1", "I2", "I3", "K1", "K2", "K3", "z"), (*exact.inertia, *exact.field, exact.z),
         (I1, I2, I3, size, size, size, _size(exact.z, I1 * I2)),
         lambda *x: EllipticMotion(x[:3], x[3:6], x[6], exact.branch),
-        _nutation(), (J, J, 0.0, 0.0), floats(exact.field), _units(("K1", "K2", "K3")),
+        NUTATION, (J, J, 0.0, 0.0), floats(exact.field), _units(("K1", "K2", "K3")),
     )  # fmt: skip
 
 
@@ -188,7 +178,7 @@ def of_euler(exact: AsymmetricMotion) -> Inputs:
     size, J = _size(*exact.omega), floats(exact.inertia)
     return Inputs(
         ("I1", "I2", "I3", "omega1", "omega2", "omega3"), (*exact.inertia, *exact.omega), (*exact.inertia, *[size] * 3),
-        lambda *x: EulerTop(x[:3], x[3:]), {}, (J, J, 0.0, 0.0), np.zeros(3), {},
+        lambda *x: EulerTop(x[:3], x[3:]), NUTATION, (J, J, 0.0, 0.0), np.zeros(3), {},
     )  # fmt: skip
 
 
@@ -237,18 +227,18 @@ TURNS: dict[str, Callable[[Turns], Any]] = {
     "spin_rate": lambda x: x.phi,
     "period": lambda x: 2 * arb.pi() / abs(arb(x.k)),
 }
+FREE: dict[str, Callable[[Any], Any]] = {"period": lambda x: 2 * arb.pi() / abs(arb(x.phi))}
 BALL: dict[str, Callable[[Turns], Any]] = {
     "gamma": lambda x: x.k,
     "precession_rate": lambda x: -x.phi,
     "spin_rate": lambda x: -x.k,
 }
-_RATES = _nutation()
 TURNS_AMONG_ALL: dict[str, Callable[[Nutating], Any]] = {
-    "k": _RATES["precession_rate"],
-    "phi": _RATES["spin_rate"],
-    "precession_rate": _RATES["precession_rate"],
-    "spin_rate": _RATES["spin_rate"],
-    "period": lambda x: 2 * arb.pi() / abs(_RATES["precession_rate"](x)),
+    "k": NUTATION["precession_rate"],
+    "phi": NUTATION["spin_rate"],
+    "precession_rate": NUTATION["precession_rate"],
+    "spin_rate": NUTATION["spin_rate"],
+    "period": lambda x: 2 * arb.pi() / abs(NUTATION["precession_rate"](x)),
 }
 BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
     "gamma": lambda x: _length(map(add, x.field, x.omega)),
@@ -260,7 +250,10 @@ BALL_AMONG_ALL: dict[str, Callable[[GeneralMotion], Any]] = {
 
 def of_any_start(family: str, I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq]) -> Inputs:
     """Return the inputs of a motion in elementary functions among all of its body, with the scalars of its family."""
-    return replace(of_general(I, K, omega), scalars=BALL_AMONG_ALL if family == "ball" else TURNS_AMONG_ALL)
+    scalars = BALL_AMONG_ALL if family == "ball" else TURNS_AMONG_ALL
+    if family == "free":
+        scalars = scalars | {"period": lambda x: 2 * arb.pi() / abs(scalars["spin_rate"](x))}
+    return replace(of_general(I, K, omega), scalars=scalars)
 
 
 def of_elementary(case: str, row: Sequence[float], omega3_is_input: bool) -> Inputs:
@@ -283,7 +276,7 @@ def of_free(row: Sequence[float]) -> Inputs:
     J = np.array([1.0, 1.0, row[1] / row[0]])
     return Inputs(
         ("ratio", "omega1", "omega2", "omega3"), (I3 / I2, *omega), (I3 / I2, *[_size(*omega)] * 3),
-        lambda ratio, *w: Turns(*elementary.free(fmpq(1), ratio, *w)), TURNS, (J, J, 0.0, 0.0), np.zeros(3), {},
+        lambda ratio, *w: Turns(*elementary.free(fmpq(1), ratio, *w)), TURNS | FREE, (J, J, 0.0, 0.0), np.zeros(3), {},
     )  # fmt: skip
 
 

@@ -268,7 +268,8 @@ def _rates(exact: Any) -> list[arb]:
     if infinite(solution.lattice.half):
         raise DomainError("On a separatrix the axis comes to rest: the motion has no lines.")
     T = exact.period
-    return [T / 2, exact.precession_per_period / T, exact.spin_per_period / T]
+    # of an elliptic motion the spin is that of the nutation
+    return [T / 2, exact.precession_rate, arb(0) if exact.swings_evenly else exact.spin_rate]
 
 
 def _of_torus(single: Any, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:

@@ -36,7 +36,8 @@ class EllipticRoots(Turning):
     """The turning points of u + K_a, with what else the sphere of K takes, for rows (m,).
 
     `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
-    `rates` are E_i - 1, from K to Omega; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
+    `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i and of K_c, c the axis about
+    which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
     the third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
     """
 
@@ -50,6 +51,7 @@ class EllipticRoots(Turning):
     torque: DoubleDouble
     precession: DoubleDouble
     rates: Sequence[DoubleDouble]
+    sense: tuple[FloatArray, FloatArray]
     frame: FloatArray
     elliptic: Any
     top: None = None
@@ -153,6 +155,7 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
         precession=of(axis, rates) * b,
         rates=rates,
+        sense=(np.where(other == high, -1.0, 1.0) * np.sign(v.hi), np.sign(of(other, K).hi)),
         frame=_frame(axis, (first / across).hi, (second / across).hi, shape),
         elliptic=np.logical_and.reduce([np.broadcast_to(y, shape) for y in certain]),
     )
@@ -215,10 +218,11 @@ def _scalars(block: Block) -> dict[str, Rounded]:
         mean = angles[0] + angles[1] + r.precession.scaled(1)
         omega = [rounded(rate * K, block, 1) for rate, K in zip(r.rates, r.K, strict=True)]
         shape = r.elliptic.shape
+        turn = HALF_TURN.scaled(1) * DoubleDouble(r.sense[0])  # by which the axis that K goes round lags in a period
         scalars = of_period(block) | {
             "kind": Rounded(np.zeros(shape, int), block.fine),
-            "precession_per_period": rounded((HALF_TURN / block.means.rate).scaled(-1) * mean, block),
-            "spin_per_period": Rounded(np.zeros(shape), block.fine),
+            "precession_per_period": rounded((HALF_TURN / block.means.rate).scaled(-1) * mean - turn, block),
+            "spin_per_period": rounded(turn * DoubleDouble(r.sense[1]), block),
             "v": rounded(r.v, block),
             "omega": Rounded(
                 np.array([np.broadcast_to(x.values, shape) for x in omega]),

@@ -269,15 +269,52 @@ class AsymmetricMotion:
         return self._motion.angular_velocity(t)
 
     @property
-    def frequencies(self) -> list[Real]:
-        """Angular frequencies (f1, f2, f3) of a motion on a torus.
+    def _nutating(self) -> EllipticMotion:
+        """The free body or the elliptic motion that has a period. Raises DomainError for another."""
+        motion = self.elliptic
+        if motion is None or (isinstance(motion, EulerTop) and any(self.field)):
+            frequencies = ", but the three frequencies f1, f2, f3" if self.on_torus else ""
+            raise DomainError(f"The motion, {self.kind}, has no one period and no mean rates{frequencies}.")
+        return motion
 
-        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one
-        but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
-        Raises DomainError for other kinds, and where no periods are proved.
+    @property
+    def period(self) -> arb:
+        """Period of Omega of a free body, of Omega and K of an elliptic motion; infinite where they are constant."""
+        return self._nutating.period
+
+    @property
+    def precession_rate(self) -> Real:
+        """Mean rate, about the momentum or B, of the axis that the momentum of a free body, or K, goes round."""
+        return self._nutating.precession_rate
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about that axis."""
+        return self._nutating.spin_rate
+
+    @property
+    def mode(self) -> str:
+        """Axis that the momentum of a free body goes round, see `EulerTop.mode`. DomainError in a field."""
+        motion = self._nutating
+        if not isinstance(motion, EulerTop):
+            raise DomainError("A mode, long axis or short axis, is that of a free body: this one is in a field.")
+        return motion.mode
+
+    @property
+    def frequencies(self) -> list[Real]:
+        """Angular frequencies (f1, f2, f3) of a motion on a torus, of a free body or of an elliptic motion.
+
+        M and K turn with f1 and f2, and R with f3 about B besides. On a torus it is a convention which basis f1, f2
+        are, and f3 is one but for integer multiples of them: in a period the body turns by at most half a turn about B
+        beside -B'. Without a torus f1 = |spin_rate|, f2 = 0 and f3 = precession_rate, about the momentum of a free
+        body. Raises DomainError where there are none, and where no periods are proved.
         """
         if self.on_torus is None:
-            raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.")
+            try:
+                motion = self._nutating
+            except DomainError as reason:
+                raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.") from reason
+            return [abs(motion.spin_rate), fmpq(0), motion.precession_rate]
         try:
             return list(self.on_torus.frequencies)
         except NotCertifiedError as reason:

@@ -41,6 +41,16 @@ class DoubleTurn:
         return self._turning[2]
 
     @property
+    def precession_rate(self) -> Real:
+        """Rate of precession, k."""
+        return self.k
+
+    @property
+    def spin_rate(self) -> fmpq:
+        """Rate of the body's turn about its axis, phi."""
+        return self.phi
+
+    @property
     def period(self) -> arb:
         """Time 2 pi/|k| of one precession; infinite without one."""
         return 2 * arb.pi() / abs(self.k) if self.k != 0 else arb("inf")
@@ -132,6 +142,18 @@ class ElementaryMotion(DoubleTurn):
 
 class FreeMotion(DoubleTurn):
     """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above (87)."""
+
+    @property
+    def period(self) -> arb:
+        """Period 2 pi/|phi| of Omega; infinite where that is constant."""
+        return 2 * arb.pi() / abs(self.phi) if self.phi != 0 else arb("inf")
+
+    @property
+    def mode(self) -> str:
+        """Axis that the momentum goes round, see `EulerTop.mode`."""
+        if not any(self.omega) or self.I == 1:
+            return "ball" if any(self.omega) else "at rest"
+        return "long axis" if self.I < 1 else "short axis"
 
     def __init__(self, ratio: Any, omega: Any) -> None:
         self.I = ratio_of(ratio)

@@ -20,6 +20,7 @@ from flint import acb, arb, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.inputs import Real, rational, rationals
+from atlas.exact.nutation.cayley_klein import infinite
 from atlas.exact.nutation.elliptic_quartic import EllipticQuartic
 from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.spheres import POLES, Sphere
@@ -194,6 +195,57 @@ class EllipticMotion(Nutating):
         return arb("inf") if rate.is_zero() else 2 * arb.pi() / rate
 
     @property
+    def circled(self) -> int:
+        """Place of the axis about which K goes round, of the largest or the least E; of two equal E the third axis."""
+        e, (first, second, last) = self._e, self.places
+        if len(set(e)) == 2:
+            return next(i for i in range(3) if e.count(e[i]) == 1)
+        return last if self.is_steady else max((first, second), key=lambda i: abs(e[i] - e[last]))
+
+    @property
+    def is_middle(self) -> bool:
+        """Whether the motion is on the separatrix: it tends to the axis of the middle E, or is the spin about it."""
+        return self.kind == "separatrix" or (self.is_steady and self._change() < 0)
+
+    def _angles(self) -> tuple[arb, arb]:
+        """Return the angles of precession and of spin of the axis about which K goes round, once in a period.
+
+        The pair is that of another axis, which goes once more or less about B in that time. Where K stands on an axis,
+        the angles are the limits of those of a motion next to it.
+        """
+        precession, spin = super()._angles()
+        if self.kind in ("elementary", "at rest"):
+            return precession, spin
+        c, last = self.circled, self.places[2]
+        other = self.places[0] if c == last else last
+        sense = -self.branch if self._e[c] > self._e[other] else self.branch
+        turn = 2 * arb.pi() * sense
+        return precession - turn, spin + (turn if self.field[c] > 0 else -turn)
+
+    @property
+    def precession_rate(self) -> Real:
+        """Mean rate of precession about B of the axis about which K goes round; where K stands, of that or any."""
+        return self._mean_rates()[0]
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about that axis, 2 pi over the period, or 0."""
+        return self._mean_rates()[1]
+
+    def _mean_rates(self) -> tuple[Real, Real]:
+        if self.kind == "at rest":
+            return fmpq(0), fmpq(0)
+        if self.is_middle:
+            raise DomainError(
+                "On the separatrix, to which the spin about the middle axis belongs, the motion does not come back: it "
+                "has no period and no mean rates."
+            )
+        if self.kind == "elementary" or infinite(self.period):
+            return self.steady_rates()
+        precession, spin = self._angles()
+        return precession / self.period, spin / self.period
+
+    @property
     def _half(self) -> arb:
         return self.period / 2
 
@@ -239,6 +291,15 @@ class EulerTop(EllipticMotion):
     def _rests(self) -> bool:
         """Whether there is no motion."""
         return not any(self.field)
+
+    @property
+    def mode(self) -> str:
+        """Axis that the momentum goes round: "long axis", of the least moment, or "short axis", of the largest."""
+        if self._rests or len(set(self.inertia)) == 1:
+            return "at rest" if self._rests else "ball"
+        if self.is_middle:
+            return "separatrix"
+        return "long axis" if self.inertia[self.circled] == min(self.inertia) else "short axis"
 
 
 def check_moments(moments: tuple[fmpq, ...]) -> None:

@@ -197,11 +197,6 @@ class GeneralMotion(Nutating):
         q = self.quartic
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
-    @property
-    def _is_ball(self) -> bool:
-        """Whether the body is a ball in a field."""
-        return self.kind == "ball"
-
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory frame."""
         w1, w2, w3 = self.angular_velocity(t)

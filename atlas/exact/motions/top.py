@@ -94,12 +94,6 @@ class TopMotion(Nutating):
         return even and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
     @property
-    def _is_ball(self) -> bool:
-        """Whether the moments are equal, kappa is zero and there is no potential."""
-        q = self.quartic
-        return bool(self.I == 1 and q.kappa == 0) and q.a.is_zero and bool(q.A == 0)
-
-    @property
     def b(self) -> Real:
         """Length of the direction."""
         return fmpq(1)

@@ -75,11 +75,6 @@ class Nutating:
         return None if more is None else f"separatrix{more}"
 
     @property
-    def _is_ball(self) -> bool:
-        """Whether seen from a frame that turns about the field the body is a ball without any force."""
-        return False
-
-    @property
     def _axis(self) -> Sequence[fmpq]:
         """Vector along the axis of precession, in the body at t = 0."""
         return self.field
@@ -130,6 +125,16 @@ class Nutating:
             return self._angles()[1]
 
     @property
+    def precession_rate(self) -> Real:
+        """Mean rate of precession, the angle in one period over that."""
+        return self.precession_per_period / self.period
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about its axis, the angle in one period over that."""
+        return self.spin_per_period / self.period
+
+    @property
     def nome(self) -> arb:
         """Nome q = exp(-pi K'/K) of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
         half, imaginary = self._periods()
@@ -168,20 +173,22 @@ class Nutating:
         T, pi = solution.period, arb.pi()
         if infinite(T):
             raise DomainError(f"This motion, of the kind {self.kind!r}, has no period: no angle belongs to one.")
-        # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
-        first, second = (
-            T * x.own + pi * x.turn if self.is_steady or self.quartic.sign_beside(pole) else arb(0)
-            for x, pole in ((solution.alpha, -1), (solution.beta, 1))
-        )
-        # a ball turns once about an axis: alpha and beta go half round zero each, with the signs of their torques
         signs = self.quartic.sign_beside(-1), self.quartic.sign_beside(1)
-        ball, same = self._is_ball and not self.is_steady, signs[0] == signs[1]
-        opposite = self.precesses_evenly or (ball and signs[0] * signs[1] < 0)
-        precession = T * solution.precession + (arb(0) if opposite else first + second)
-        if self.swings_evenly or (ball and same):
+        if not self.is_steady and len(self.quartic.polynomial) == 3:
+            # the axis goes round a circle: alpha and beta go half round zero each, with the signs of their torques
+            both, apart = pi * (signs[0] + signs[1]), pi * (signs[0] - signs[1])
+        else:
+            # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
+            first, second = (
+                T * x.own + pi * x.turn if self.is_steady or sign else arb(0)
+                for x, sign in zip((solution.alpha, solution.beta), signs, strict=True)
+            )
+            both, apart = first + second, first - second
+        precession = T * solution.precession + (arb(0) if self.precesses_evenly else both)
+        if self.swings_evenly:
             return precession, arb(0)
         further = solution.swing.kappa * solution.swing.rate * T if solution.swing else arb(0)
-        return precession, T * solution.spin + first - second + further
+        return precession, T * solution.spin + apart + further
 
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
