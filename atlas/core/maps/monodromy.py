@@ -84,12 +84,12 @@ def monodromy(
 
     The top is that of `TopMotion`: `inertia` (I2, I3), `coupling` (k2, k3), `linear` and `quadratic`. The loop has
     `points` points of momentum p along n and energy g, counter-clockwise, at one momentum `M3` along the axis; in its
-    middle is the unstable spin about n with the momentum `p`, M3 (along n, the default) or -M3 (against it), in units
-    of inertia/time; for M3 = 0 that along n if it is unstable, else that against it. Its value belongs to one torus, which is
-    carried round; that of a stable spin may belong to another one too, round which there is nothing. The `matrix` of what is returned
-    has as rows what became of g1 (one turn about n), g2 (one about the axis) and g3 (one nutation, less its turns):
-    `monodromy((1.0, 0.5), 0.5, linear=1.0).matrix`. Angles are balls; that the integers are these rests on no angle
-    changing by half a turn between neighbours, see `step`.
+    middle is the unstable spin with the momentum `p`, M3 (along n, the default) or -M3 (against it), in units of
+    inertia/time; for M3 = 0 that along n if it is unstable, else that against it. Its value belongs to one torus. That
+    of a stable spin may belong to a torus in another well too, and no loop goes round it. The `matrix` of what is
+    returned has as rows what became of g1 (one turn about n), g2 (one about the axis) and g3 (one nutation, less its
+    turns): `monodromy((1.0, 0.5), 0.5, linear=1.0).matrix`. Angles are balls; that the integers are these rests on no
+    angle changing by half a turn between neighbours, see `step`.
 
     Raises AtlasError for what are no numbers; DomainError for no body, a spin that is stable or no isolated value,
     rates out of the range of floats, and too few points; NotCertifiedError where the balls tell nothing.
