@@ -311,9 +311,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         beside -B'. Of a free body, and of an elliptic motion, f1 = |spin_rate|, f2 = 0 and f3 = precession_rate.
         Raises DomainError for other motions.
         """
-        frequencies = self._of_each(
-            lambda single: floats(enclosed(lambda: list(map(arb, single.exact.frequencies)), BITS))
-        )
+        frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
     @property

@@ -314,7 +314,7 @@ class AsymmetricMotion:
                 motion = self._nutating
             except DomainError as reason:
                 raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.") from reason
-            return [abs(motion.spin_rate), fmpq(0), motion.precession_rate]
+            return [arb(abs(motion.spin_rate)), arb(0), arb(motion.precession_rate)]
         try:
             return list(self.on_torus.frequencies)
         except NotCertifiedError as reason:
