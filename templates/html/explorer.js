@@ -103,7 +103,43 @@
       own = p * p + M2 * M2 + A * (B3 / b) ** 2;
     return { b, c3: r + B3, own, V, squared: (nu, h) => b * b * (1 - nu * nu) * (h - V(nu)) };
   };
-  root.atlasMotion = { motion, rotation, quadric, kind, closed, course, portrait, rate };
+  const OFF = 40 * Math.PI / 180,
+    SIZE = 300,
+    LEFT = 34,
+    TOP = 10,
+    FRAME = 256,
+    WIDE = [-3, 3, "ω₂"],
+    HIGH = [-5, 5, "ω₃"],
+    FAR = 1e6,
+    SEARCHED = 0.2, // of omega2 on each side: more than what counts as near
+    FINE = 50,
+    NARROWER = 20,
+    ROUNDS = 4;
+  // The omega2 of the point of the hyperbola that is nearest to a point of the plane, and how far
+  // that is in pixels.
+  const beside = (I, B2, B3, [omega2, omega3]) => {
+    const gap = (w) => {
+      const far = norm(
+        FRAME * (w - omega2) / (WIDE[1] - WIDE[0]),
+        FRAME * (motion(I, B2, B3, w).omega3 - omega3) / (HIGH[1] - HIGH[0]),
+      );
+      return far < FAR ? far : FAR; // also at the pole
+    };
+    // where the curve is as high as the point, which a step over omega2 may miss beside the pole
+    const half = (I * B2 * omega3 - (2 - I) * B2 * B3) / 2,
+      root = Math.sqrt(half * half + I * B2 * B2 * omega3 * B3);
+    let [best] = [omega2, (half + root) / B3, (half - root) / B3].sort((v, w) => gap(v) - gap(w)),
+      reach = SEARCHED;
+    for (let round = 0; round < ROUNDS; round += 1, reach /= NARROWER) {
+      const middle = best;
+      for (let i = -FINE; i <= FINE; i += 1) {
+        const w = middle + reach * i / FINE;
+        if (gap(w) < gap(best)) best = w;
+      }
+    }
+    return [best, gap(best)];
+  };
+  root.atlasMotion = { motion, rotation, quadric, kind, closed, course, portrait, rate, beside };
   if (!root.document || !root.atlasViewer) return;
 
   const SCALE = 0.11,
@@ -291,13 +327,6 @@
 
   // What is drawn in a plane: {x, y: [low, high, letters], lines: [class, points], dots: [class, x,
   // y], words: [x, y, letters]}.
-  const OFF = 40 * Math.PI / 180,
-    SIZE = 300,
-    LEFT = 34,
-    TOP = 10,
-    FRAME = 256,
-    WIDE = [-3, 3, "ω₂"],
-    HIGH = [-5, 5, "ω₃"];
   const sampled = (low, high, count, f) =>
     Array.from({ length: count + 1 }, (_, i) => f(low + (high - low) * i / count));
   const places = (
@@ -462,7 +491,7 @@
   const SPACES = { space, body };
   const DIGITS = (x) =>
       Number.isFinite(x) ? String(Number(x.toPrecision(6))).replace("-", "−") : "none, at the pole",
-    NEAR = 0.12,
+    NEAR = 5, // pixels
     AHEAD = 12;
 
   for (const [number, section] of document.querySelectorAll(".explorer").entries()) {
@@ -543,16 +572,19 @@
     const settle = (near) => {
       const other = sliders.find("omega3");
       if (!other) return;
-      const at = (w) => motion(place().I, place().B2, place().B3, w).omega3,
-        w = value("omega2"),
-        slope = (at(w + 1e-3) - at(w - 1e-3)) / 2e-3;
-      free = !(Math.abs(other.value - at(w)) <= near * norm(1, slope));
+      const { I, B2, B3, omega2, omega3 } = place(),
+        [nearest, gap] = beside(I, B2, B3, [omega2, other.value]);
+      free = !(gap <= near);
+      // on a steep part a point goes across to the curve, for along it may be far
+      if (!free && !(Math.abs(omega3 - other.value) * FRAME / (HIGH[1] - HIGH[0]) <= near)) {
+        sliders.find("omega2").set(Number(nearest.toPrecision(7)));
+      }
       follow();
     };
     const read = () => {
       if (location.hash.startsWith(mark)) {
         sliders.read(new URLSearchParams(location.hash.slice(mark.length)));
-        settle(1e-6);
+        settle(1e-4);
       }
     }; // the state that the address names
     const say = () => {

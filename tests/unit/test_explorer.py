@@ -124,6 +124,26 @@ def test_fractions_of_the_script_are_closed_motions() -> None:
     assert found == pytest.approx(true, abs=1e-12)
 
 
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_a_point_of_the_plane_settles_where_it_is_to_a_few_pixels() -> None:
+    """The nearest point of the curve, along the pole and at -B' too; the distance is that of the curve as drawn."""
+    random, given = np.random.default_rng(60), [(1.5, 1.0, 2.0, (-1.0, -2.0)), (0.999, 1.0, 2.0, (-1.0, -2.0))]
+    for _ in range(60):
+        I, B2, B3 = random.uniform((0.1, 0.5, -2.0), (2.0, 2.0, 2.0)).tolist()
+        beside_pole = -B2 + random.choice([0.0, 1e-3, -0.02])
+        given.append((I, B2, B3, (random.choice([beside_pole, random.uniform(-3.0, 3.0)]), random.uniform(-5.0, 5.0))))
+    found = run("console.log(JSON.stringify(given.map(x => globalThis.atlasMotion.beside(...x))));", given)
+    scale, near = np.array([256.0 / 6.0, 256.0 / 10.0]), 5.0
+    for (I, B2, B3, point), (omega2, gap) in zip(given, found, strict=True):
+        hyperbola = Hyperbola(I, (B2, B3))
+        w = -B2 + B2 * np.tan(np.linspace(-np.pi / 2, np.pi / 2, 400_002)[1:-1])
+        least = np.linalg.norm(scale * (np.stack([w, hyperbola.omega3(w)], axis=1) - point), axis=1).min()
+        assert gap <= least + 0.1 if least <= near else gap > near
+        if gap <= near:
+            there = np.array([omega2, float(hyperbola.omega3(omega2))])
+            assert np.linalg.norm(scale * (there - point)) == pytest.approx(gap, abs=1e-6)
+
+
 class Texts:
     """A composer that takes in nothing."""
 
