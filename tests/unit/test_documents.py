@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import click
+import numpy as np
 import pytest
 from agreement import Floor, Tie
 from packaging.version import Version
@@ -62,6 +63,9 @@ def test_the_readme_in_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     exec(lines, names)  # noqa: S102  our own document
     assert names["R"].shape == (1_000_000, 3, 3)
     assert (tmp_path / "portrait.pdf").stat().st_size > 1000
+    (animated,) = re.findall(r"^(\w+)\.animate\(", lines, re.MULTILINE)
+    motion = names[animated]
+    assert np.abs(motion.rotation(motion.period) - np.eye(3)).max() < 1e-14  # its last frame goes on to the first
 
 
 @pytest.mark.parametrize(
