@@ -28,6 +28,13 @@ def frequencies(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) 
     return precession(B2, B3, omega2), proper(I2, I3, B2, B3, omega2)
 
 
+def closing(I2: Number, I3: Number, B2: Number, B3: Number, r: Number) -> Number:
+    """Return k of the motion with phi = r k, theorem-closed: b (2L - x)/(x - L) with L = (1-I) B3 and x = I r b."""
+    b = length(B2, B3)
+    L, x = (I2 - I3) * B3, I3 * r * b
+    return b * (L + L - x) / (x - L)
+
+
 def stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
     """Return the square of the frequency of small nutations, theorem-stability."""
     X = omega2 + B2

@@ -17,15 +17,16 @@ from markupsafe import Markup, escape
 from atlas.errors import AtlasError, unknown
 from atlas.paper.equation import slug
 from atlas.paper.plain import plain
-from atlas.places import folder
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.ledger import LedgerView
 from atlas.report.definition import Thumbnail
 from atlas.report.document import Document, PageView
 from atlas.report.fonts import FACES
+from atlas.report.scripts import script
 from atlas.report.templates import templates
 from atlas.report.texts import title_words
+from atlas.scene.style import STYLES
 
 SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
@@ -66,8 +67,8 @@ def pages(document: Document) -> dict[str, str]:
     }
     if len(set_pages) == 1:
         set_pages = {name: _with_sections(page) for name, page in set_pages.items()}
-    style = environment.get_template("style.css").render(faces=FACES)
-    scripts = {name: (folder("templates") / "html" / name).read_text(encoding="utf-8") for name in SCRIPTS}
+    style = environment.get_template("style.css").render(faces=FACES, looks=STYLES)
+    scripts = {name: script(name) for name in SCRIPTS}
     return {"style.css": style, **scripts, "index.js": index(document, set_pages, texts), **set_pages}
 
 

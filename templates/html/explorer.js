@@ -5,24 +5,16 @@
 // Without this nothing is shown.
 "use strict";
 ((root) => {
+  const { atlasFormulas: formulas, atlasLooks: looks } = root;
   const STEP = 0.1, norm = (...a) => Math.hypot(...a);
   const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]),
-    dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+    inner = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 
-  // The motion at omega2 on the hyperbola, for B2 > 0: omega3 by (71), k by (79), phi by (72), and
-  // the square of the frequency of small nutations, negative where the motion is unstable
-  // (theorem-stability).
-  const motion = (I, B2, B3, omega2) => {
-    const X = omega2 + B2,
-      common = omega2 / X * (B3 / (I * B2)),
-      less = (1 - I) * B2 * B2,
-      slope = B3 * (X * X + less) / (B2 * X);
-    return {
-      omega3: common * (omega2 + (2 - I) * B2),
-      k: omega2 * (norm(B2, B3) / B2),
-      phi: common * (1 - I) * (omega2 + 2 * B2),
-      stability: slope * slope + (X * X - less),
-    };
+  // The constants of the motion at omega2 on the hyperbola, for B2 > 0: (71), (79), (72), and the
+  // square of the frequency of small nutations, negative where the motion is unstable.
+  const motion = (...curve) => {
+    const [k, phi] = formulas.frequencies(...curve);
+    return { omega3: formulas.ordinate(...curve), k, phi, stability: formulas.stability(...curve) };
   };
   // The turn about a unit vector, row by row; R(t) = R_B(kt) R_z(phi t), (84).
   const turn = ([x, y, z], angle) => {
@@ -37,23 +29,23 @@
     A.map((row) => [0, 1, 2].map((j) => row[0] * B[0][j] + row[1] * B[1][j] + row[2] * B[2][j]));
   const rotation = (B2, B3, k, phi, t) =>
     product(turn([0, B2 / norm(B2, B3), B3 / norm(B2, B3)], k * t), turn([0, 0, 1], phi * t));
-  // The quadric (50) of constant Omega3 about its centre -B', as the symmetric form of y = omega +
-  // B' and 1, and its axis e'_2, at beta/2 + pi/4 from e2, (53).
+  // The quadric (50) of constant Omega3 about its centre -B', as the upper triangle of its form in
+  // y = omega + B' and 1, its axis e'_2, at beta/2 + pi/4 from e2, (53), and e'_3.
   const quadric = (I, B2, B3) => {
-    const beta = Math.atan2(B3, I * B2), half = beta / 2 + Math.PI / 4;
+    const at = (y1, y2, y3) => formulas.residual(I, B2, B3, y1, y2 - B2, y3 - B3);
+    const constant = at(0, 0, 0), [a, b, c] = [at(1, 0, 0), at(0, 1, 0), at(0, 0, 1)];
+    const [first, second, third] = [a, b, c].map((value) => value - constant);
+    const mixed = (at(0, 1, 1) - constant - second - third) / 2;
+    const [cosine, sine] = formulas.halfAngle(I, B2, B3);
     return {
-      beta,
-      form: [B3, 0, 0, 0, B3, -I * B2 / 2, 0, 0, 0, (I - 1) * B2 * B2 * B3],
-      axis: [0, Math.cos(half), Math.sin(half)],
-      other: [0, -Math.sin(half), Math.cos(half)],
+      form: [first, 0, 0, 0, second, mixed, 0, third, 0, constant],
+      axis: [0, cosine, sine],
+      other: [0, -sine, cosine],
     };
   };
   const kind = (I) => I > 1 ? "two-sheet hyperboloid" : I < 1 ? "one-sheet hyperboloid" : "cone";
-  // The one with phi/k = p/q, theorem-closed.
-  const closed = (I, B2, B3, p, q) => {
-    const c = (1 - I) * B3 / (I * norm(B2, B3));
-    return c * B2 / (p / q - c) - B2;
-  };
+  // The second component of the angular velocity with phi/k = p/q, theorem-closed.
+  const closed = (I, B2, B3, p, q) => formulas.closing(I, B2, B3, p / q) * B2 / norm(B2, B3);
   // d/dt of Omega and of the rows of R by (16) and (12), in units of I2, where 2 g = diag(I, I, 2 -
   // I).
   const rate = (I, B2, B3, [p, q, r, ...R]) => {
@@ -144,17 +136,24 @@
 
   const SCALE = 0.11,
     REACH = 0.42,
-    INK = "#1a1a1a",
-    RED = "#a8182a",
-    NAVY = "#16325c",
-    PLUM = "#9a58b0",
     TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
   const frame = (azimuth, elevation) => {
     const [a, e] = [azimuth, elevation].map((x) => x * Math.PI / 180),
       [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
     return [-sa, ca, 0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se];
   };
-  const arrow = (colour, tube, tail, tip) => [colour, tube, 5 + tube, 0.3 * (5 + tube), tail, tip];
+  // Lines, arrows and dots look as their roles do in the figures.
+  const colour = (role) => looks[role][0];
+  const stroke = (role, points) => [...looks[role].slice(0, 2), points];
+  const dot = (role, point) => [...looks[role].slice(0, 2), point];
+  const arrow = (role, tail, tip) => {
+    const [ink, tube] = looks[role];
+    return [ink, tube, 5 + tube, 0.3 * (5 + tube), tail, tip];
+  };
+  const surface = (role, form, planes, reach) => {
+    const [front, , back, glass] = looks[role];
+    return [form, planes, [], front, back, glass, Array(3).fill(-reach), Array(3).fill(reach)];
+  };
   const circle = (middle, a, b, radius, from = 0, to = 2 * Math.PI) =>
     Array.from({ length: 73 }, (_, i) => {
       const w = from + (to - from) * i / 72;
@@ -186,20 +185,11 @@
       across = (d) => Math.sqrt(Math.max(0, -(value(top) + scaled[9]) / value(d))),
       rim = [across([1, 0, 0]), across(other)],
       box = Math.max(REACH, ...rim) + 0.1;
-    panel.surfaces.push([
-      scaled,
-      [...axis, REACH, ...axis.map((x) => -x), REACH],
-      [],
-      "#4f8fd0",
-      "#f0b25c",
-      0.4,
-      [-box, -box, -box],
-      [box, box, box],
-    ]);
+    const planes = [...axis, REACH, ...axis.map((x) => -x), REACH];
+    panel.surfaces.push(surface("surface", scaled, planes, box));
     for (const side of [1, -1]) {
-      panel.lines.push([
-        INK,
-        1.1,
+      panel.lines.push(stroke(
+        "rim",
         Array.from({ length: 73 }, (_, i) => {
           const w = Math.PI * i / 36;
           return [
@@ -208,34 +198,34 @@
             side * top[2] + rim[1] * Math.sin(w) * other[2],
           ];
         }),
-      ]);
+      ));
     }
     let run = [];
     const flush = () => {
-      if (run.length > 2) panel.lines.push(["#4b1f78", 2.8, run]);
+      if (run.length > 2) panel.lines.push(stroke("hyperbola", run));
       run = [];
     };
     for (let i = 1; i < 400; i++) { // the two branches, by the angle seen from the pole
       const w = -B2 + B2 * Math.tan(Math.PI * (i / 400 - 0.5)),
         y = at([0, w, motion(I, B2, B3, w).omega3]);
-      if (i === 200 || !y.every(Number.isFinite) || Math.abs(dot(axis, y)) > REACH) flush();
+      if (i === 200 || !y.every(Number.isFinite) || Math.abs(inner(axis, y)) > REACH) flush();
       else run.push(y);
     }
     flush();
     const O = at([0, 0, 0]), point = at(omega);
     [0, 1, 2].forEach((i) => {
       const tip = O.map((x, j) => x + (i === j ? 0.3 : 0));
-      panel.arrows.push(arrow(INK, 1.5, O, tip));
-      panel.names.push([i, INK, tip, O]);
+      panel.arrows.push(arrow("basis", O, tip));
+      panel.names.push([i, colour("basis"), tip, O]);
     });
-    panel.arrows.push(arrow(RED, 3.6, O, at([0, B2, B3])));
-    panel.names.push([3, RED, at([0, B2, B3]), O]);
+    panel.arrows.push(arrow("field", O, at([0, B2, B3])));
+    panel.names.push([3, colour("field"), at([0, B2, B3]), O]);
     if (norm(...point) < 1.2) {
-      panel.arrows.push(arrow(PLUM, 2.6, O, point));
-      panel.dots.push(["#d4552b", 7, point]);
-      panel.names.push([4, PLUM, point, O]);
+      panel.arrows.push(arrow("velocity", O, point));
+      panel.dots.push(dot("unstable_point", point));
+      panel.names.push([4, colour("velocity"), point, O]);
     }
-    panel.dots.push([RED, 4.4, [0, 0, 0]]);
+    panel.dots.push(dot("centre", [0, 0, 0]));
     return panel;
   };
   // In space: a cylindrical shell with this I, its axis, and the trace of that over a span of time,
@@ -247,32 +237,17 @@
       less = n.map((x) => -x);
     const h = Math.sqrt(12 * Math.max(1 / I - 0.5, 0)),
       r = 0.34 / norm(1, h / 2),
-      half = Math.max(r * h / 2, 0.012),
-      wood = "#dfb578",
-      bark = "#b07a35",
-      seam = "#6b4517",
-      low = [-0.6, -0.6, -0.6],
-      high = [0.6, 0.6, 0.6];
+      half = Math.max(r * h / 2, 0.012);
     const P = (i, j) => (i === j ? 1 : 0) - n[i] * n[j],
       side = [P(0, 0), P(0, 1), P(0, 2), 0, P(1, 1), P(1, 2), 0, P(2, 2), 0, -r * r],
       ends = [...n, half, ...less, half],
       wedge = (s) => [...add(b.map((x) => s * x), a, -0.25), 0];
-    panel.surfaces.push([side, ends, [], wood, bark, 1, low, high], [
-      side.slice(),
-      [...ends, ...wedge(1), ...wedge(-1)],
-      [],
-      seam,
-      seam,
-      1,
-      low,
-      high,
-    ]);
+    panel.surfaces.push(
+      surface("solid", side, ends, 0.6),
+      surface("seam", side.slice(), [...ends, ...wedge(1), ...wedge(-1)], 0.6),
+    );
     for (const s of [1, -1]) {
-      panel.lines.push([
-        INK,
-        1.1,
-        circle(n.map((x) => s * half * x), a, b, r),
-      ]);
+      panel.lines.push(stroke("rim", circle(n.map((x) => s * half * x), a, b, r)));
     }
     const B = [0, B2 / norm(B2, B3), B3 / norm(B2, B3)],
       gone = Math.min(t, span),
@@ -282,17 +257,22 @@
           { length: 145 },
           (_, i) => at(from + (to - from) * i / 144).map((row) => rod * row[2]),
         );
-    panel.lines.push(["#b9c7e2", 1.6, trace(t, t + span)]);
-    if (gone) panel.lines.push(["#2a57a5", 2.6, trace(t - gone, t)]);
+    panel.lines.push(["#b9c7e2", 1.6, trace(t, t + span)]); // what is to come is paler
+    if (gone) panel.lines.push(stroke("trace", trace(t - gone, t)));
     panel.arrows.push(
-      arrow(NAVY, 2.6, [0, 0, 0], n.map((x) => rod * x)),
-      arrow(RED, 3.6, [0, 0, 0], B.map((x) => 0.5 * x)),
+      arrow("body_axis", [0, 0, 0], n.map((x) => rod * x)),
+      arrow("field", [0, 0, 0], B.map((x) => 0.5 * x)),
     );
-    panel.names.push([5, RED, B.map((x) => 0.5 * x), [0, 0, 0]], [6, NAVY, n.map((x) => rod * x), [
-      0,
-      0,
-      0,
-    ]]);
+    panel.names.push([5, colour("field"), B.map((x) => 0.5 * x), [0, 0, 0]], [
+      6,
+      colour("body_axis"),
+      n.map((x) => rod * x),
+      [
+        0,
+        0,
+        0,
+      ],
+    ]);
     return panel;
   };
 
@@ -408,7 +388,7 @@
       const { I, B2, B3, omega } = state,
         m = motion(I, B2, B3, omega[1]),
         nutation = (m) => Math.sqrt(Math.max(m.stability, 0)),
-        kinds = [["k", "curve", (m) => m.k], ["φ", "second", (m) => m.phi], [
+        kinds = [["k", "second", (m) => m.k], ["φ", "main", (m) => m.phi], [
           "νₙ",
           "third",
           nutation,

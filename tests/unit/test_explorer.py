@@ -1,6 +1,7 @@
 """The script of the explorer beside Python: the same motions, rotation matrices and quadrics."""
 
 import json
+import re
 import shutil
 import subprocess
 from io import BytesIO
@@ -11,6 +12,7 @@ import pytest
 from PIL import Image
 
 from atlas import ElementaryMotion, GeneralMotion, Hyperbola, Quadric
+from atlas.draw.style import context, style_of
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.places import folder
@@ -20,16 +22,16 @@ from atlas.report.definition import Thumbnail
 from atlas.report.html import CARD, cards, pages, thumbnail
 from atlas.report.load import load
 from atlas.report.pictures import pictures
+from atlas.report.scripts import script, written
+from atlas.scene.style import LINES
 
-SCRIPT = folder("templates") / "html" / "explorer.js"
 COUNT, WITHIN = 10_000, 1e-11
 PROGRAM = """
-require(process.argv[1]);
 const cases = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const {motion, rotation, quadric, kind} = globalThis.atlasMotion;
 console.log(JSON.stringify(cases.map(([I, B2, B3, w, t]) => {
   const m = motion(I, B2, B3, w), q = quadric(I, B2, B3);
-  return [[m.omega3, m.k, m.phi, m.stability, q.beta], rotation(B2, B3, m.k, m.phi, t).flat(), q.axis, q.form, kind(I)];
+  return [[m.omega3, m.k, m.phi, m.stability], rotation(B2, B3, m.k, m.phi, t).flat(), q.axis, q.form, kind(I)];
 })));
 """
 GIVEN = "JSON.parse(require('fs').readFileSync(0, 'utf8'))"
@@ -52,7 +54,7 @@ def cases() -> Any:
 def test_closed_forms_of_the_script_are_those_of_python(cases: Any) -> None:
     """10 000 motions: scalars within 1e-11 of their size, the entries of R(t) within that times the phase."""
     done = subprocess.run(
-        [str(node), "-e", PROGRAM, str(SCRIPT)],
+        [str(node), "-e", script("explorer.js") + PROGRAM],
         input=json.dumps(cases.tolist()),
         capture_output=True,
         text=True,
@@ -68,15 +70,14 @@ def test_closed_forms_of_the_script_are_those_of_python(cases: Any) -> None:
         assert (np.abs(given - true) <= WITHIN * np.maximum(np.abs(true), 1.0)).all()
     off = np.abs(R - motion.rotation(t)).max(axis=(1, 2))
     assert (off <= WITHIN * np.maximum(1.0, np.abs(motion.phi) * t / 100.0)).all()
-    for row, (own, _, *rest) in zip(cases[:200].tolist(), found, strict=False):
-        check_quadric(*row[:3], own[4], *rest)
+    for row, (_, _, *rest) in zip(cases[:200].tolist(), found, strict=False):
+        check_quadric(*row[:3], *rest)
 
 
-def check_quadric(I: float, B2: float, B3: float, beta: float, axis: Any, form: Any, kind: str) -> None:
-    """Compare kind, angle, axis, and the form at three points with the left-hand side of (50)."""
+def check_quadric(I: float, B2: float, B3: float, axis: Any, form: Any, kind: str) -> None:
+    """Compare kind, axis, and the form at three points with the left-hand side of (50)."""
     q = Quadric(I, (B2, B3))
     assert kind == q.kind
-    assert abs(beta - q.beta) <= WITHIN
     assert np.abs(np.array(axis) - q.axes[1]).max() <= WITHIN
     full = np.zeros((4, 4))
     full[np.triu_indices(4)] = form
@@ -88,7 +89,7 @@ def check_quadric(I: float, B2: float, B3: float, beta: float, axis: Any, form: 
 
 def run(program: str, given: Any) -> Any:
     """Return what a program beside the script prints of some input."""
-    words = [str(node), "-e", f"require(process.argv[1]);const given={GIVEN};{program}", str(SCRIPT)]
+    words = [str(node), "-e", f"{script('explorer.js')}const given={GIVEN};{program}"]
     done = subprocess.run(words, input=json.dumps(given), capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
 
@@ -234,3 +235,22 @@ def test_a_thumbnail_is_the_place_that_is_asked_for() -> None:
             assert small.size == CARD
             share = (np.asarray(small.convert("RGB"))[..., 1] < 100).mean()
         assert share == pytest.approx(red, abs=0.01)
+
+
+def test_plotted_lines_have_the_colours_of_the_figures() -> None:
+    """What the style sheet of the pages says of the first three is the cycle of Matplotlib's."""
+    css = (folder("templates") / "html" / "style.css").read_text("utf-8")
+    with context(None):
+        for role in LINES[:3]:
+            colour = style_of(role).colour
+            assert f".plane path.{role} {{ stroke: {colour};" in css
+            assert f".plane circle.{role} {{ fill: {colour}; }}" in css
+
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_the_explorer_takes_formulas_and_looks_from_python() -> None:
+    """A formula that changes in Python changes in the script, whose own text has no colour but one that is paler."""
+    changed = written("ordinate", lambda I2, I, B2, B3, w: I2 * abs(I) - B2 / (B3 + w), "I B2 B3 omega2")
+    assert run(f"console.log(({{{changed}}}).ordinate(-2, 3, 4, 8))", None) == 2 - 3 / 12
+    text = (folder("templates") / "html" / "explorer.js").read_text("utf-8")
+    assert re.findall(r"#[0-9a-f]{6}", text) == ["#b9c7e2"]

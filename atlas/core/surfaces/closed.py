@@ -14,6 +14,7 @@ from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
+from atlas.formulas.hyperbola import closing
 from atlas.formulas.numbers import nearest, root, workprec
 
 BITS = 300
@@ -41,13 +42,12 @@ class Closed(DoubleRotation):
 def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:
     """Return k, omega2 = k B2hat, omega3 by (71), and the axis: rational but for b, at the precision of the moment.
 
-    With L = (1-I) B3 and x = I r b, k = -b (2L - x)/(L - x) and I L (L - x) omega3 = -B3 (2L - x)(I L + (1-I) x).
+    With L = (1-I) B3 and x = I r b, I L (L - x) omega3 = -B3 (2L - x)(I L + (1-I) x).
     """
     b, I = root(B2 * B2 + B3 * B3), I3 / I2
     L, x = (1 - I) * B3, I * r * b
-    rest, infinite = 2 * L - x, L - x
-    k = -b * rest / infinite
-    omega3 = -B3 * rest * (I * L + (1 - I) * x) / (I * L * infinite)
+    k = closing(I2, I3, B2, B3, r)
+    omega3 = -B3 * (2 * L - x) * (I * L + (1 - I) * x) / (I * L * (L - x))
     return [arb(y) for y in (k, k * B2 / b, omega3, B2 / b, B3 / b)]
 
 
