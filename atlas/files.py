@@ -13,11 +13,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from glob import escape
 from pathlib import Path
+from typing import TextIO
 
 from atlas.errors import AtlasError
 
 WRITTEN = ".written"
 """The list of a folder's files as they were written, in it: lines of digest and name, as `sha256sum` has them."""
+
+LONGEST = 1 << 20
+"""Characters of a line that is read."""
 
 HERE, EXCHANGE = -100, 2
 """AT_FDCWD and RENAME_EXCHANGE of Linux."""
@@ -106,6 +110,14 @@ def named(path: Path, part: Path | None = None) -> Iterator[None]:
         if error.errno is None or (error.filename and (part is None or Path(error.filename) != part)):
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+def lines_of(file: TextIO, name: str) -> Iterator[str]:
+    """Yield the lines of a text. Raises AtlasError for one that does not end, as the first of /dev/zero."""
+    while line := file.readline(LONGEST):
+        if len(line) == LONGEST and line[-1] != "\n":
+            raise AtlasError(f"{name} has a line of more than {LONGEST} characters: it is no table of numbers.")
+        yield line
 
 
 def check(path: Path) -> None:

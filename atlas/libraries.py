@@ -67,18 +67,30 @@ def of_sweeps(module: str, what: str) -> ModuleType:
         return import_module(module)
     except ImportError as error:
         library = module.partition(".")[0]
-        if release(library) is None and _brought():
+        if release(library) is None and _brought(f"{what} needs {library}"):
             return import_module(module)
         raise AtlasError(f"{what} needs {library}: pip install 'atlas-charged-body[sweep]'.") from error
 
 
-def _brought() -> bool:
-    """Let `make` bring the libraries of sweeps into the environment that it made, if this is the one."""
+def _brought(why: str) -> bool:
+    """Let `make` bring the libraries of sweeps into the environment that it made, if this is the one.
+
+    It is said why and where to, and at a terminal it is asked first.
+    """
     import subprocess
 
     checkout = Path(__file__).resolve().parent.parent
     if Path(sys.prefix).resolve() != checkout / ".venv" or not (checkout / ".venv" / ".ready").exists():
         return False
+    count = (checkout / "requirements-sweep.lock").read_text(encoding="utf-8").count("==")
+    said = f"{why}: {count} libraries of requirements-sweep.lock go into {checkout / '.venv'}"
+    if sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty():
+        import click
+
+        if not click.confirm(f"{said}. Install them now?", default=True, err=True):
+            return False
+    else:
+        print(f"{said}.", file=sys.stderr)  # noqa: T201
     done = subprocess.run(["make", "-s", "-C", checkout, ".venv/.sweep"], stdout=sys.stderr, check=False)  # noqa: S603, S607
     invalidate_caches()
     release.cache_clear()

@@ -19,8 +19,17 @@ PR_SET_PDEATHSIG = 1
 _LIBC = ctypes.CDLL(None) if sys.platform == "linux" else None
 
 
+LOCALE = "en_US.UTF-8" if sys.platform == "darwin" else "C.UTF-8"
+"""The locale of a program that is run: names of files and texts are UTF-8, whatever the user's locale is."""
+
+
+def environment() -> dict[str, str]:
+    """Return this process's environment with a locale of UTF-8, for a program that is run."""
+    return os.environ | {"LC_ALL": LOCALE}
+
+
 def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> subprocess.CompletedProcess[str]:
-    """Run a program to its end, with `text` as its input, and return what it wrote.
+    """Run a program to its end, in a locale of UTF-8 and with `text` as its input, and return what it wrote.
 
     It ends when this process does, however that was, and has no more than so many seconds of a processor. Raises
     TimeoutExpired where these were not enough.
@@ -36,7 +45,7 @@ def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> su
                 check=False,
                 timeout=PATIENCE * seconds,
                 preexec_fn=started if os.name == "posix" else None,
-                **more,
+                **{"env": environment()} | more,
             )
         )
         answer = call.result()

@@ -165,6 +165,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         where = f": {error.filename}" if error.filename else ""
         status = complain(f"{error.strerror or error}{where}", 1)
+    except MemoryError:
+        status = complain("there is not enough memory for it", 1)
     except (KeyboardInterrupt, click.Abort) as error:
         interrupt = error.__cause__ or error
         status = complain("interrupted", 128 + int(interrupt.args[0] if interrupt.args else SIGINT))

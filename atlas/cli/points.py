@@ -3,13 +3,18 @@
 import csv
 from collections.abc import Mapping
 from fractions import Fraction
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
 from atlas.errors import AtlasError
+from atlas.files import lines_of
 from atlas.measured import WANTED, heading, size
+
+MOST = 10**7
+"""Rows of a table that are read."""
 
 SYMMETRIC = 1e-9
 """By how much moments about the axis may differ, and how large products may be, in parts of the largest moment."""
@@ -132,17 +137,20 @@ def measured_columns(
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            top = file.readline()
+            texts = lines_of(file, str(path))
+            top = next(texts, "")
             separator = next((s for s in (",", ";", "\t") if s in top), ",")
-            file.seek(0)
-            reader = csv.reader(file, delimiter=separator)
-            (_, first), *lines = [(reader.line_num, line) for line in reader if line] or [(1, [])]
+            reader = csv.reader(chain([top], texts), delimiter=separator)
+            rows = ((reader.line_num, line) for line in reader if line)
+            (_, first), *lines = [*islice(rows, MOST + 2)] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
         raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
     except csv.Error as error:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
+    if len(lines) > MOST:
+        raise click.UsageError(f"{path} has more than {MOST} rows.")
     names, units = zip(*map(heading, first), strict=True) if first else ((), ())
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")

@@ -31,7 +31,7 @@ OUT.new.csv, and then the exit status is 2.
 """
 
 MOST = 10**7
-"""Values of one parameter that a range may have."""
+"""Values of one parameter that a range may have, and bytes of a file of a sweep."""
 
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
@@ -41,7 +41,11 @@ class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since c
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the place as it was written, if something can be written there."""
+        from atlas.study.sweep.store import MEMORY
+
         text = str(value)
+        if MEMORY in text:
+            self.fail(f"what is at {text} is gone when the command ends: name a file, a folder or another address.")
         if "://" not in text:
             folder = text.endswith("/") or Path(text).is_dir()
             Place(file_okay=not folder, dir_okay=folder).convert(text, param, ctx)
@@ -231,7 +235,11 @@ def read(path: Path) -> Any:
         rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
 
     try:
-        recipe = msgspec.toml.decode(path.read_bytes(), type=Recipe)
+        with path.open("rb") as file:
+            text = file.read(MOST)
+        if len(text) == MOST:
+            raise click.UsageError(f"{path} is larger than {MOST // 10**6} MB: it is no recipe of a sweep.")
+        recipe = msgspec.toml.decode(text, type=Recipe)
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:

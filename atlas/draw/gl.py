@@ -103,7 +103,7 @@ def _candidates() -> tuple[str, ...]:
 
 def _draws(name: str) -> bool:
     """Whether a child process can open an off-screen window with this library."""
-    environment = dict(os.environ)
+    environment = programs.environment()
     if name in WINDOWS:
         environment[VARIABLE] = WINDOWS[name]
     try:

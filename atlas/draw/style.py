@@ -3,7 +3,7 @@
 import logging
 import shutil
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
 from functools import cache
@@ -17,7 +17,7 @@ from matplotlib.colors import to_hex, to_rgba
 
 from atlas.errors import AtlasError
 from atlas.scene.layers import FloatArray
-from atlas.scene.style import LINES, WHITE, Style, is_dark, readable, style
+from atlas.scene.style import LINES, WHITE, Style, is_dark, is_known, readable, style
 from atlas.targets import Target
 
 HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
@@ -34,6 +34,9 @@ def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> F
 
 _NO_LATEX = "the style asks for it (text.usetex); with SciencePlots say science,no-latex"
 _DASHES = {"--": "dashed", "-.": "dashdot", ":": "dotted"}
+ADDRESSES = ("http://", "https://", "ftp://", "file:")
+"""How names begin that Matplotlib would fetch."""
+
 SHEET = Path(__file__).with_name("atlas.mplstyle")
 _TARGET: ContextVar[Target | None] = ContextVar("_TARGET", default=None)
 _SIDES = ("xtick", "ytick")
@@ -139,12 +142,12 @@ def _apply(style: Any) -> None:
     """Apply one style of a user."""
     from matplotlib import style as sheets  # it reads all of Matplotlib's
 
-    if isinstance(style, str) and style not in sheets.library:
-        with suppress(ImportError):
-            import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
     cannot, unknown = f"the style {str(style)!r} cannot be used", "it is no file, nor a name of Matplotlib's"
-    if isinstance(style, str | Path) and Path(style).exists() and not Path(style).is_file():
+    named = isinstance(style, str) and is_known(style)
+    if isinstance(style, str | Path) and not named and Path(style).exists() and not Path(style).is_file():
         raise AtlasError(f"{cannot}: {unknown}.")
+    if isinstance(style, str) and style.startswith(ADDRESSES):
+        raise AtlasError(f"{cannot}: it is an address, and nothing is fetched; save it as a file, and name that.")
     try:
         with _complaints() as messages:
             sheets.use(style)

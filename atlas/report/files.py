@@ -38,6 +38,12 @@ def find(name: str) -> Path:
     raise unknown("report", name, known)
 
 
+def beside(name: str, folder: Path) -> Path | None:
+    """Return a file in the folder of a report or below, None where there is none; a link that leads out is none."""
+    file = folder / name
+    return file if file.resolve().is_relative_to(folder.resolve()) and file.is_file() else None
+
+
 def text_of(path: Path) -> str:
     """Return the text of a report file. Raises AtlasError for one that is no UTF-8."""
     try:

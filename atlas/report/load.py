@@ -15,9 +15,10 @@ from atlas.report.blocks import Block
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.table import Listing, Recorded, Table
 from atlas.report.definition import Report, Source
-from atlas.report.files import names, text_of
+from atlas.report.files import beside, names, text_of
 from atlas.report.markdown import LineError, Piece, read
 from atlas.report.schema import SchemaError, convert
+from atlas.scene.style import is_known
 
 
 def load(path: Path) -> Report:
@@ -63,8 +64,13 @@ def _consistent(report: Report, folder: Path) -> Report:
     if not report.pages or report.pages[0].slug != "index":
         sentence = "the first must have the slug 'index': that is the file that readers open"
         raise SchemaError("pages", sentence, "slug", (0,))
-    if report.bibliography and not (folder / report.bibliography).is_file():
-        raise SchemaError("bibliography", f"there is no file {folder / report.bibliography}", "bibliography")
+    if report.bibliography and not beside(report.bibliography, folder):
+        sentence = f"{report.bibliography!r} is no file in {folder.absolute()}, where the report is"
+        raise SchemaError("bibliography", sentence, "bibliography")
+    for name in filter(None, report.style.split(",")):
+        if not beside(name, folder) and not is_known(name):
+            sentence = f"{name!r} is no file in {folder.absolute()}, where the report is, nor a name of Matplotlib's"
+            raise SchemaError("style", sentence, "style")
     return report
 
 
@@ -77,7 +83,7 @@ def _filled(report: Report, folder: Path) -> Report:
     def fill(block: Block) -> Block:
         if isinstance(block, Figure) and block.recipe.endswith(".py"):
             file = folder / Path(block.recipe).name
-            if Path(block.recipe).name != block.recipe.removeprefix("./") or not file.is_file():
+            if Path(block.recipe).name != block.recipe.removeprefix("./") or not beside(file.name, folder):
                 raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
             block = replace(block, recipe=str(file))
         if not isinstance(block, Figure | Table) or not block.sets:
@@ -86,8 +92,8 @@ def _filled(report: Report, folder: Path) -> Report:
         return replace(block, sets=(), parameters=reduce(or_, [*sets, block.parameters]))
 
     pages = tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages)
-    beside = folder / report.style
-    return replace(report, pages=pages, style=str(beside) if beside.is_file() else report.style)
+    styles = (str(beside(name, folder) or name) for name in filter(None, report.style.split(",")))
+    return replace(report, pages=pages, style=",".join(styles))
 
 
 def _called(block: Block, report: Report, path: tuple[int, int]) -> None:

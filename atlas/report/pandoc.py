@@ -103,7 +103,8 @@ def run(arguments: Sequence[str], source: str) -> str:
         if run.returncode == _HEAP:
             raise AtlasError(_ENDLESS.format(f"{MEMORY[:-1]} MB"))
         if run.returncode:
-            raise AtlasError(f"pandoc could not set the text of the report: {run.stderr.strip().splitlines()[-1]}.")
+            reason = next(iter(run.stderr.strip().splitlines()), f"it ended with status {run.returncode}")
+            raise AtlasError(f"pandoc could not set the text of the report: {reason.removesuffix('.')}.")
         warnings = [entry for entry in json.loads(log.read_text("utf-8")) if entry.get("verbosity") == "WARNING"]
     for warning in warnings:
         if warning["type"] == "CouldNotConvertTeXMath":

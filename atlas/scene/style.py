@@ -10,10 +10,12 @@ panel, their dashes or widths differ too. Widths, marker sizes and tubes are in 
 """
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from types import MappingProxyType
 
 from atlas.errors import AtlasError, nearest
+from atlas.places import settle_matplotlib
 
 WHITE = "#ffffff"
 INK = "#1a1a1a"
@@ -33,6 +35,17 @@ GREY = "#8b929a"
 PALE = "#c3c9d0"
 TEXT_CONTRAST = 4.5
 """What text needs to be read on white (WCAG 2, level AA)."""
+
+
+def is_known(sheet: str) -> bool:
+    """Return whether Matplotlib, or SciencePlots where it is installed, has a style sheet of this name."""
+    settle_matplotlib()
+    from matplotlib import style
+
+    if sheet not in {"default", *style.library}:
+        with suppress(ImportError):
+            import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
+    return sheet in {"default", *style.library}
 
 
 @dataclass(frozen=True)

@@ -16,13 +16,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import msgspec
 import numpy as np
 
 from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
+from atlas.files import lines_of
 from atlas.measured import WANTED, heading, size
 
 BLOCK = 8192
@@ -131,10 +132,10 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> T
     return Trajectory("the trajectory", {name: written.get(name, name) for name in columns}, {}, blocks)
 
 
-def _decoded(file: Iterator[str], name: str) -> Iterator[str]:
+def _decoded(file: TextIO, name: str) -> Iterator[str]:
     """Yield the lines of a text file."""
     try:
-        yield from file
+        yield from lines_of(file, name)
     except UnicodeDecodeError as error:
         raise AtlasError(f"{name} is not a text file in UTF-8.") from error
 

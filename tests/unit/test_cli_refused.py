@@ -2,6 +2,7 @@
 
 import ast
 import re
+import signal
 from pathlib import Path
 from traceback import walk_tb
 from typing import Any
@@ -10,9 +11,11 @@ import click
 import pytest
 
 from atlas import cli
+from atlas.cli import points
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.errors import AtlasError
+from atlas.study.fit import data
 
 BODY = "--ratio 1.5 --field 1 2"
 SQUARE = [(1, 0), (-1, 0), (0, 1), (0, -1)]
@@ -188,6 +191,10 @@ CASES = [
     ("sweep asymmetric --inertia 0.8 1 1.3 --set B1=0 --mu 1 --quantity H", "the field is one of --field"),
     ("sweep --quantity k --out {place}/out.csv", "name the family to sweep"),
     ("sweep elementary --quantity k --set ratio=1", "--out is missing"),
+    ("sweep elementary --quantity k --set ratio=1 --out memory://out", "is gone when the command ends"),
+    ("sweep elementary --quantity k --list /dev/zero --out {place}/out.csv", "/dev/zero has a line of more than"),
+    ("sweep --file /dev/zero", "/dev/zero is larger than 10 MB"),
+    ("fit /dev/zero", "zero has a line of more than"),
     ("sweep general --inertia 0.8 1 1.3 --quantity k --out {place}/out.csv", "is the family asymmetric"),
     ("sweep --file {place}/none.csv", "none.csv"),
     ("sweep --file {place}/sub", "sub"),
@@ -294,6 +301,8 @@ ELSEWHERE = (
     "NotCertifiedError(best.reason)",  # which takes seconds: `Best` is tried in test_cli_certified
     "is not TOML",
     "its folder is read-only",
+    "has more than {MOST} rows",
+    "exceptions.Exit(_reader_gone())",
     "no JSON for",
     "raise error",
     "raise ValueError(text)",
@@ -350,14 +359,16 @@ def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -
         (AtlasError("wrong"), 2, "wrong"),
         (OSError(28, "no space", "a.csv"), 1, "no space: a.csv"),
         (KeyboardInterrupt(), 130, "interrupted"),
+        (KeyboardInterrupt(signal.SIGTERM), 143, "interrupted"),
+        (MemoryError(), 1, "there is not enough memory for it"),
         (AtlasError(f"{'a' * 400} {'b' * 401}"), 2, f"{'a' * 400} {'b' * 200}…{'b' * 100}"),  # long words are cut
     ],
-    ids=["usage", "input", "disk", "interrupt", "long"],
+    ids=["usage", "input", "disk", "interrupt", "end", "memory", "long"],
 )
 def test_what_goes_wrong_is_one_line_and_a_status(
     error: BaseException, status: int, says: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """2 for what was typed, 1 for what failed, 130 for what was interrupted."""
+    """2 for what was typed, 1 for what failed, 128 and the signal's number for what was interrupted."""
 
     def failing(*_: Any, **__: Any) -> None:
         raise error
@@ -367,6 +378,16 @@ def test_what_goes_wrong_is_one_line_and_a_status(
         main([])
     assert ended.value.code == status
     assert capsys.readouterr().err == f"atlas: {says}\n"
+
+
+def test_a_table_without_an_end_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """More rows than a table may have are refused."""
+    file = tmp_path / "long.csv"
+    for module, most, words in ((points, 3, f"sweep ball --quantity gamma --list {file} --out {tmp_path}/out.csv"),
+                                (data, 1, f"fit {file}")):  # fmt: skip
+        monkeypatch.setattr(module, "MOST", most)
+        file.write_text("t,R11\n" + 8193 * "0,1\n", encoding="utf-8")
+        assert "long.csv has more than" in told(words.split())[0]
 
 
 def test_too_few_numbers_are_told_and_not_the_option_that_follows() -> None:

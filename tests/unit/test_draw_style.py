@@ -121,6 +121,16 @@ def test_a_style_that_cannot_be_used_is_one_line(monkeypatch: pytest.MonkeyPatch
         to_figure(lines(), {"text.usetex": True})
 
 
+def test_a_style_is_never_fetched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An address is refused, one of a file of this machine as well; also among other names."""
+    (tmp_path / "mine.mplstyle").write_text("lines.linewidth: 7")
+    monkeypatch.setattr("urllib.request.urlopen", lambda *_: pytest.fail("it is fetched"))
+    for style in ("http://127.0.0.1:9/a.mplstyle", "https://x", "ftp://x", (tmp_path / "mine.mplstyle").as_uri()):
+        for given in (style, ["ggplot", style]):
+            with pytest.raises(AtlasError, match="it is an address, and nothing is fetched"):
+                to_figure(lines(), given)
+
+
 @pytest.mark.parametrize(
     ("content", "words"),
     [

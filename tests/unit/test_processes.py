@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from atlas import processes
+from atlas import processes, programs
+from atlas.errors import AtlasError
+from atlas.report import bibliography, pandoc
 
 ROOT = Path(__file__).parents[2]
 MAIN = str(ROOT / "atlas" / "__main__.py")
@@ -82,3 +84,24 @@ def test_a_worker_that_dies_while_calls_are_given_up_ends_the_pool() -> None:
             os.kill(pid, signal.SIGKILL)
     assert time.monotonic() - begun < 50.0
     assert all(call.done() for call in calls)
+
+
+@pytest.mark.parametrize("locale", ["C", "POSIX", "no_SUCH"])
+def test_a_program_that_is_run_reads_names_in_any_locale(
+    tmp_path: Path, locale: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pandoc finds a file in a folder of letters that the user's locale lacks; Python says the same in its words."""
+    monkeypatch.setenv("LC_ALL", locale)
+    monkeypatch.setenv("LC_CTYPE", locale)
+    folder = tmp_path / "é ü 物"
+    folder.mkdir()
+    (folder / "é.bib").write_text("@misc{a, title = {Thé}, author = {Ünal, É.}, year = {2001}}", encoding="utf-8")
+    assert "Ünal" in bibliography.read(folder / "é.bib").named["a"]
+    told = "import locale; print(locale.setlocale(locale.LC_CTYPE, ''), locale.nl_langinfo(locale.CODESET))"
+    assert programs.run([sys.executable, "-I", "-c", told], 20).stdout.split()[-1] == "UTF-8"
+
+
+def test_the_first_line_of_what_pandoc_says_is_told() -> None:
+    """The reason stands there, and hints below it."""
+    with pytest.raises(AtlasError, match="could not set the text of the report: Unknown input format nosuch"):
+        pandoc.run(["-f", "nosuch"], "")

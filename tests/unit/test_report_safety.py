@@ -379,3 +379,37 @@ def test_citations_are_found_as_pandoc_finds_them() -> None:
     texts.add(text, "here", inline=True)
     texts.set("html", lambda name, _: found.append(name) or Link(name))
     assert found == citations(text) == ["(50)", "theorem-points", "fig:curve", "tab:points", "(90)"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        *("style = 'http://127.0.0.1:9/a.mplstyle'", "style = 'file:///etc/passwd'", "style = '../secret.mplstyle'"),
+        *("style = 'ggplot,../secret.mplstyle'", "style = 'link.mplstyle'", "style = 'here'", "style = '/etc/passwd'"),
+        *("bibliography = '../secret.bib'", "bibliography = 'link.bib'", "bibliography = '/etc/passwd'"),
+        *("bibliography = 'http://127.0.0.1:9/a.bib'", "bibliography = 'folder/../../secret.bib'"),
+    ],
+)
+def test_a_report_reads_no_file_but_those_beside_it(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No address, no path and no link out of its folder, no file of the folder in which it is built."""
+    mailed, built = tmp_path / "mailed", tmp_path / "built"
+    for folder_of_it in (mailed / "folder", built):
+        folder_of_it.mkdir(parents=True)
+    for ending, text in (("bib", "@misc{a, title = {T}}"), ("mplstyle", "lines.linewidth: 7")):
+        for file in (tmp_path / f"secret.{ending}", mailed / "folder" / f"own.{ending}"):
+            file.write_text(text)
+        (mailed / f"link.{ending}").symlink_to(tmp_path / f"secret.{ending}")
+    (built / "here").write_text("lines.linewidth: 7")
+    monkeypatch.chdir(built)
+    report, page = (
+        mailed / "mine.toml",
+        "[[pages]]\nslug = 'index'\ntitle = 'I'\n[[pages.blocks]]\nkind = 'prose'\ntext = 'x'\n",
+    )
+    head = "name = 'mine'\ntitle = 'M'\n"
+    report.write_text(f"{head}{line}\n{page}")
+    with pytest.raises(AtlasError, match=r"mine\.toml, line 3: .* is no file in .*/mailed, where the report is"):
+        load(report)
+    key = line.partition(" ")[0]
+    ending = {"style": "mplstyle", "bibliography": "bib"}[key]
+    report.write_text(f"{head}{key} = 'folder/own.{ending}'\n{page}")
+    assert load(report).bibliography or load(report).style == str(mailed / "folder" / "own.mplstyle")

@@ -1,6 +1,8 @@
 """Tables of a sweep as Parquet data sets, here, at an address, and on Dask."""
 
 import gc
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -61,8 +63,11 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
     """What fsspec knows is written and read as a folder is, and nothing is left beside it."""
     fsspec, pandas = pytest.importorskip("fsspec"), pytest.importorskip("pandas")
     memory = fsspec.filesystem("memory")
-    for B2 in (2.0, 1.0):
-        address = atlas.sweep("elementary", GRID | {"B2": B2}, NAMES, "memory://sweeps/t.parquet", rows=20, jobs=1)
+    with ProcessPoolExecutor(1, get_context("spawn")) as other:  # which has a memory of its own
+        for B2, executor in ((2.0, other), (1.0, None)):
+            given, place = GRID | {"B2": B2}, "memory://sweeps/t.parquet"
+            address = atlas.sweep("elementary", given, NAMES, place, rows=20, jobs=1, executor=executor)
+            assert len(memory.ls("/sweeps/t.parquet")) == 8
     assert address == "memory://sweeps/t.parquet"
     same(
         pandas.concat(

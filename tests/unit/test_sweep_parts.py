@@ -5,6 +5,8 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
@@ -257,6 +259,38 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
             assert names(tmp_path) == [name.rstrip("/")]
             limit = before + 1
     assert limit > 3
+
+
+class Lost(ThreadPoolExecutor):
+    """An executor that loses its calls from the fifth on, as a client without its scheduler, or a pool that broke."""
+
+    reason: BaseException = CancelledError()
+    calls = 0
+
+    def submit(self, *call: Any, **more: Any) -> Future[Any]:
+        """Call, or give back what is lost."""
+        self.calls += 1
+        if self.calls < 5:
+            return super().submit(*call, **more)
+        lost = Future[Any]()
+        lost.set_exception(self.reason)
+        return lost
+
+
+@pytest.mark.parametrize("reason", [CancelledError(""), BrokenProcessPool("A process was terminated abruptly.")])
+def test_workers_that_are_lost_are_told_and_a_second_call_goes_on(
+    tmp_path: Path, whole: bytes, reason: BaseException, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In one sentence; what was made by then is not made again."""
+    said = str(reason).removesuffix(".") or "CancelledError"
+    with Lost(1) as executor:
+        executor.reason = reason
+        with pytest.raises(AtlasError, match=rf"sudden end \({said}\); .* same call goes on"):
+            sweep(tmp_path / "t.csv", executor=executor)
+    starts = made(monkeypatch)
+    sweep(tmp_path / "t.csv")
+    assert starts == STARTS[4:]
+    assert (tmp_path / "t.csv").read_bytes() == whole
 
 
 def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ that does to each kind of data is written here.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from atlas.core.inputs import FloatArray, number, real
 from atlas.errors import AtlasError
-from atlas.study.trajectory import FIELD, MATRIX, OMEGA, QUATERNION, opened
+from atlas.study.trajectory import BLOCK, FIELD, MATRIX, OMEGA, QUATERNION, opened
 
 KINDS: Mapping[str, tuple[int, ...]] = {
     "rotation": (3, 3), "quaternion": (4,), "axis": (3,), "angular_velocity": (3,), "field_in_body": (3,),
@@ -38,6 +39,8 @@ NO_ROTATION = 1.1
 NEARLY_OPPOSITE = -0.99999
 """Cosine of an angle below which the axis of a turn is not its skew part."""
 
+MOST = 1200
+"""Blocks of rows that are read: ten million rows."""
 NEAR = 0.5
 """How far a measured matrix or vector may be from a rotation, or from length 1."""
 
@@ -217,7 +220,9 @@ def of_file(path: Path, kind: str | None) -> tuple[FloatArray, dict[str, Any], f
     what there is of R, as a signal; or the `kind`. Raises AtlasError for a file that has no such columns.
     """
     with opened(path, fields=True) as file:
-        blocks = list(file.blocks)
+        blocks = [*islice(file.blocks, MOST)]
+        if next(file.blocks, None) is not None:
+            raise AtlasError(f"{file.file} has more than {MOST * BLOCK} rows: fit a part of them.")
         names = list(file.names)
         known = file.parameters.get("sigma")
     x = {name: np.concatenate([block[name] for block in blocks]) for name in names}

@@ -5,8 +5,8 @@ import json
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, wait
-from contextlib import closing, nullcontext
+from concurrent.futures import BrokenExecutor, CancelledError, Future, wait
+from contextlib import closing, contextmanager, nullcontext
 from dataclasses import replace
 from functools import cache
 from math import inf
@@ -228,7 +228,7 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
         engine = executor.get_executor(pure=False)
         # the plan itself goes there once: a client keeps its last 1000 messages
         there = None if plan.listed else executor.submit(replace, plan, pure=False)
-    with own or nullcontext():
+    with own or nullcontext(), _workers_lost():
         try:
             for start, stop in spans:
                 rows = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
@@ -240,6 +240,19 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
         finally:
             if own is None:  # which cancels what has not begun by itself
                 wait([future for future in waiting if not future.cancel()])
+
+
+@contextmanager
+def _workers_lost() -> Iterator[None]:
+    """Say what to do where workers, or the scheduler of a client, have come to an end."""
+    try:
+        yield
+    except (BrokenExecutor, CancelledError) as error:
+        reason = " ".join(str(error).split()).removesuffix(".") or type(error).__name__
+        raise AtlasError(
+            f"The processes that compute the table came to a sudden end ({reason}); parts that were made are kept: the "
+            "same call goes on from them."
+        ) from error
 
 
 def key(plan: Plan, rows: int | None) -> str:

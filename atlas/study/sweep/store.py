@@ -29,6 +29,7 @@ from atlas.study.sweep.tables import check_format
 PART = re.compile(r"part-(\d{12})-(\d{12})-([0-9a-f]{16})-([0-9a-f]{32})\.(csv|npz|parquet)", re.ASCII)
 """First row, the one behind the last, key of the sweep; digest of these and of the contents."""
 MARK = "atlas sweep"
+MEMORY = "memory://"
 Span = tuple[int, int]
 """A row and the one behind the last."""
 
@@ -77,6 +78,11 @@ class Folder:
             names = {str(name).rsplit("/", 1)[-1] for name in system.ls(there, detail=False)}
         except FileNotFoundError:
             return set()
+        except Exception as error:
+            if self.is_local:
+                raise
+            reason = " ".join(str(error).split()).removesuffix(".") or type(error).__name__
+            raise AtlasError(f"{self.address} cannot be reached: {reason}.") from error
         parts = {name for name in names if PART.fullmatch(name)}
         strangers = [name for name in names - parts if not name.startswith(".")]
         if strangers:
@@ -144,8 +150,9 @@ class Table:
         if remote or text.endswith(("/", os.sep)) or path.is_dir():
             if path.suffix not in {"", ".parquet"}:
                 raise AtlasError(f"A table in a folder is of Parquet, as table.parquet/, not {text}.")
-            check_format(Path("table.parquet"))
             self.whole = Folder(text.rstrip("/") if remote else str(path.absolute()))
+            self.whole.names()  # what can't be reached is said before libraries are installed for it
+            check_format(Path("table.parquet"))
         else:
             check_format(path)
         address = self.whole.address if self.whole else str(path.absolute())
@@ -188,7 +195,12 @@ class Table:
                 self.parts.move(name, self.whole)
 
     def seen(self) -> bool:
-        """Return whether this process sees the folder that the sweep sees: the lock beside it is the same."""
+        """Return whether this process sees the folder that the sweep sees: the lock beside it is the same.
+
+        What is at memory:// is seen by the process of the sweep alone.
+        """
+        if self.parts.address.startswith(MEMORY):
+            return bool(json.loads(self.mark)["pid"] == os.getpid())
         try:
             return not self.parts.is_local or self.lock.read_text(encoding="utf-8") == self.mark
         except OSError:

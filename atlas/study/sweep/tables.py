@@ -2,7 +2,8 @@
 
 import io
 import zipfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from math import isnan
 from pathlib import Path
 from typing import Any
@@ -54,10 +55,10 @@ def array_part(columns: Columns) -> bytes:
 
 def parquet_part(columns: Columns) -> bytes:
     """Return rows as a Parquet file, null where they have no value."""
-    arrow, parquet = _pyarrow()
-    table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
     buffer = io.BytesIO()
-    parquet.write_table(table, buffer)
+    with _pyarrow() as (arrow, parquet):
+        table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
+        parquet.write_table(table, buffer)
     return buffer.getvalue()
 
 
@@ -99,21 +100,31 @@ def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
 
 def write_parquet(out: Path, _: Plan, parts: Parts) -> None:
     """Write row groups of GROUP rows, the last of fewer."""
-    arrow, parquet = _pyarrow()
-    rows = parquet.read_schema(parts[0]).empty_table()
-    with parquet.ParquetWriter(out, rows.schema) as writer:
-        for part in parts:
-            rows = arrow.concat_tables([rows, parquet.read_table(part)])
-            full = rows.num_rows // GROUP * GROUP
-            if full:
-                writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=GROUP)
-                rows = rows.slice(full)
-        if rows.num_rows:
-            writer.write_table(rows.combine_chunks())
+    with _pyarrow() as (arrow, parquet):
+        rows = parquet.read_schema(parts[0]).empty_table()
+        with parquet.ParquetWriter(out, rows.schema) as writer:
+            for part in parts:
+                rows = arrow.concat_tables([rows, parquet.read_table(part)])
+                full = rows.num_rows // GROUP * GROUP
+                if full:
+                    writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=GROUP)
+                    rows = rows.slice(full)
+            if rows.num_rows:
+                writer.write_table(rows.combine_chunks())
 
 
-def _pyarrow() -> tuple[Any, Any]:
-    return of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
+@contextmanager
+def _pyarrow() -> Iterator[tuple[Any, Any]]:
+    """Give pyarrow and its module of Parquet. An error of theirs that is none of Python's becomes AtlasError."""
+    arrow, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
+    try:
+        yield arrow, parquet
+    except arrow.ArrowException as error:
+        if isinstance(error, MemoryError):
+            raise
+        raise AtlasError(
+            f"The table cannot be written as Parquet: {next(iter(str(error).splitlines()), '')}"
+        ) from error
 
 
 WRITERS: Mapping[str, Callable[[Path, Plan, Parts], None]] = {
@@ -128,4 +139,5 @@ def check_format(out: Path) -> None:
     if out.suffix[1:] not in WRITERS:
         raise AtlasError(f"A table ends in {', '.join(f'.{name}' for name in WRITERS)}, not in {out.suffix!r}: {out}.")
     if out.suffix == ".parquet":
-        _pyarrow()
+        with _pyarrow():
+            pass
