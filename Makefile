@@ -12,7 +12,7 @@ FUZZ_EXAMPLES ?= 10000
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress lint clean setup gl lock newest lowest release FORCE
+.PHONY: help report test figures picture accessibility verify bench stress lint lint-python lint-scripts lint-types lint-floors clean setup gl lock newest lowest release FORCE
 
 help:
 	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
@@ -86,13 +86,17 @@ accessibility: report
 
 # The scripts of the pages and of their tests; MiniSearch is as its authors wrote it.
 SCRIPTS := $(filter-out %/minisearch.js,$(wildcard templates/html/*.js)) $(wildcard tests/*.mjs)
-lint: $(VENV)/.test
+lint: lint-python lint-scripts lint-types lint-floors
+lint-python: $(VENV)/.test
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+lint-scripts: $(VENV)/.test
 	@NO_COLOR=1 $(BIN)/deno lint --quiet --no-config $(SCRIPTS)
 	@NO_COLOR=1 $(BIN)/deno fmt --quiet --no-config --line-width 100 --check $(SCRIPTS)
+lint-types: $(VENV)/.test
 	@echo 'types, by mypy: half a minute the first time'
 	@$(BIN)/mypy
+lint-floors: $(VENV)/.test
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
@@ -106,6 +110,8 @@ release: $(VENV)/.test
 	@rm -rf build/release && mkdir -p build/release/source && git archive '$(TAG)' | tar -x -C build/release/source
 	@cd build/release/source && version=$$(../../../$(BIN)/hatchling version) && test "v$$version" = '$(TAG)' || \
 	  { echo "atlas: atlas/__init__.py of $(TAG) says version $$version" >&2; exit 2; }
+	@! (cd build/release/source && grep -n 'atlas\.invalid' pyproject.toml SECURITY.md) >&2 || \
+	  { echo 'atlas: these addresses are placeholders: put the real ones in their place, commit and tag again' >&2; exit 2; }
 	@cd build/release/source && ../../../$(BIN)/hatchling build -d ../../../dist
 	@rm -rf build/release
 
