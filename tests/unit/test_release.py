@@ -73,3 +73,11 @@ def test_hooks_before_a_commit_are_the_parts_of_make_lint() -> None:
     (parts,) = re.findall(r"^lint: (.+)$", (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE)
     hooks = re.findall(r"^ *entry: make -s (.+)$", (ROOT / ".pre-commit-config.yaml").read_text("utf-8"), re.MULTILINE)
     assert hooks == parts.split()
+
+
+def test_the_changelog_of_a_release_has_at_most_forty_lines() -> None:
+    """CONTRIBUTING says so: the changelog is for users, the rest belongs to commits."""
+    parts = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text("utf-8"), flags=re.MULTILINE)
+    lengths = {part.split()[0]: len(part.splitlines()) for part in parts if part[0].isdigit()}
+    assert len(lengths) > 2
+    assert max(lengths.values()) <= 40
