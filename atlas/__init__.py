@@ -18,7 +18,7 @@ Names are loaded when they are first used, so that a number costs no drawing lib
 from importlib import import_module
 from typing import Any
 
-__version__ = "0.3.0"
+__version__ = "0.4.0.dev0"
 
 _HOMES = {
     "AtlasError": "atlas.errors",
