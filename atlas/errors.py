@@ -19,6 +19,10 @@ class NotCertifiedError(AtlasError):
     """A value for which no enclosure was found; nothing is guessed in its place."""
 
 
+class RelativisticWarning(UserWarning):
+    """A speed above a tenth of that of light, in known units, where formulas are non-relativistic."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """Say which known word was probably meant, or nothing."""
     close = get_close_matches(word, list(known), 1, 0.5)

@@ -4,7 +4,8 @@ import codecs
 import os
 import sys
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from importlib import import_module
 from signal import SIGINT, SIGPIPE
 from typing import Any
@@ -12,7 +13,7 @@ from typing import Any
 import click
 
 from atlas import __version__
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, RelativisticWarning
 from atlas.families import FAMILIES
 
 LONG = 400
@@ -151,6 +152,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     write_plainly()
     if not sys.warnoptions:  # a float that overflows is told by the command that shows it, not by NumPy
         warnings.simplefilter("ignore", RuntimeWarning)
+    warnings.showwarning = partial(show_warning, warnings.showwarning)
     try:
         status = atlas.main(None if arguments is None else list(arguments), "atlas", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
@@ -177,6 +179,14 @@ def _reader_gone() -> int:
     """Let no more be written to a pipe whose reader has gone; return the exit status of who dies by SIGPIPE."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 128 + SIGPIPE
+
+
+def show_warning(otherwise: Callable[..., None], message: Any, category: type[Warning], *where: Any) -> None:
+    """Print a warning of the atlas as one line, any other as Python does."""
+    if issubclass(category, RelativisticWarning):
+        complain(str(message), 0)
+    else:
+        otherwise(message, category, *where)
 
 
 def complain(sentence: str, status: int) -> int:

@@ -1,7 +1,7 @@
 """The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import pi
+from math import hypot, pi
 from typing import Any, TypeVar
 
 import click
@@ -341,6 +341,30 @@ def exact_field(options: dict[str, Any]) -> Any:
 
     factor = exact_charge_to_mass(options) / (2 * rational(speed_of_light(options), "c"))
     return [factor * rational(B, "B") for B in options["magnetic"]]
+
+
+def check_speeds(options: Mapping[str, Any]) -> None:
+    """Warn of speeds above a tenth of that of light, where units are known: of a charge, and of a shape at t = 0.
+
+    Raises DomainError where the drift in crossed fields is not below the speed of light.
+    """
+    from atlas.core.bodies.speeds import check_drift, fastest_point, speed_of_light, warn_of
+    from atlas.core.bodies.units import system
+
+    known = options.get("magnetic") is not None and system_of(options) != "natural"
+    units = system(system_of(options)) if known else system("SI")
+    if "electric" in options:
+        if not known:
+            return
+        check_drift(options["electric"] or (0, 0, 0), options["magnetic"], units)
+        speed, what = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"
+    elif options.get("shape") is not None and units_of(options):
+        start = options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
+        sizes = {name: float(size) for name, size in given(options, SIZES).items()}
+        speed, what = fastest_point(options["shape"].replace("-", "_"), sizes, start), "the surface at t = 0"
+    else:
+        return
+    warn_of(what, speed / speed_of_light(units))
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:

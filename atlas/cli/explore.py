@@ -8,6 +8,7 @@ from urllib.parse import urlencode
 
 import click
 
+from atlas.cli.body import check_speeds
 from atlas.cli.options import examples
 from atlas.families import FAMILIES
 
@@ -72,6 +73,7 @@ def started(args: list[str]) -> tuple[str, str]:
     family = FAMILIES[family_of(args)]
     with made("motion").make_context("explore", args) as context:
         options = context.params
+    check_speeds(options)
     if family.name == "asymmetric" and (motion := motion_in_given_axes(options)):
         principal = in_principal_axes(motion)
         click.echo(f"The axes are principal ones: {principal.axes} in those of the body that were given.", err=True)

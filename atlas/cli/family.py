@@ -172,6 +172,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
 
     def run(**options: Any) -> None:
         _check_spectrum(options)
+        body.check_speeds(options)
         times = chosen_times(options) if family.sampled else []
         sampled = [s for s in family.sampled if s.printed]
 

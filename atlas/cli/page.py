@@ -203,6 +203,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
     from atlas.report.page import Asked
 
+    body.check_speeds(options)
     typed = _typed(options.keys() - OWN, options)
     options_asked = dict(
         zip(

@@ -9,6 +9,7 @@ import numpy as np
 from atlas.core.bodies.body import SHAPES, SymmetricBody
 from atlas.core.bodies.field import Field as PhysicalField
 from atlas.core.bodies.field import LaboratoryFrame
+from atlas.core.bodies.speeds import check_drift
 from atlas.core.bodies.units import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
 from atlas.report.digits import shown
@@ -159,6 +160,7 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
     units = system(field_record.system)
     mu = _charge_to_mass(body_record, field_record)
     physical = PhysicalField(np.array(field_record.B), np.array(field_record.E), mu, units.c)
+    check_drift(physical.E, physical.B, units)
     frame = physical.frame(field_record.axis)
     return BodyAndField(symmetric_body, body_record, frame.field, field_record, physical, frame, units)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from atlas.core.arithmetic.words import exact
 from atlas.core.bodies import units as unit_systems
+from atlas.core.bodies.speeds import check_drift
 from atlas.core.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
 from atlas.core.quantities import NO_FIELDS, RATE, SI_FIELDS
 from atlas.core.shown import called
@@ -59,17 +60,23 @@ class Field:
     def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
         """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s.
 
-        Raises AtlasError as `Field` does.
+        Since the units are known, a drift above a tenth of the speed of light gives a `RelativisticWarning`, and
+        DomainError where |E| across B is c |B| or more. Raises AtlasError as `Field` does.
         """
-        return cls(B, E, mu, unit_systems.SI.c)
+        field = cls(B, E, mu, unit_systems.SI.c)
+        check_drift(field.E, field.B, unit_systems.SI)
+        return field
 
     @classmethod
     def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
         """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s.
 
-        Raises AtlasError as `Field` does.
+        Warns of a drift, and raises DomainError, as `si` does: here |E| across B stays below |B|. Raises AtlasError as
+        `Field` does.
         """
-        return cls(B, E, mu, unit_systems.GAUSSIAN.c)
+        field = cls(B, E, mu, unit_systems.GAUSSIAN.c)
+        check_drift(field.E, field.B, unit_systems.GAUSSIAN)
+        return field
 
     @property
     def pair(self) -> tuple[float, float]:

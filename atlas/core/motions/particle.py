@@ -19,7 +19,8 @@ class ParticleMotion(Shown):
 
     `mu` of either sign, or 0; `E`, `B`, `position`, `velocity` (..., 3); `c` > 0 as in `atlas.Field`. The inputs are
     taken as exact, and broadcast with one another and with the times: arrays of them are as many particles. Any E and
-    B, zero too; the phase omega t up to 2^50, AtlasError beyond.
+    B, zero too; the phase omega t up to 2^50, AtlasError beyond. Non-relativistic: speeds, the drift c [E, B]/B^2 among
+    them, must be small beside that of light, which is not checked here; `Field.si` and `Field.gaussian` do.
 
         >>> origin, start = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
         >>> atlas.ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 1.0), origin, start).kind
