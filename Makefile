@@ -76,7 +76,8 @@ stress: $(VENV)/.test $(VENV)/.bench
 # Needs node, npm and Chromium; `make accessibility FIREFOX=/usr/bin/firefox-esr` looks in that Firefox, and needs Xvfb.
 LOOK := $(if $(FIREFOX),xvfb-run -a )node
 accessibility: report
-	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.63.0
+	@mkdir -p build/accessibility && cp tests/package.json tests/package-lock.json build/accessibility
+	@npm ci --silent --ignore-scripts --prefix build/accessibility
 	@$(LOOK) tests/accessibility.mjs build/report/atlas build/accessibility
 	@$(LOOK) tests/accessibility.mjs build/report/trial build/accessibility
 	@$(LOOK) tests/accessibility.mjs build/report/guide build/accessibility
@@ -121,7 +122,7 @@ clean:
 setup: $(VENV)/.ready
 
 # What another program's settings would bring into ours, or send elsewhere.
-unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX PIP_USER
+unexport PYTHONPATH PYTHONHOME
 
 # Runs a command in silence; where it fails, says in a line what could not be done, and below it what the command said.
 quietly = said=$$({ $(1); } 2>&1) || { echo "atlas: $(strip $(2)):"; printf '%s\n' "$$said" | tail -n 5; exit 2; } >&2
@@ -155,18 +156,33 @@ os.execvp(command[0], command)
 endef
 $(VENV)/.%: export ALONE := $(ALONE)
 
+# Runs pip with those of the user's settings, of files and of variables, that say how the index is reached, and no others.
+define PIP
+import ast, os, subprocess, sys
+pip = [sys.executable, "-I", "-m", "pip"]
+told = subprocess.run([*pip, "config", "list"], capture_output=True, text=True).stdout
+kept = "index-url extra-index-url find-links no-index trusted-host cert client-cert proxy timeout default-timeout retries keyring-provider cache-dir"
+settings = {name: ast.literal_eval(value) for name, _, value in (line.partition("=") for line in told.splitlines())}
+own = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")} | {"PIP_CONFIG_FILE": os.devnull}
+for section in ("global", "install", ":env:"):
+    own |= {"PIP_" + key.upper().replace("-", "_"): str(settings[name]) for key in kept.split() if settings.get(name := section + "." + key)}
+os.execve(sys.executable, [*pip, *sys.argv[1:]], own)
+endef
+$(VENV)/.%: export PIP := $(PIP)
+
 # Installs what locks hold by uv or by pip, and says each 8 s how far it is.
 bring = echo '  the libraries of $(lastword $(1))'; log=$(VENV)/.log; : >$$log; set -- --require-hashes $(addprefix -r ,$(1)); \
   all=$$(grep -h '^[a-z].*==' $(1) | grep -vc 'sys_platform ==\|python_full_version\|implementation'); \
   ( n=0; while sleep 1 && kill -0 $$$$ 2>/dev/null; do n=$$((n + 1)); test $$((n % 8)) != 0 || \
     echo "    of about $$all, $$(grep -c '^Collecting\|^Processing' $$log) found, $$(ls -d $(VENV)/lib/python3*/site-packages/*.dist-info | wc -l) installed"; done ) & tells=$$!; \
   { command -v uv && uv pip install --python $(BIN)/python "$$@"; } >$$log 2>&1 || \
-    $(BIN)/python -I -m pip install --no-compile --disable-pip-version-check --progress-bar off "$$@" >$$log 2>&1; \
+    $(BIN)/python -I -c "$$PIP" install --no-compile --disable-pip-version-check --progress-bar off "$$@" >$$log 2>&1; \
   status=$$?; kill $$tells; test $$status = 0 || { echo 'atlas: pip could not install the libraries:'; tail -n 5 $$log; exit 2; } >&2
 
 # Gives a pip to an environment of a Python that brings none, as Debian's without python3-venv: by uv, by the pip of that
 # Python, or the wheel in Debian's package python3-pip-whl, which any user can fetch where apt-get knows it.
-pip = uv pip install --python $(BIN)/python pip || $(PYTHON) -I -m pip --python $(BIN)/python install pip || { mkdir -p $(VENV)/pip && cd $(VENV)/pip && \
+pip = sed -n '/^pip==/,/[^\]$$/p' requirements-lock.lock >$(VENV)/pip.lock; uv pip install --python $(BIN)/python --require-hashes -r $(VENV)/pip.lock || \
+  $(PYTHON) -I -c "$$PIP" --python $(BIN)/python install --require-hashes -r $(VENV)/pip.lock || { mkdir -p $(VENV)/pip && cd $(VENV)/pip && \
   { ls /usr/share/python-wheels/pip-*.whl || { apt-get download -qq python3-pip-whl && dpkg-deb -x python3-pip-whl_*.deb .; }; } && \
   for one in /usr/share/python-wheels/pip-*.whl "$$PWD"/usr/share/python-wheels/pip-*.whl; do test ! -e "$$one" || break; done && \
   ../bin/python -I "$$one/pip" install --no-index "$$one"; }
@@ -197,7 +213,7 @@ else
 	  else { { $(PYTHON) -I -m venv --without-pip $(VENV) || uv venv --python $(PYTHON) $(VENV); } && ( $(pip) ); } >/dev/null 2>&1 || \
 	    { rm -rf $(VENV); echo 'atlas: this Python has no venv; install it: sudo apt-get install python3-venv' >&2; exit 2; }; fi; }
 	@$(call bring,requirements.lock)
-	@if [ -n "$$(echo $(VENV)/lib/python3*/site-packages/atlas_charged_body-*/RECORD | grep -v '\*')" ]; then $(call quietly,$(BIN)/python -I -m pip uninstall -q -y atlas-charged-body,pip could not remove its copy of the checkout); fi
+	@if [ -n "$$(echo $(VENV)/lib/python3*/site-packages/atlas_charged_body-*/RECORD | grep -v '\*')" ]; then $(call quietly,$(BIN)/python -I -c "$$PIP" uninstall -q -y atlas-charged-body,pip could not remove its copy of the checkout); fi
 	@mkdir -p $(VENV)/checkout && ln -sfn ../../atlas $(VENV)/checkout/atlas
 	@$(BIN)/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../checkout\n")'
 	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands, and of its libraries alone.\nunset PYTHONPATH PYTHONHOME\nbin="$$(dirname -- "$$(readlink -f -- "$$0")")"\nset -- "$$bin/python" -P "$$bin/../checkout/atlas/__main__.py" "$$@"\n# while Python starts, Ctrl-C waits, where this env can do that: atlas/__main__.py heeds it\nenv --block-signal=INT true 2>/dev/null && set -- env --block-signal=INT "$$@"\nexec "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
@@ -206,7 +222,7 @@ else
 	@pwd -P >$@
 endif
 
-# What sweeps (Parquet, Dask), the tests and the benchmark need beside: each brought when it is first asked for.
+# What sweeps (Parquet, Dask), the tests, the benchmark and the locks need beside: each brought when it is first asked for.
 $(VENV)/.test: $(VENV)/.sweep
 $(VENV)/.%: requirements-%.lock $(VENV)/.ready
 ifndef HELD
@@ -220,12 +236,11 @@ endif
 # those that they have. A lock beside requirements.lock holds what is not in that one.
 RENEW = --upgrade
 COMPILE = $(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate pyproject.toml
-lock: | setup
-	@$(BIN)/python -I -m pip install -qq --disable-pip-version-check 'uv>=0.13'
+lock: | $(VENV)/.lock
 	@mkdir -p build/lock && grep -h '==' requirements*.lock | sed 's/ *\\$$//' | sort -u >build/lock/all
 	@$(COMPILE) $(RENEW) --all-extras -o build/lock/all
 	@$(COMPILE) --generate-hashes -c build/lock/all -o requirements.lock
-	@for extra in sweep test bench; do \
+	@for extra in sweep test bench lock; do \
 	  $(COMPILE) --generate-hashes -c build/lock/all --extra $$extra -o build/lock/$$extra && \
 	  awk 'function pin() { if (more && !(all in there)) printf "%s", all; there[all]; all = ""; more = FNR < NR } \
 	    /^[a-z]/ { pin() } { all = all $$0 "\n" } END { pin() }' requirements.lock build/lock/$$extra >requirements-$$extra.lock || exit 2; done
@@ -233,8 +248,7 @@ lock: | setup
 # The unit tests with the newest and with the lowest versions that the ranges of pyproject.toml allow.
 RANGE_newest = highest
 RANGE_lowest = lowest-direct
-newest lowest: | setup
-	@$(BIN)/python -I -m pip install -qq --disable-pip-version-check 'uv>=0.13'
+newest lowest: | $(VENV)/.lock
 	@rm -rf build/$@ && $(PYTHON) -I -m venv build/$@
 	@$(BIN)/uv pip install -q --python build/$@/bin/python --resolution $(RANGE_$@) -r pyproject.toml --extra test --extra sweep
 	@build/$@/bin/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../../../.venv/checkout\n")'

@@ -1,11 +1,13 @@
 """The set-up of the Makefile on machines that lack something: one line says what, and the reason stands below it."""
 
 import fcntl
+import hashlib
 import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 
@@ -83,6 +85,38 @@ def test_pip_tells_why_it_failed(tmp_path: Path) -> None:
     assert "atlas: pip could not install the libraries:\n" in told
     assert "No matching distribution found for nosuch-library==1.0" in told
     assert not (tmp_path / "it's é" / ".venv" / ".ready").exists()
+
+
+@pytest.mark.slow
+def test_settings_of_pip_reach_the_index_and_nothing_else(tmp_path: Path) -> None:
+    """Where the index is stands in the user's file; that file and variables would also lead pip astray."""
+    wheels, home = tmp_path / "wheels", tmp_path / "home"
+    wheel = wheels / "tiny-1.0-py3-none-any.whl"
+    (home / ".config" / "pip").mkdir(parents=True)
+    wheels.mkdir()
+    with ZipFile(wheel, "w") as file:
+        file.writestr("tiny.py", "")
+        file.writestr("tiny-1.0.dist-info/METADATA", "Metadata-Version: 2.1\nName: tiny\nVersion: 1.0\n")
+        file.writestr("tiny-1.0.dist-info/WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
+        file.writestr("tiny-1.0.dist-info/RECORD", "")
+    (home / ".config" / "pip" / "pip.conf").write_text(
+        f"[global]\nno-index = true\nrequire-virtualenv = true\n[install]\nfind-links = {wheels}\nuser = true\n"
+        f"constraint = {tmp_path}/nosuch\n"
+    )
+    astray = {"PIP_TARGET": f"{tmp_path}/t", "PIP_CONSTRAINT": f"{tmp_path}/nosuch", "PIP_REQUIRE_VIRTUALENV": "1"}
+    astray |= {
+        "PIP_USER": "1",
+        "PIP_PREFIX": f"{tmp_path}/p",
+        "PIP_ONLY_BINARY": "none",
+        "PIP_NO_BINARY": ":all:",
+        "PIP_FIND_LINKS": "",
+    }
+    lock = f"tiny==1.0 --hash=sha256:{hashlib.sha256(wheel.read_bytes()).hexdigest()}\n"
+    python = f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'
+    programs = {"python3": python, "uv": "#!/bin/sh\nexit 1\n"}
+    _, told = set_up(tmp_path, programs, lock, HOME=str(home), XDG_CONFIG_HOME=str(home / ".config"), **astray)
+    assert "could not install" not in told
+    assert [*(tmp_path / "it's é" / ".venv" / "lib").glob("python3*/site-packages/tiny-1.0.dist-info")], told
 
 
 def test_two_set_ups_take_turns_and_a_full_disk_is_told_first(tmp_path: Path) -> None:
