@@ -20,6 +20,9 @@ from atlas.errors import AtlasError
 WRITTEN = ".written"
 """The list of a folder's files as they were written, in it: lines of digest and name, as `sha256sum` has them."""
 
+IGNORED = f"# notes of atlas, which it makes again\n.gitignore\n{WRITTEN}\n*.costs.json\n"
+"""The file .gitignore of a folder that files are written to."""
+
 LONGEST = 1 << 20
 """Characters of a line that is read."""
 
@@ -155,6 +158,7 @@ def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> d
     after |= {f"{made[name]}  {one}" for name, place in places.items() for one in (name, place)}
     if after != there:
         write(out / WRITTEN, listed(after))
+        hide_notes(out)
     for name, part in parts.items():
         if digest_of(out / places[name]) != made[name]:
             part.replace(out / places[name])
@@ -181,6 +185,13 @@ def lines(folder: Path) -> set[str]:
 def listed(lines: Iterable[str]) -> str:
     """Return such a list as text."""
     return "".join(f"{line}\n" for line in sorted(lines))
+
+
+def hide_notes(folder: Path) -> None:
+    """Let git see no notes of ours in a folder below a user's repository, unless it has a .gitignore."""
+    ignore, here = folder / ".gitignore", folder.resolve()
+    if not os.path.lexists(ignore) and any((above / ".git").exists() for above in here.parents):
+        write(ignore, IGNORED)
 
 
 def edited(folder: Path, name: str, lines: set[str]) -> bool:

@@ -6,7 +6,6 @@ And where tests keep what they build: none finds what another has left.
 import gc
 import os
 import signal
-import sys
 from collections.abc import Iterator
 
 import pytest
@@ -25,10 +24,9 @@ def pytest_collection_finish() -> None:
     """Let the collector of garbage look no more at what was collected and loaded: it would at each of its rounds.
 
     Before its first example Hypothesis asks the collector who holds its random numbers, and warns where nobody does.
-    From Python 3.14 on that is among what is frozen here, so an example comes first.
+    With the oldest Hypothesis, or from Python 3.14 on, that is among what is frozen here, so an example comes first.
     """
-    if sys.version_info >= (3, 14):
-        given(strategies.none())(lambda _: None)()
+    given(strategies.none())(lambda _: None)()
     gc.freeze()
     gc.enable()
 

@@ -63,6 +63,7 @@ def _pages(inside: Mapping[str, bytes], place: Path, known: set[str], work: Path
         stay = [*content, WRITTEN]
         _place(work, place, stay)
         _remove_others(place, {*stay, *foreign})
+    files.hide_notes(place)
     return beside
 
 

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -11,6 +12,7 @@ import pytest
 from packaging.requirements import Requirement
 
 from atlas import files
+from atlas.build import publish
 from atlas.libraries import LIBRARIES, release, versions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -120,3 +122,27 @@ def test_the_locks_have_every_dependency_in_its_range() -> None:
             assert one.specifier.contains(locked[one.name.replace("_", "-")]), one
             assert all(part.operator == ">=" for part in one.specifier), one
         assert name == "-test" or "mypy" not in locked
+
+
+def test_git_sees_what_was_asked_for_and_no_notes(tmp_path: Path) -> None:
+    """In a repository of the user's; a .gitignore of their own stays as it is, and elsewhere none is made."""
+    theirs, plain = tmp_path / "theirs", tmp_path / "plain"
+    git = [str(shutil.which("git")), "-C", str(theirs)]
+    theirs.mkdir()
+    subprocess.run([*git, "init", "-q"], check=True, capture_output=True)
+    for _ in range(2):
+        for folder in (theirs / "made", theirs / "a" / "b", plain):
+            with files.keeping(folder / "t.csv") as part:
+                part.write_text("1")
+            files.write(folder / "t.costs.json", "{}")
+        publish.replace(theirs / "pages", {"index.html": b"page", "s/a.css": b""})
+        listed = subprocess.run([*git, "status", "--short", "-uall"], check=True, capture_output=True, text=True).stdout
+        there = {line.split()[1] for line in listed.splitlines()}
+        assert there == {"a/b/t.csv", "made/t.csv", "pages/index.html", "pages/s/a.css"}
+    assert not (plain / ".gitignore").exists()
+    own = theirs / "own"
+    own.mkdir()
+    (own / ".gitignore").write_text("*.log\n")
+    with files.keeping(own / "t.csv") as part:
+        part.write_text("1")
+    assert (own / ".gitignore").read_text() == "*.log\n"
