@@ -77,7 +77,9 @@ def parts(motion: Any) -> tuple[float, float, float]:
     b = float(np.linalg.norm(K[0]))
     k, p = K / b, K.mean(axis=0) / np.linalg.norm(K.mean(axis=0))
     area = np.mean(np.cross(k, np.cross(k, Omega)) @ p / (1 + k @ p)) * motion.period
-    return motion.precession_per_period, float(np.mean(np.vecdot(k, Omega)) * motion.period), float(area)
+    # the axis that K goes round precesses, and the body turns once about it, along the field or against it
+    turn = motion.precession_per_period + motion.spin_per_period * np.sign(p[np.argmax(abs(p))])
+    return turn, float(np.mean(np.vecdot(k, Omega)) * motion.period), float(area)
 
 
 def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:

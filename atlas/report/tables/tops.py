@@ -160,7 +160,7 @@ def elliptic(request: Request, asked: Family) -> Data:
         ),
         rf"Elliptic motions of a body with $I_i={_row(asked.inertia)}$ in $\mathbf{{B}}'={_row(asked.field)}$: the "
         r"place $(z,v)$, initial angular velocity, what decides on stability, the period $T$ of "
-        r"$\mathbf{K}$, and the turn $\Theta$ about the field in it.",
+        r"$\mathbf{K}$, and the turn $\Theta$ about the field in it of the axis that $\mathbf{K}$ goes round.",
     )
 
 
