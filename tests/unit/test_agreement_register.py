@@ -96,7 +96,7 @@ UNTIED = {
     **{
         f"EllipticMotion.{name}": "compared with Taylor series of (12), (16), and with its theorem, in test_elliptic"
         for name in (
-            "circled is_middle "
+            "circled is_middle turn_per_period "
             "frame E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame "
             "invariants is_plane is_steady kind modulus nome omega period precesses_evenly precession "
             "precession_per_period quaternion rate_of rotation rotation_grid solution sphere spin_per_period "

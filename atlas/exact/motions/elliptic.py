@@ -207,6 +207,11 @@ class EllipticMotion(Nutating):
         """Whether the motion is on the separatrix: it tends to the axis of the middle E, or is the spin about it."""
         return self.kind == "separatrix" or (self.is_steady and self._change() < 0)
 
+    @property
+    def turn_per_period(self) -> arb:
+        """Angle by which the body has turned about B after one period, of precession and spin together."""
+        return super()._angles()[0]
+
     def _angles(self) -> tuple[arb, arb]:
         """Return the angles of precession and of spin of the axis about which K goes round, once in a period.
 

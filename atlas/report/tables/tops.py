@@ -149,7 +149,7 @@ def elliptic(request: Request, asked: Family) -> Data:
 
     motions = [EllipticMotion(asked.inertia, asked.field, z, branch) for z, branch in asked.places]
     values = certified(
-        lambda: [(m.v, *m.omega, m.splitting, m.period, m.precession_per_period) for m in motions], request.digits
+        lambda: [(m.v, *m.omega, m.splitting, m.period, m.turn_per_period) for m in motions], request.digits
     )
     columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
@@ -160,7 +160,7 @@ def elliptic(request: Request, asked: Family) -> Data:
         ),
         rf"Elliptic motions of a body with $I_i={_row(asked.inertia)}$ in $\mathbf{{B}}'={_row(asked.field)}$: the "
         r"place $(z,v)$, initial angular velocity, what decides on stability, the period $T$ of "
-        r"$\mathbf{K}$, and the turn $\Theta$ about the field in it of the axis that $\mathbf{K}$ goes round.",
+        r"$\mathbf{K}$, and the turn $\Theta$ of the body about the field in it.",
     )
 
 
