@@ -9,7 +9,10 @@ from atlas.core.quantities import LENGTH, MASS
 from atlas.errors import AtlasError, DomainError
 
 ROUNDING = 16 * float(np.finfo(float).eps)
-"""An eigenvalue of a mass matrix below this part of the largest one is zero, rounded."""
+"""Part of the largest principal value of a matrix by which rounded elements may make a principal value wrong."""
+
+PRECISION = 320
+"""Bits of principal values and axes before they are rounded, once."""
 
 LARGEST = float(np.finfo(float).max) / 8
 """Sums of elements up to this are finite."""
@@ -64,8 +67,9 @@ def inertia_tensor(inertia: Any) -> FloatArray:
     if tensor.ndim > 2:
         raise AtlasError(f"A body has one inertia tensor (3, 3) or diagonal (3,), not the shape {tensor.shape}.")
     tensor = np.diag(tensor) if tensor.ndim == 1 else tensor
-    I = np.linalg.eigvalsh(tensor)
-    if I[0] <= ROUNDING * I[2]:
+    rounded = ROUNDING * bool((tensor * (1 - np.eye(3))).any())
+    I = np.sort(principal(tensor)[0])
+    if I[0] <= rounded * I[2]:
         raise DomainError(f"The moments of inertia must be positive, but the principal ones are {I}.")
     if I[2] - I[1] > I[0] + ROUNDING * I[2]:
         raise DomainError(
@@ -73,6 +77,47 @@ def inertia_tensor(inertia: Any) -> FloatArray:
             f"I3 - I1 is a sum of 2 m x^2, but {I[2]:.6g} > {I[1]:.6g} + {I[0]:.6g}."
         )
     return tensor
+
+
+def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Principal values (3,) of a symmetric matrix (3, 3), and its principal axes as the rows of a rotation (3, 3).
+
+    The elements are taken as exact: values and axes are those of the characteristic polynomial over the rationals, each
+    rounded once, so that small values are as accurate as large ones. Values of a diagonal stay in their order; others
+    ascend.
+    """
+    from flint import arb, fmpq, fmpq_mat, fmpq_poly
+
+    from atlas.formulas.numbers import cross, dot, nearest, workprec
+
+    if not (matrix * (1 - np.eye(3))).any():
+        return np.diagonal(matrix).copy(), np.eye(3)
+    exact = [[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
+    (a, d, e), (d2, b, f), (e2, f2, c) = exact
+    d, e, f = (d + d2) / 2, (e + e2) / 2, (f + f2) / 2
+    of_pairs = a * b + a * c + b * c - d * d - e * e - f * f
+    determinant = fmpq_mat([[a, d, e], [d, b, f], [e, f, c]]).det()
+    with workprec(PRECISION):
+        roots = fmpq_poly([-determinant, of_pairs, -(a + b + c), 1]).complex_roots()
+        values = sorted(((x.real, n) for x, n in roots), key=lambda root: float(root[0].mid()))
+        axes = list[list[arb]]()
+        for value, count in values:
+            if count == 1:
+                rows = [[a - value, arb(d), arb(e)], [arb(d), b - value, arb(f)], [arb(e), arb(f), c - value]]
+                normals = [cross(rows[i], rows[i - 1]) for i in range(3)]
+                axis = max(normals, key=lambda v: float(dot(v, v).mid()))
+                axes.append([x / dot(axis, axis).sqrt() for x in axis])
+        simple = np.array([[nearest(x) for x in axis] for axis in axes])
+    I = np.array([nearest(x) for x, n in values for _ in range(n)])
+    simple *= np.where(np.take_along_axis(simple, abs(simple).argmax(1)[:, None], 1) < 0, -1.0, 1.0)
+    if len(simple) == 3:
+        turn = np.sign(np.linalg.det(simple))
+        return I, simple * np.array([[1.0], [1.0], [turn]])
+    third = simple[0]
+    second = np.cross(third, np.eye(3)[abs(third).argmin()])
+    second /= np.linalg.norm(second)
+    frame = [np.cross(second, third), second, third]
+    return I, np.array(frame if values[0][1] == 2 else [third, frame[0], frame[1]])
 
 
 def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:

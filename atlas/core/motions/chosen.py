@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.core.bodies.body import SymmetricBody, moments
-from atlas.core.bodies.inertia import ROUNDING, inertia_tensor
+from atlas.core.bodies.inertia import inertia_tensor, principal
 from atlas.core.inputs import FloatArray, common_shape, components, plain, real, scaled, vectors
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.core.motions.ball import BallMotion
@@ -15,9 +15,6 @@ from atlas.core.motions.general import ORTHOGONAL, GeneralMotion
 from atlas.core.motions.turned import Turned, turned
 from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError, DomainError
-
-EQUAL = ROUNDING
-"""Part of the largest moment up to which two that were found by diagonalization are equal."""
 
 MEMBER = 8 * float(np.finfo(float).eps)
 """Part of the largest rate of a start by which it may be off the paper's family, where it was turned and so rounded."""
@@ -154,13 +151,12 @@ def body_of(inertia: Any) -> Body:
         return _of_moments((I2, I2, I3), np.eye(3))
     for tensor in inertia_matrix.reshape(-1, 3, 3):
         inertia_tensor(tensor)
-    off = inertia_matrix * (1 - np.eye(3))
-    principal, axes = np.linalg.eigh(inertia_matrix)
-    diagonal = (off == 0).all(axis=(-2, -1))[..., None]
-    axes = np.swapaxes(axes, -1, -2)
-    axes = axes * np.where(np.linalg.det(axes) < 0, -1.0, 1.0)[..., None, None]
-    principal = np.where(diagonal, np.diagonal(inertia_matrix, axis1=-2, axis2=-1), principal)
-    return Body(_joined(principal), np.where(diagonal[..., None], np.eye(3), axes), inertia_matrix)
+    found = [principal(tensor) for tensor in inertia_matrix.reshape(-1, 3, 3)]
+    I, axes = (np.reshape(x, inertia_matrix.shape[:-2] + np.shape(x[0])) for x in zip(*found, strict=True))
+    first, second, largest = np.moveaxis(np.sort(I), -1, 0)
+    # the rounding of a tensor's elements may put a plane body beyond all bodies
+    np.put_along_axis(I, I.argmax(axis=-1)[..., None], np.minimum(largest, first + second)[..., None], axis=-1)
+    return Body(I, axes, inertia_matrix)
 
 
 def _of_moments(moments: Any, axes: FloatArray) -> Body:
@@ -170,19 +166,6 @@ def _of_moments(moments: Any, axes: FloatArray) -> Body:
         inertia_tensor(row)
     tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
     return Body(rows, axes, tensor)
-
-
-def _joined(I: FloatArray) -> FloatArray:
-    """Return moments, those equal but for the rounding of a diagonalization made equal, those of plane bodies plane."""
-    I = I.copy()
-    for i, j in ((0, 1), (1, 2)):
-        close = abs(I[..., i] - I[..., j]) <= EQUAL * abs(I).max(axis=-1)
-        I[..., j] = np.where(close, I[..., i], I[..., j])
-    first, second, largest = np.moveaxis(np.sort(I), -1, 0)
-    plane = abs(largest - (first + second)) <= EQUAL * largest
-    most = np.where(plane, np.minimum(largest, first + second), largest)
-    np.put_along_axis(I, I.argmax(axis=-1)[..., None], most[..., None], axis=-1)
-    return I
 
 
 def _parts(v: FloatArray) -> tuple[Any, Any, Any]:

@@ -316,6 +316,8 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
     if motion is None:
         raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")
     torus = motion.torus
+    if torus.spin is not None:
+        raise NotCertifiedError("not certified: next to a spin along the field theta functions lose their digits.")
     try:
         theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
         kernel = ThetaKernel(theta, torus, motion.rate, size)

@@ -18,7 +18,7 @@ from flint import arb, arb_poly, ctx, fmpq
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.arithmetic.turns import AXES, identity, product, turn
 from atlas.exact.inputs import Real, rational, rationals
-from atlas.exact.motions.clebsch_flow import Arrival
+from atlas.exact.motions.clebsch_flow import Arrival, GrowthError
 from atlas.exact.motions.clebsch_periods import Integrals, nearest
 from atlas.exact.motions.elliptic import EllipticMotion, EulerTop, check_moments
 from atlas.exact.motions.general import Symmetric
@@ -36,8 +36,14 @@ DIRECT = 16
 FARTHEST = 128
 """Times up to so many are gone where there are no periods."""
 
+NEARLY = fmpq(1, 1 << 40)
+"""Difference of two moments, beside the largest, that may come from rounding."""
+
 KEPT = 256
 """States that are kept, for what else is asked at the same times."""
+
+MANY = 600
+"""Bits from which on growing errors get no more."""
 
 GUARD = 48
 """Bits by which a way is gone more precisely than the matrix is wanted: so many are lost on it as a rule."""
@@ -104,12 +110,12 @@ class OnTorus:
             return self.torus.flow.go(t, fmpq(0), bits), turn
         if not self.is_regular:
             return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
+        if abs(t) <= FARTHEST and self.torus.spin is not None and self.torus.pushed is None:
+            return self._directly(t, "the motion is next to an unstable spin"), turn
         try:
             first, second = self.torus.periods(ctx.prec + more)
         except NotCertifiedError as reason:
-            if abs(t) > FARTHEST:
-                raise
-            return self._directly(t, str(reason)), turn
+            return self._directly(t, str(reason).removeprefix("not certified: ").removesuffix(".")), turn
         with workprec(bits + more):
             area = first.H * second.F - first.F * second.H
             n, m = (nearest(x) for x in (t * second.F / area, -t * first.F / area))
@@ -119,14 +125,33 @@ class OnTorus:
             arrival = self._moved(arrival, H - left[0], F - left[1])
             return arrival, n * first.angle + m * second.angle + turn
 
+    @property
+    def _remedy(self) -> str:
+        """Sentence that names the symmetric body where two moments are nearly equal."""
+        least, middle, most = sorted(self.moments)
+        near = min(middle - least, most - middle) / most
+        if near > NEARLY:
+            return ""
+        return (
+            f" Two moments differ by {nearest_float(near):.1g} of the largest: a body for which they are equal is "
+            "atlas.SymmetricBody(I2, I3, axes), with any times."
+        )
+
     def _directly(self, t: fmpq, why: str) -> Arrival:
         """Go the whole way, if it is not too long."""
         if abs(t) > FARTHEST:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
-                f"{nearest_float(FARTHEST / self.rate):.6g}."
+                f"{nearest_float(FARTHEST / self.rate):.6g}.{self._remedy}"
             )
-        return self.torus.flow.go(t, fmpq(0), ctx.prec + 2 * GUARD)
+        bits = ctx.prec + 2 * GUARD
+        while True:
+            try:
+                return self.torus.flow.go(t, fmpq(0), bits)
+            except GrowthError:  # next to an unstable spin
+                if bits > MANY:
+                    raise
+                bits *= 2
 
     def _moved(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
         """Return a state after the flows of H and F/2 have gone for the tiny times H and F."""

@@ -10,14 +10,15 @@ fundamental matrix, which floats give well enough: with e = X w,
 
     w(n+1) = w(n) + X(n+1)^-1 [(J X(n) - X(n+1)) w(n) + what the step adds],
 
-J the derivative of the step's flow, known to some ten digits, so that w hardly grows at all. q, of length 1, takes up
+J the derivative of the step's flow, known to some ten digits, so that w hardly grows at all; each component of w has a
+bound of its own, and X begins anew with orthogonal columns where they become nearly dependent. q, of length 1, takes up
 half the errors of V, and its own.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from math import exp, isfinite, sqrt
+from math import exp, inf, isfinite, sqrt
 from operator import mul
 
 import numpy as np
@@ -46,6 +47,19 @@ ROUNDING = 1e-12
 PRECISE, LARGE = 4000, 400
 """Binary digits beyond which a step takes too long, and those from which flint's integers are faster than Python's."""
 
+PARTS = 1 << 20
+"""The whole way is cut into steps that are multiples of this part."""
+
+TERMS = 40
+"""Terms of the derivative of a step, in floats."""
+
+ROUNDING = 1e-12
+"""Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
+
+PRECISE, MANY, LARGE = 4000, 600, 400
+"""Binary digits beyond which a step takes too long, those from which on growing errors get no more, and those
+from which flint's integers are faster than Python's."""
+
 MOST = 4000
 """Steps of a way; a longer one is not gone."""
 
@@ -54,6 +68,9 @@ SMALL = 8
 
 STIFF = 8.0
 """Largest Lipschitz constant of the right-hand side times a step: TERMS give its derivative, and errors little room."""
+
+SKEW, FLAT = 1e8, 1e-4
+"""Largest condition number of a matrix of errors, and the shortest edge of a box of errors beside its longest."""
 
 BLOCK = 16
 """Coefficients of a block that are summed one by one."""
@@ -80,6 +97,10 @@ class Arrival:
     W: list[arb]
     K: list[arb]
     q: list[arb]
+
+
+class GrowthError(NotCertifiedError):
+    """Errors of Taylor's series grow beyond their bounds, which are wider for more bits."""
 
 
 class Flow:
@@ -128,7 +149,7 @@ class _Way:
         self.guess = max(1, min(PARTS, int(PARTS / max(rate, 1e-9))))
         self.order = max(12, int(ORDER * bits))
         self.X: Matrix = np.eye(6)
-        self.w = 6.0  # the start is rounded
+        self.w: Matrix = np.ones(6)  # the start is rounded
         self.q_error = 1.0
 
     def step(self) -> None:
@@ -180,21 +201,32 @@ class _Way:
         state, turn = self._defect(rows, h, W, K)
         spread = exp(lipschitz)
         J, eta = self._derivative(rows, h, spread)
-        before = float(np.linalg.norm(self.X)) * self.w
+        before = float(np.linalg.norm(abs(self.X) @ self.w))
         if not (isfinite(before) and before < 2.0 ** (self.bits / 4)):
-            raise NotCertifiedError("not certified: the errors of Taylor's series grow beyond their bounds.")
+            raise GrowthError("not certified: the errors of Taylor's series grow beyond their bounds.")
         added = (
             state * spread + len(rows[0]) * 6 + 1
         )  # the 1 is for terms of second order in errors below 2^(-3/4 bits)
+        if not np.linalg.cond(J @ self.X) < SKEW:
+            self._straighten()
         following: Matrix = J @ self.X
-        inverse = _inverse_norm(following)
-        self.w += inverse * float((eta + ROUNDING * np.linalg.norm(J)) * float(np.linalg.norm(self.X)) * self.w + added)
+        self.w = self.w + _inverse_rows(following) * ((eta + ROUNDING * np.linalg.norm(J)) * before + added)
         self.X = following
         self.q_error += turn + len(rows[0]) * 4 + size_V * (before + added) * spread
 
+    def _straighten(self) -> None:
+        """Enclose the box X w of the errors by one with orthogonal edges, the longest first (Lohner).
+
+        So X stays invertible in floats where errors grow in one direction and shrink in another.
+        """
+        longest_first = np.argsort(-np.linalg.norm(self.X, axis=0) * self.w)
+        Q, R = np.linalg.qr(self.X[:, longest_first])
+        edges = abs(R) @ self.w[longest_first]
+        self.X, self.w = Q, 1.01 * edges + ROUNDING * edges.max()
+
     def _sizes(self, rows: Series, h: fmpq) -> tuple[float, float, float, float]:
         """Return bounds on |W| and |K| in the step, on h max|V_i/W_i|, and on the Lipschitz constant times h."""
-        size = [float(sum(map(abs, row)) * fmpq(1, 1 << self.bits)) for row in rows[:6]]
+        size = [_float(sum(map(abs, row)), self.bits) for row in rows[:6]]
         W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
         most, first, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
         return W, K, most, 2 * first * W + 2 * second * K + most * (W + K)
@@ -219,21 +251,21 @@ class _Way:
     def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
         """Return the derivative of the step's flow of (W, K), and a bound on its error."""
         floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
-        jacobian = _jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
-        terms = min(TERMS, len(jacobian))
+        changes = jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
+        terms = min(TERMS, len(changes))
         X = np.zeros((terms, 6, 6))
         X[0] = np.eye(6)
         for n in range(terms - 1):
-            X[n + 1] = np.einsum("nij,njk->ik", jacobian[: n + 1], X[n::-1]) / (n + 1)
-        sizes_J, sizes_X = np.linalg.norm(jacobian, axis=(1, 2)), np.linalg.norm(X, axis=(1, 2))
+            X[n + 1] = np.einsum("nij,njk->ik", changes[: n + 1], X[n::-1]) / (n + 1)
+        sizes_J, sizes_X = np.linalg.norm(changes, axis=(1, 2)), np.linalg.norm(X, axis=(1, 2))
         product = np.convolve(sizes_J, sizes_X)
         defect = float(product[terms - 1 :].sum()) + 10 * ROUNDING * float(product.sum())
         return X.sum(axis=0), 1.01 * defect * spread + ROUNDING * float(sizes_X.sum())
 
     def arrival(self) -> Arrival:
         """Return the state as balls."""
-        error = float(np.linalg.norm(self.X)) * self.w * 1.01
-        errors = [error * self.proven] * 6 + [self.q_error * 1.01 * self.proven] * 4
+        error = abs(self.X) @ self.w * 1.01
+        errors = [*(error * self.proven).tolist()] + [self.q_error * 1.01 * self.proven] * 4
         balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
         return Arrival(balls[:3], balls[3:6], balls[6:])
 
@@ -272,7 +304,7 @@ def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
     yield from islice(block(0, size), count)
 
 
-def _jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:
+def jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:
     """Return the coefficients (terms, 6, 6) of the derivative of the right-hand side along a series (6, terms)."""
     W, K = state[:3], state[3:]
     J = np.zeros((state.shape[1], 6, 6))
@@ -284,16 +316,17 @@ def _jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix
     return J
 
 
-def _inverse_norm(X: Matrix) -> float:
-    """Return a bound on the norm of X^-1."""
+def _inverse_rows(X: Matrix) -> Matrix:
+    """Return bounds on the norms of the rows of X^-1."""
     try:
         Y = np.linalg.inv(X)
     except np.linalg.LinAlgError as error:
         raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.") from error
-    left = float(np.linalg.norm(np.eye(6) - X @ Y)) + ROUNDING * float(np.linalg.norm(X) * np.linalg.norm(Y))
+    left = float(np.linalg.norm(np.eye(6) - Y @ X)) + ROUNDING * float(np.linalg.norm(X) * np.linalg.norm(Y))
     if not left < 0.5:
         raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.")
-    return 1.01 * float(np.linalg.norm(Y)) / (1 - left)
+    rows = np.linalg.norm(Y, axis=1)
+    return np.asarray(1.01 * (rows + left / (1 - left) * rows.max() * 6))
 
 
 def _units(x: fmpq, bits: int) -> int:
@@ -313,7 +346,11 @@ def _scaled(row: list[int], factor: fmpq) -> list[int]:
 
 
 def _float(x: int, bits: int) -> float:
-    return x / (1 << bits) if bits < LARGE else float(fmpq(x, 1 << bits))
+    """Return a number of units of 2^-bits in doubles, infinity beyond all of them."""
+    try:
+        return x / (1 << bits) if bits < LARGE else float(fmpq(x, 1 << bits))
+    except OverflowError:
+        return inf
 
 
 def _size(polynomial: fmpz_poly, bits: int) -> float:

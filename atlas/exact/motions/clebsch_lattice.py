@@ -41,6 +41,9 @@ WHOLE = 1e-9
 MORE, FEWEST = 8, 4
 """Paths for each zero where fewer do not give all periods, and the fewest that may."""
 
+PARTS = 100
+"""Parts of all paths from which on no more paths are gone: it takes long, and relations stay unseen."""
+
 AREAS, SLIGHT = 160, 8
 """Bits of areas in the search for the polarization, and of an integer there: near symmetry its values are large."""
 
@@ -86,6 +89,8 @@ def lattice(motion: Integrals) -> Lattice:
         try:
             return _of_paths(curve, EACH)
         except NotCertifiedError:
+            if sum(len(list(curve.parts(*path))) for path in curve.paths(EACH)) > PARTS:
+                raise
             return _of_paths(curve, MORE)
 
 

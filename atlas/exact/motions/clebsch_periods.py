@@ -39,11 +39,14 @@ NODES, ROOM = 64, 1.1
 """Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
 is left out is 2^-200, exp(-2 NODES ROOM)."""
 
-LEAST = 1e-10
-"""That of the ellipse round a whole path from which on it is gone."""
+BESIDE = 1e-10
+"""Sine of the angle with a path, as seen from its nearer end, from which on a place is not on the path."""
 
 SHORTEST = fmpq(1, 2**100)
-"""Part of a path below which no place beside it is looked for."""
+"""Shortest part of a path, in units of half a turn."""
+
+SAME = 2.0**-200
+"""Distance, in units of a period, up to which the end of a path is a zero, found with other digits."""
 
 NEAR, FAR = 2, 4
 """Cells along each period of wp to which paths go, and those whose zeros are taken into account."""
@@ -125,7 +128,7 @@ def real_periods(motion: Integrals) -> list[Pair]:
 
 
 class Curve:
-    """The zeros of Psi on the torus of u, and integrals between them, not analytic at `others`.
+    """The zeros of Psi on the torus of u, and integrals between them.
 
     What is `proven` keeps the radii of its balls, which grow; else only their centres are taken on.
     """
@@ -143,8 +146,6 @@ class Curve:
         self.scale, self.foot = arb.pi() / self.real * third * fourth, motion.D / max(motion.moments)
         self.slope = -arb.pi() / self.real * second * second * self.scale * self.scale
         self.zeros = [self._place(z, v) for z, v in motion.zeros()]
-        around = self._periods(FAR)
-        self.others: Array = np.array([complex_of(zero + x + y) for zero in (*self.zeros, acb(0)) for x, y in around])
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
         """Return periods of wp, in two parts, up to so many cells along each."""
@@ -179,28 +180,43 @@ class Curve:
     def paths(self, each: int = EACH) -> list[tuple[acb, acb]]:
         """Return straight paths between zeros, so many for each of four, those farthest from others first."""
         found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
-        for i, j in product(range(len(self.zeros)), repeat=2):
-            for x, y in self._periods(NEAR):
-                start, stop = self.zeros[i], self.zeros[j] + x + y
-                a, b = complex_of(start), complex_of(stop)
-                if j < i or a == b:
+        starts = [(zero, self.distances(zero)) for zero in self.zeros]
+        for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(NEAR)):
+            stop = zero + x + y
+            from_stop = self.distances(stop)
+            for i, (start, from_start) in enumerate(starts[: j + 1]):
+                way = complex_of(stop - start)
+                if way == 0:
                     continue
-                rate = _rates(a, b, self._beside(a, b)).min()
-                if rate > LEAST:
-                    found.setdefault((i, j), []).append((rate, start, stop))
+                w = _elliptic(*_fractions(from_start, from_stop, way))
+                if (w.real > BESIDE * abs(w)).all():
+                    found.setdefault((i, j), []).append((w.real.min(), start, stop))
         rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
         chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
         return [(start, stop) for _, start, stop in chosen[: 4 * each]]
 
-    def _beside(self, a: complex, b: complex) -> Array:
-        """Return the other places but the ends of a path."""
-        return np.asarray(self.others[(self.others != a) & (self.others != b)])
+    def distances(self, end: acb) -> Array:
+        """Return the places of zeros and of the pole from the end of a path, (5, cells), each to a double's digits."""
+        sizes = float(self.real.mid()), float(self.imaginary.imag.mid())
+        cells = np.arange(-FAR, FAR + 1)
+        rows = []
+        for zero in (*self.zeros, acb(0)):
+            near = self.in_cell(zero - end)
+            shift = complex_of(zero - end - near)
+            m, n = (round(x / size) for x, size in zip((shift.real, shift.imag), sizes, strict=True))
+            least = 0j if abs(complex_of(near)) < SAME * min(sizes) else complex_of(near)
+            rows.append(least + np.add.outer((cells + m) * sizes[0], 1j * (cells + n) * sizes[1]).ravel())
+        return np.array(rows)
+
+    def _beside(self, start: acb, stop: acb) -> tuple[Array, Array]:
+        """Return the other places in units of a path, from its start, and from its stop backwards."""
+        return _fractions(self.distances(start), self.distances(stop), complex_of(stop - start))
 
     def parts(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
-        a, b = complex_of(start), complex_of(stop)
-        angles = 2 * np.arcsin(np.sqrt((self._beside(a, b) - a) / (b - a)))
-        return _parts(angles[_rates(0.0, np.pi, angles) < ROOM])
+        first, last = (np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._beside(start, stop))
+        near = _elliptic(first, last).real < ROOM
+        return _parts(first[near], last[near])
 
     def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield places s on a path, u = start + (stop - start)(1 - cos s)/2, and the weights of a rule in s.
@@ -209,9 +225,8 @@ class Curve:
         another zero, or the pole of z, is so near that this takes more places, it is Gauss's on shorter parts: as many
         as the distance has digits.
         """
-        a, b = complex_of(start), complex_of(stop)
         parts = list(self.parts(start, stop))
-        count = ceil(BITS * log(2) / (2 * _rates(a, b, self._beside(a, b)).min()))
+        count = ceil(BITS * log(2) / (2 * _elliptic(*self._beside(start, stop)).real.min()))
         if count <= NODES * len(parts):
             for k in range(count):
                 yield arb.pi() * fmpq(2 * k + 1, 2 * count), arb.pi() / count
@@ -256,19 +271,30 @@ def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
         return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
 
 
-def _parts(angles: Array) -> Iterator[tuple[arb, arb]]:
-    """Yield parts of (0, 1), in order, whose ellipses leave angles out, in units of half a turn.
+def _parts(first: Array, last: Array) -> Iterator[tuple[arb, arb]]:
+    """Yield parts of (0, 1), in order, whose ellipses leave places out, seen from 0, and from 1 backwards.
 
     NotCertifiedError where one is too near the path to be told from a place on it.
     """
-    left = [(fmpq(0), fmpq(1))]
+    if not first.size:
+        yield arb(0), arb(1)
+        return
+    for low, high in _halved(first):
+        yield arb(low), arb(high)
+    for low, high in reversed(list(_halved(last))):
+        yield arb(1 - high), arb(1 - low)
+
+
+def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
+    """Yield parts of (0, 1/2), in order, whose ellipses leave places out."""
+    left = [(fmpq(0), fmpq(1, 2))]
     while left:
         low, high = left.pop()
-        a, b = (np.pi * int(x.p) / int(x.q) for x in (low, high))
-        if a == b or high - low < SHORTEST:
+        if high - low < SHORTEST:
             raise NotCertifiedError("not certified: zeros of the motion's torus are too close to one another.")
-        if (_rates(a, b, angles) >= ROOM).all():
-            yield arb(low), arb(high)
+        a, b = (int(x.p) / int(x.q) for x in (low, high))
+        if (_elliptic((places - a) / (b - a), (b - places) / (b - a)).real >= ROOM).all():
+            yield low, high
         else:
             middle = (low + high) / 2
             left += [(middle, high), (low, middle)]
@@ -314,11 +340,15 @@ def value(polynomial: fmpq_poly, z: acb) -> acb:
     return acb_poly(polynomial)(z)
 
 
-def _rates(a: complex, b: complex, places: Array) -> NDArray[np.float64]:
-    """Return the logarithms of the ellipses with foci a and b through places, 0 on the path between them."""
-    w = (2 * places - a - b) / (b - a)
-    root = np.sqrt(w * w - 1)
-    return np.asarray(np.log(np.maximum(abs(w + root), abs(w - root))))
+def _fractions(from_start: Array, from_stop: Array, way: complex) -> tuple[Array, Array]:
+    """Return places but the ends of a path in units of it, from its start, and from its stop backwards."""
+    others = (from_start != 0) & (from_stop != 0)
+    return from_start[others] / way, -from_stop[others] / way
+
+
+def _elliptic(x: Array, y: Array) -> Array:
+    """Return elliptic coordinates of places x = 1 - y about the foci 0 and 1; the real part is 0 between them."""
+    return np.asarray(2 * np.arcsinh(np.sqrt(-np.where(abs(x) < abs(y), x, y))))
 
 
 def centre(x: acb) -> acb:

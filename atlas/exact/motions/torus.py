@@ -15,10 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
+import numpy as np
 from flint import arb, arb_mat, fmpq
 
 from atlas.errors import NotCertifiedError
-from atlas.exact.motions.clebsch_flow import Arrival, Flow
+from atlas.exact.motions.clebsch_flow import CYCLE, Arrival, Flow, jacobian
 from atlas.exact.motions.clebsch_lattice import Lattice, lattice
 from atlas.exact.motions.clebsch_periods import Integrals, nearest, real_periods
 from atlas.formulas.numbers import Vector, cross, dot, workprec
@@ -32,6 +33,15 @@ GUARD = 40
 
 ROUGH = 1e-20
 """Largest error, in units of time, of a period that is improved."""
+
+NEXT = fmpq(1, 2**40)
+"""Components across a principal axis, beside those along it, up to which a motion is next to a spin."""
+
+STABLE, APART = 1e-6, 1e-6
+"""Largest growth of a small push beside its frequencies, and the least determinant of two pairs of these."""
+
+ROUNDS = 4
+"""Rounds of Newton's method from the periods of small pushes."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +66,7 @@ class Torus:
         self.flow = Flow(moments, W, K)
         self._starts: list[tuple[fmpq, fmpq]] | None = None
         self._known: dict[int, tuple[Period, Period]] = {}
-        self._lost = 0, ""
+        self._lost, self._no_lattice = (0, ""), ""
 
     @property
     def integrals(self) -> Integrals:
@@ -89,7 +99,48 @@ class Torus:
             self._known[bits] = first, second
         return self._known[bits]
 
+    @cached_property
+    def spin(self) -> int | None:
+        """Axis about which the body spins along the field, but for pushes as small as rounding; None elsewhere."""
+        sizes = [max(abs(w), abs(k)) for w, k in zip(self.W, self.K, strict=True)]
+        axis = sizes.index(max(sizes))
+        return axis if all(x <= NEXT * sizes[axis] for i, x in enumerate(sizes) if i != axis) else None
+
+    @cached_property
+    def pushed(self) -> list[tuple[float, float]] | None:
+        """Times (T_H, T_F) of the two small oscillations next to a stable spin; None elsewhere."""
+        if self.spin is None:
+            return None
+        state = np.array([[float(x) if i % 3 == self.spin else 0.0] for i, x in enumerate((*self.W, *self.K))])
+        across = [*CYCLE[self.spin], *(3 + i for i in CYCLE[self.spin])]
+        H, F = (
+            jacobian(state, *(np.array([float(x) for x in row]) for row in self.flow.rates(*way)))[0]
+            for way in ((fmpq(1), fmpq(0)), (fmpq(0), fmpq(1)))
+        )
+        H, F = (x[np.ix_(across, across)] for x in (H, F))
+        size = np.linalg.norm(H), np.linalg.norm(F)
+        values, vectors = np.linalg.eig(H / size[0] + F / (2 * size[1]))
+        waves = vectors[:, values.imag > 0].T
+        if abs(values.real).max() > STABLE * abs(values).max() or len(waves) != 2:
+            return None
+        rates = np.array([[(w.conj() @ x @ w).imag / (w.conj() @ w).real for x in (H, F)] for w in waves])
+        if abs(np.linalg.det(rates / size)) < APART:
+            return None
+        first, second = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
+        return [tuple(first), tuple(second)]
+
     def _approximate(self) -> list[tuple[fmpq, fmpq]]:
+        if self._starts is None and self.pushed is not None:
+            starts = []
+            for T_H, T_F in self.pushed:
+                r, step = (arb(T_H).fmpq(), arb(T_F).fmpq()), np.inf
+                for _ in range(ROUNDS):
+                    r, step = self._improved(r, FIRST)
+                if not step < ROUGH:
+                    break
+                starts.append(r)
+            else:
+                self._starts = starts
         if self._starts is None:
             try:
                 rows = [(x.real, y.real) for x, y, _ in self.lattice.real]
@@ -102,21 +153,31 @@ class Torus:
 
     @cached_property
     def lattice(self) -> Lattice:
-        """All periods, approximate; NotCertifiedError where they are not found."""
-        return lattice(self.integrals)
+        """All periods, approximate; NotCertifiedError where they are not found, which is tried once."""
+        if self._no_lattice:
+            raise NotCertifiedError(self._no_lattice)
+        try:
+            return lattice(self.integrals)
+        except NotCertifiedError as why:
+            self._no_lattice = str(why)
+            raise
 
     def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
         """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""
-        chosen, r, precision = self._coordinates(), start, bits if bits <= GOOD else FIRST
+        r, precision = start, bits if bits <= GOOD else FIRST
         while precision < bits:
-            with workprec(precision + GUARD):
-                step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, chosen)
-                size = max(float(abs(x).mid()) for x in step)
-                if not size < ROUGH:
-                    raise NotCertifiedError("not certified: Newton's method does not find a period of the torus.")
-                r = r[0] + step[0].mid().fmpq(), r[1] + step[1].mid().fmpq()
+            r, size = self._improved(r, precision)
+            if not size < ROUGH:
+                raise NotCertifiedError("not certified: Newton's method does not find a period of the torus.")
             precision = 2 * precision - GUARD
-        return self._proven(r, bits, chosen)
+        return self._proven(r, bits, self._coordinates())
+
+    def _improved(self, r: tuple[fmpq, fmpq], precision: int) -> tuple[tuple[fmpq, fmpq], float]:
+        """Return a period after a step of Newton's method, and the size of the step."""
+        with workprec(precision + GUARD):
+            step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, self._coordinates())
+            H, F = (x.mid() for x in step)
+            return (r[0] + H.fmpq(), r[1] + F.fmpq()), max(float(abs(H)), float(abs(F)))
 
     def _coordinates(self) -> tuple[int, int]:
         """Return the two components of the state by which its place on the torus is told best."""

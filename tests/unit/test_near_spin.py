@@ -1,0 +1,85 @@
+"""Motions next to a spin along the field, and bodies whose moments are nearly equal."""
+
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from flint import fmpq
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.core.bodies.inertia import principal
+from atlas.core.motions.chosen import body_of
+from atlas.errors import NotCertifiedError
+from atlas.exact.motions.clebsch_flow import Flow
+from tests.oracles.taylor import taylor
+
+TURN = Rotation.from_rotvec((0.4, -1.1, 0.7)).as_matrix()
+
+
+def tensor(moments: Sequence[float], axes: Any = TURN) -> Any:
+    """Return an inertia tensor in turned axes, which are the columns of a rotation, symmetric to the last bit."""
+    J = axes @ np.diag(moments) @ axes.T
+    return np.triu(J) + np.triu(J, 1).T
+
+
+@pytest.mark.parametrize(("axis", "spin", "field"), [(0, 1.7, 0.9), (2, -3.5, 1.2), (2, 1.3, 0.6)])
+def test_a_spin_along_the_field_in_turned_axes_is_a_uniform_rotation(axis: int, spin: float, field: float) -> None:
+    """Stable spins stay within rounding of exp(spin t) at short and long times."""
+    e = TURN[:, axis]
+    m = atlas.motion(tensor((0.57, 1.01, 1.54)), field * e, spin * e)
+    for t in (30.0, -1e4):
+        angle = np.remainder(float(mpmath.fmod(mpmath.mpf(spin) * t, 2 * mpmath.pi)), 2 * np.pi)
+        uniform = Rotation.from_rotvec(angle * e).as_matrix()
+        assert abs(m.rotation(t) - uniform).max() < 1e-15 * (20 + abs(t))
+
+
+def test_a_spin_next_to_an_unstable_axis_is_what_was_typed() -> None:
+    """Rounding of the middle axis grows as the body flees: the motion is that of the given doubles."""
+    e = TURN[:, 1]
+    J, B, w = tensor((0.57, 1.01, 1.54)), 0.4 * e, 1.7 * e
+    R = atlas.motion(J, B, w).rotation(9.0)
+    assert (
+        abs(R - np.array(taylor(J.tolist(), B.tolist(), w.tolist(), [9.0])[0].R.tolist(), float).reshape(3, 3)).max()
+        < 3e-11
+    )
+
+
+def test_a_flow_for_a_time_beyond_all_bounds_is_refused_in_a_sentence() -> None:
+    """A false period of a nearly symmetric body is no overflow of a float."""
+    moments = [fmpq(*x.as_integer_ratio()) for x in (1.0399999999999998, 1.1, 1.04)]
+    flow = Flow(moments, [fmpq(26, 100), fmpq(0), fmpq(-27, 100)], [fmpq(-104, 100), fmpq(-12, 10), fmpq(-117, 100)])
+    with pytest.raises(NotCertifiedError, match="not certified"):
+        flow.go(fmpq(-11731690416), fmpq(-12295397744), 160)
+
+
+@pytest.mark.parametrize("moments", [(1.5e-9, 1.0, 1.0), (0.0015, 1.0, 1.001), (1e-5, 1.0, 1.0000001), (0.3, 0.9, 1.1)])
+def test_principal_moments_of_a_tensor_have_all_digits(moments: tuple[float, float, float]) -> None:
+    """The smallest too: against eigenvalues of the given doubles with 60 digits, by an iteration of mpmath."""
+    J = tensor(moments)
+    with mpmath.workdps(60):
+        exact = sorted(mpmath.eigsy(mpmath.matrix(J.tolist()), eigvals_only=True))
+        I, axes = principal(J)
+        assert all(abs(mpmath.mpf(x) / y - 1) < mpmath.mpf(2) ** -52 for x, y in zip(I.tolist(), exact, strict=True))
+    assert abs(axes @ axes.T - np.eye(3)).max() < 4e-16
+    assert np.linalg.det(axes) > 0
+    assert abs(axes @ J - I[:, None] * axes).max() < 1e-15
+
+
+def test_moments_that_differ_as_given_stay_different() -> None:
+    """By one digit of the last place, as moments and as a tensor, along the axes and beside them."""
+    near = 1.0 + 2.0**-52
+    for J in ((1.0, near, 1.3), np.diag((1.0, near, 1.3)), np.array([[near, 0, 0], [0, 1.2, 0.2], [0, 0.2, 1.2]])):
+        assert len(set(body_of(J).moments.tolist())) == 3
+
+
+def test_moments_that_are_equal_as_given_are_one() -> None:
+    """An ellipsoid with its axis along (1, 1, 1), whose elements are whole numbers, is symmetric."""
+    for size, sign in product((1, 3), (1, -1)):
+        J = size * (np.eye(3) * (3 if sign > 0 else 4) + sign * np.ones((3, 3)))
+        I = body_of(J).moments
+        assert len(set(I.tolist())) == 2
+        assert atlas.motion(J, (0.3, 0.1, 1), (0.2, 1.0, 0.4)).family == "general"
