@@ -1,6 +1,7 @@
 """The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from math import hypot, pi
 from typing import Any, TypeVar
 
@@ -310,8 +311,10 @@ def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float, flo
     return options["charge"], mass
 
 
-def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
+def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
     """Return (B2, B3) or (B1, B2, B3) of B' in 1/time, from --field, or from --magnetic and the charge-to-mass ratio.
+
+    A product that is no float is a Fraction, and so not rounded.
 
     Raises click.UsageError when neither or both are given, or what belongs to the one stands beside the other.
     """
@@ -325,9 +328,10 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
         return tuple(options["field"])
     from atlas.core.bodies.field import Field
 
-    typed = options["magnetic"]
-    prime = Field((0.0,) * (3 - len(typed)) + typed, mu=charge_to_mass_of(options), c=speed_of_light(options)).prime
-    return tuple(float(x) for x in prime[3 - len(typed) :])
+    typed, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
+    charge_to_mass_of(options)  # says what is wrong with it
+    mu = Fraction(float(charge)) / Fraction(float(mass))
+    return Field((0.0,) * (3 - len(typed)) + typed, mu=mu, c=speed_of_light(options)).exact[3 - len(typed) :]
 
 
 def exact_field(options: dict[str, Any]) -> Any:

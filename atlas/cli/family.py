@@ -1,6 +1,7 @@
 """``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at given times."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import replace
 from functools import cache, partial
@@ -41,7 +42,7 @@ from atlas.cli.present import (
 )
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.cli.uncertain import mapped, spread, uncertain
-from atlas.errors import DomainError, NotCertifiedError
+from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
 from atlas.families.family import RATE, TIME
@@ -71,6 +72,12 @@ OF_BODY: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "field": (body.chosen_field, body.exact_field),
 }
 """What kernels and balls take of body and field, from options of their own."""
+
+SENSITIVE = ("general", "elementary", "free", "ball", "top")
+"""Families whose derivatives in the inputs take milliseconds."""
+
+ROUNDING = 1e-12
+"""Turn in radians by rounding of the inputs above which the command line says so."""
 
 OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
 THIRD = dict.fromkeys(("free", "elementary", "general"), ", the last that of symmetry")
@@ -206,6 +213,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
             return
         first, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
         texts = answer(options, parameters, floats, partial(balls, first, family), spare)
+        _warn_of_rounding(family, lambda: _kernel(family, options), options, times)
         if texts is not None:
             texts["samples"] = chain(
                 texts.get("samples", []), _later(balls, family, times[len(first) :], options, spare)
@@ -355,6 +363,9 @@ def in_principal_axes(motion: Any, unit: str = "") -> Principal:
     if motion.family == "free":
         I2, I3 = moments(arguments["ratio"])
         arguments = {"inertia": (I2, I2, I3), "field": (0.0, 0.0, 0.0), "omega": arguments["omega"]}
+    axes = motion.axes
+    if motion.family == "general":
+        arguments, axes = _in_plane(arguments, axes)
     words, values = list[str](), dict[str, tuple[float, ...]]()
     for p in family.parameters:
         value: Any = arguments.get(p.name)
@@ -365,8 +376,21 @@ def in_principal_axes(motion: Any, unit: str = "") -> Principal:
             words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts_of(value))]
         if value is not None:
             values[p.name] = tuple(map(float, parts_of(value)))
-    axes = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in motion.axes)
-    return Principal(family, words, values, axes)
+    rows = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)
+    return Principal(family, words, values, rows)
+
+
+def _in_plane(arguments: dict[str, Any], axes: Any) -> tuple[dict[str, Any], Any]:
+    """Return the arguments of a general motion in axes in which the field is (0, B2, B3), rounded, and these axes."""
+    import numpy as np
+
+    *_, K2, K3 = K = [0.0, *map(float, arguments["field"])][-3:]
+    if not K[0]:
+        return arguments | {"field": (K2, K3)}, axes
+    size = hypot(K[0], K2)
+    turn = np.array([[K2 / size, -K[0] / size, 0.0], [K[0] / size, K2 / size, 0.0], [0.0, 0.0, 1.0]])
+    omega = turn @ [float(x) for x in arguments["omega"]]
+    return arguments | {"field": (size, K3), "omega": tuple(omega)}, turn @ axes
 
 
 def _in_doubles(
@@ -384,6 +408,7 @@ def _in_doubles(
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     record = {"family": family.name} | _answers(family, motion, times, sampled)
+    _warn_of_rounding(family, lambda: motion, options, times)
     record |= _recorded(_spectrum(motion, options))
     if options["as_json"]:
         known = body_of(motion.arguments["inertia"])
@@ -401,6 +426,20 @@ def _in_doubles(
         _show_lines(family, options, motion)
 
 
+def _warn_of_rounding(
+    family: Family, motion: Callable[[], Any], options: dict[str, Any], times: Sequence[float]
+) -> None:
+    """Say on the error stream at which time rounding of the inputs to floats matters, where this is known at once."""
+    if not times or options["digits"] is not None or options["decimal"] or family.name not in SENSITIVE:
+        return
+    farthest = max(map(float, times), key=abs)
+    with suppress(AtlasError):  # where there are no derivatives there is no bound
+        error = float(motion().input_error(farthest))
+        if error > ROUNDING:
+            click.echo(f"atlas: rounding the inputs to floats turns the body by up to {error:.1g} rad at "
+                       f"t = {farthest:g}; --digits 15 --decimal takes them as typed", err=True)  # fmt: skip
+
+
 def _kernel(family: Family, options: dict[str, Any]) -> Any:
     """Return the object of kernels that the options say."""
     return family.kernels()(*values_of(family, options, exact=False))
@@ -412,8 +451,8 @@ def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Seque
     In given axes m is that of the body, not over I2 as in tables.
     """
     columns = {s.name: along(s.method_of(motion), times) for s in sampled}
-    own = getattr(motion, "own", None)
-    I2 = getattr(own.arguments.get("ratio"), "I2", 1.0) if own else 1.0
+    placed = getattr(motion, "is_placed", False)
+    I2 = getattr(motion.own.arguments.get("ratio"), "I2", 1.0) if placed else 1.0
     columns |= {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}
     return _quantities(family, motion, times, columns, exact=False)
 
@@ -512,7 +551,7 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
     if family.name == "top":
         if given_otherwise(options):
             top = chosen_top(options)
-            yield from (getattr(top, p.name) for p in family.parameters)
+            yield from (top.arguments[p.name] for p in family.parameters)
             return
         needs_no_way(options)
     for p in family.parameters:

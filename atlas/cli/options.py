@@ -279,8 +279,18 @@ def _inclined(args: list[str], ctx: click.Context) -> tuple[list[str], str, Incl
     angle, size = (REAL.convert(word, click.Option([name]), ctx) for name, word in sides)
     whole = UNCERTAIN.fullmatch(following[0])
     number, unit = split(text := whole["size"] + whole["rest"] if whole else following[0]) or (text, "")
-    parts = [f"{float(Typed(number)) * x:.15g}{unit}" for x in (math.sin(angle), math.cos(angle))]
+    parts = [f"{x!r}{unit}" for x in _components(float(Typed(number)), float(angle))]
     return [*args[:strength], *parts, *args[strength + 1 :]], option, Inclined((size, angle))
+
+
+def _components(size: float, angle: float) -> list[float]:
+    """Return the components of a field across and along the axis, each rounded once."""
+    from flint import arb
+
+    from atlas.formulas.numbers import rounded
+
+    across, along = rounded(lambda: [arb(size) * x for x in arb(angle).sin_cos()])
+    return [across, along]
 
 
 def _meant(error: click.UsageError, has_parameters: bool) -> str:

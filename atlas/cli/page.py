@@ -91,11 +91,6 @@ def of_fit(file: Path, **options: Any) -> int:
 
 def motion_of(made: Any) -> Any:
     """Return what a page of a motion is asked for, in the axes of its class."""
-    from atlas.core.motions.chosen import motion
-
-    if not hasattr(made, "own"):
-        arguments = made.arguments
-        made = motion(arguments["ratio"], arguments["field"], made.angular_velocity(0.0), arguments["attitude"])
     own = in_principal_axes(made)
     with COMMANDS[in_group(own.family.name)].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)

@@ -211,7 +211,7 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
             found["ratio"] = float(getattr(chosen, "ratio", chosen))
     weighed = ("mass", "density") if options["shape"] is None else ()
     if given(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
-        found |= zip(("B1", "B2", "B3")[not three :], body.chosen_field(options), strict=True)
+        found |= zip(("B1", "B2", "B3")[not three :], map(float, body.chosen_field(options)), strict=True)
     start = body.start_of(options, needed=False)
     if start is not None:
         found |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)

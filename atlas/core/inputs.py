@@ -2,13 +2,16 @@
 
 import reprlib
 from collections.abc import Sequence
+from fractions import Fraction
 from math import isfinite
 from numbers import Number
 from typing import Any, TypeVar
 
 import numpy as np
+from flint import fmpq
 from numpy.typing import NDArray
 
+from atlas.core.given import Given, exact_number
 from atlas.core.quantities import bare
 from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
@@ -39,8 +42,8 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
     try:
         raw = np.asarray(value)
         # NumPy would read text as numbers, None as NaN and True as 1.
-        numbers = raw.dtype.kind in "iuf" or (raw.dtype.kind == "O" and all(isinstance(x, Number) for x in raw.flat))
-        array = raw.astype(np.float64) if numbers else None
+        is_numeric = raw.dtype.kind in "iuf" or (raw.dtype.kind == "O" and all(isinstance(x, Number) for x in raw.flat))
+        array = raw.astype(np.float64) if is_numeric else None
     except (TypeError, ValueError, OverflowError) as error:
         raise _not_real(value, name) from error
     if array is None:
@@ -112,10 +115,11 @@ def matrix(value: Any, name: str) -> FloatArray:
 def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
     """Return the components of a vector in that unit, each a finite number or array, by name for the errors.
 
-    A `Field` gives B2 and B3, and refuses where B1 is not zero. A square array, or a list of lists, may hold them in
-    its rows or in its columns: AtlasError.
+    A `Field` gives B2 and B3, as exact as they are, and refuses where B1 is not zero; so do Fractions. A square
+    array, or a list of lists, may hold them in its rows or in its columns: AtlasError.
     """
-    value = getattr(value, "pair", value) if tuple(names) == ("B2", "B3") else value
+    if hasattr(type(value), "exact_pair") and names[-1] == "B3":
+        value = value.exact if len(names) == len("123") else value.exact_pair
     try:
         parts = [] if isinstance(value, NO_VECTORS) else list(getattr(value, "values", value))  # of a data frame
     except TypeError:
@@ -131,7 +135,14 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
             f"{what} may have its components ({', '.join(names)}) in the rows or in the columns of a square array: "
             "give a tuple of them, such as tuple(rows.T)."
         )
-    return [real(x, name, unit) for x, name in zip(parts, names, strict=True)]
+    return [numbers(x, name, unit) for x, name in zip(parts, names, strict=True)]
+
+
+def numbers(value: Any, name: str, unit: str = "") -> Any:
+    """Return `value` as `real` does, but numbers that no double holds, such as a Fraction, as exact `Given` ones."""
+    if isinstance(value, Fraction | fmpq):
+        value = exact_number(value)
+    return value if isinstance(value, Given) else real(value, name, unit)
 
 
 def _listed(parts: Sequence[Any]) -> bool:
@@ -173,8 +184,13 @@ class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
 
 
 def plain(array: Any) -> Any:
-    """Return a Python float for an array without dimensions, any other array as it is."""
-    return array if np.ndim(array) else float(array)
+    """Return a Python float for an array without dimensions, any other array as it is; exact numbers are rounded."""
+    return float(array) if not np.ndim(array) else array.hi if isinstance(array, Given) else array
+
+
+def as_given(array: Any) -> Any:
+    """Return what an object keeps of an input: exact numbers as they are, all others as `plain` gives them."""
+    return array if isinstance(array, Given) else plain(array)
 
 
 def turn_time(rate: Any) -> Any:

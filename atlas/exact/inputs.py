@@ -25,6 +25,8 @@ def rational(value: Any, name: str) -> fmpq:
     if isinstance(value, bool):
         raise AtlasError(f"{name} must be a real number, not {value}.")
     try:
+        if hasattr(value, "as_integer_ratio"):
+            return fmpq(*value.as_integer_ratio())
         if hasattr(value, "__index__"):
             value = operator.index(value)
         fraction = Fraction(value if isinstance(value, str | Fraction | int) else float(value))

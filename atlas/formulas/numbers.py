@@ -73,9 +73,17 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
         return known[1]
 
 
-def rational(x: float) -> fmpq:
-    """Return a float as the number that it is."""
-    return fmpq(*x.as_integer_ratio())
+def rational(x: float | fmpq) -> fmpq:
+    """Return a float as the number that it is; a rational number stays."""
+    return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
+
+
+def as_rational(x: fmpq | arb) -> fmpq:
+    """Return a rational number, or the middle of a ball."""
+    if isinstance(x, fmpq):
+        return x
+    m, e = (int(n) for n in x.mid().man_exp())
+    return fmpq(m << e) if e >= 0 else fmpq(m, 1 << -e)
 
 
 def root(x: Number) -> Number:
@@ -112,6 +120,15 @@ def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ..
 def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
     """Vector product [a, b]."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
+    """Return a vector turned by the quaternion (x, y, z, w), which need not be of length 1."""
+    axis, w = q[:3], q[3]
+    across, along = w * w, dot(axis, axis)
+    size, less, twice = across + along, across - along, dot(axis, v)
+    moved = zip(v, axis, cross(axis, v), strict=True)
+    return tuple((less * x + (twice + twice) * n + (w + w) * y) / size for x, n, y in moved)
 
 
 def length(*components: Number) -> Number:

@@ -73,10 +73,7 @@ class Errors:
         differences = {
             name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"
         }
-        floor = self._truth.floor + self._truth.growth * np.abs(t)
-        if self._truth.growth:
-            self.floor = self.uncertainty = max(self.floor, float(floor.max()))
-        differences = {name: np.maximum(errors, floor) for name, errors in differences.items()}
+        differences = {name: np.maximum(errors, self._truth.floor) for name, errors in differences.items()}
         least = np.min(list(differences.values()), axis=0)
         for i in np.flatnonzero(~near | (least < self._truth.near)):
             for name, error in self.certified(block, int(i)).items():
@@ -92,7 +89,7 @@ class Errors:
 
         Of a motion in given axes, which has no balls, they are the errors in doubles.
         """
-        if self._truth.growth:
+        if not self._truth.in_balls:
             return {
                 name: float(x[0])
                 for name, x in self.of_block({name: x[i : i + 1] for name, x in block.items()}).items()

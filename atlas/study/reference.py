@@ -13,7 +13,6 @@ from atlas.core.bodies.body import SymmetricBody, moments
 from atlas.core.bodies.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.chosen import motion
-from atlas.core.motions.turned import Turned
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.inputs import Real
@@ -80,7 +79,7 @@ def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str)
     return Reference(case, _shown(parameters | start), partial(of_motion, motion), motion, unit)
 
 
-def _in_given_axes(motion: Turned) -> Reference:
+def _in_given_axes(motion: Any) -> Reference:
     """Return a motion of `atlas.motion`: with what it was given, and its integrals in these axes."""
     tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)

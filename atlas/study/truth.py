@@ -18,7 +18,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.core.motions.certified import REACH
 from atlas.core.motions.clebsch_theta import ThetaKernel
-from atlas.core.motions.turned import Turned
+from atlas.core.motions.motion import Motion as Placed
 from atlas.core.nutation.single import SingleGeneral, SingleTop
 from atlas.exact.digits import enclosed
 from atlas.exact.inputs import Real
@@ -29,7 +29,7 @@ from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import workprec
 
 Long = NDArray[np.longdouble]
-Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMotion | Turned
+Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMotion | Placed[Any]
 
 UNCERTAINTY = 2e-18
 """Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
@@ -51,7 +51,8 @@ class Truth:
     """R, Omega and the quaternion of an elementary motion at times (m,)."""
 
     uncertainty = UNCERTAINTY
-    near = floor = growth = 0.0
+    near = floor = 0.0
+    in_balls = True
 
     def __init__(self, motion: ElementaryMotion) -> None:
         values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
@@ -89,7 +90,8 @@ class Truth:
 class KernelTruth:
     """R, Omega and the quaternion of other motions, by the kernels: to a few units in the last place of a double.
 
-    They are good to `uncertainty`, and `growth` for each unit of time. Errors below `near` are to be found by balls;
+    They are good to `uncertainty`; `in_balls` says whether there is a certified counterpart.
+    Errors below `near` are to be found by balls;
     those below `floor` are not told from it.
     """
 
@@ -98,7 +100,7 @@ class KernelTruth:
     uncertainty: float = KERNELS
     near: float = PART * KERNELS
     floor: float = 0.0
-    growth: float = 0.0
+    in_balls: bool = True
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
         """Tell at which times there is a value, shape (m,)."""
@@ -115,9 +117,9 @@ class KernelTruth:
 
 def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
     """Return what a motion is at arrays of times, Omega in this unit."""
-    if isinstance(motion, Turned):  # in doubles: the components along the axes of its class are rounded
+    if isinstance(motion, Placed):  # the matrices that turn it into the given axes are rounded
         bound = 4 * KERNELS
-        return KernelTruth(motion, np.inf, bound, 0.0, bound, 4 * float(arb(unit)) * float(np.finfo(float).eps))
+        return KernelTruth(motion, np.inf, bound, 0.0, bound, in_balls=False)
     if isinstance(motion, ElementaryMotion):
         return Truth(motion)
     if isinstance(motion, AsymmetricMotion):
@@ -126,7 +128,7 @@ def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
             return KernelTruth(of_three, -1.0)  # balls decide each row
         bound = of_three.closed.accuracy + (of_three.closed.proved or 0.0)
         return KernelTruth(of_three, PHASE * REACH / float(arb(unit)), bound, 0.0, bound)
-    single = SingleTop(motion, np.eye(3)) if isinstance(motion, TopMotion) else SingleGeneral(motion, np.eye(3))
+    single = SingleTop(motion) if isinstance(motion, TopMotion) else SingleGeneral(motion)
     return KernelTruth(single, PHASE * single.parts.phases.reach)
 
 

@@ -26,7 +26,7 @@ EPS = 2.0**-52
 
 def top(*parts: Any) -> SingleTop:
     """Return a top made alone."""
-    return SingleTop(balls(*np.hstack(parts).tolist()), np.eye(3))
+    return SingleTop(balls(*np.hstack(parts).tolist()))
 
 
 def drawn(regime: str, count: int) -> Iterator[SingleMotion]:
@@ -38,7 +38,7 @@ def drawn(regime: str, count: int) -> Iterator[SingleMotion]:
                 yield top(*TOPS[regime](random))
             else:
                 I, B, omega = GENERAL[regime](random)
-                yield standing(1.0, I, *B, *omega)
+                yield standing(1.0, I, 0.0, *B, *omega)
         except DomainError:
             continue
 

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -95,10 +96,15 @@ def test_all_ways_to_give_a_body_say_the_same() -> None:
 
 def test_the_class_that_fits_is_found() -> None:
     """By the start, too: the paper's family, a free body; and it is an instance of its class."""
-    omega3 = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).omega3
+    quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    fraction = Fraction(7, 10), Fraction(56, 85)
     for given, made, family, kind in (
-        ((1.5, (0, 1, 2), (0, 0.7, omega3)), atlas.ElementaryMotion, "elementary", "precession"),
-        ((1.5, turn(3) @ (0, 1, 2), (0, 0.7, omega3), turn(3)), atlas.ElementaryMotion, "elementary", "precession"),
+        ((0.5, (0, 1, 1), (0, 1, 2.5)), atlas.ElementaryMotion, "elementary", "precession"),
+        ((1.5, (0, 1, 2), (0, *fraction)), atlas.ElementaryMotion, "elementary", "precession"),
+        ((0.5, (-1, 0, 1), (0, 1, 2.5), quarter), atlas.ElementaryMotion, "elementary", "precession"),
+        ((0.5, (3, 4, 5), (3, 4, 12.5)), atlas.ElementaryMotion, "elementary", "precession"),
+        ((0.5, turn(3) @ (0, 1, 1), (0, 0, 0), turn(3)), atlas.ElementaryMotion, "elementary", "at rest"),
+        ((0.5, (0, 1, 1), (0, 1, np.nextafter(2.5, 3))), atlas.GeneralMotion, "general", "nutation, two real roots"),
         ((1.5, (0, 0, 2), (0, 0, 1)), atlas.ElementaryMotion, "elementary", "spin along the field"),
         ((1.5, (0, 1, 2), (0, 0.7, 0.1)), atlas.GeneralMotion, "general", "nutation, four real roots"),
         ((1.5, (0, 0, 0), (0.1, 0.7, 0.1)), atlas.FreeMotion, "free", "free body"),
@@ -108,7 +114,7 @@ def test_the_class_that_fits_is_found() -> None:
         m = atlas.motion(*given)  # type: ignore[arg-type]
         assert isinstance(m, made)
         assert (m.family, m.kind) == (family, kind)
-        assert np.abs(m.angular_velocity(0.0) - given[2]).max() <= 16 * EPS
+        assert np.array_equal(m.angular_velocity(0.0), np.asarray(given[2], dtype=float))
 
 
 def test_a_disk_is_a_body_in_any_axes() -> None:

@@ -310,7 +310,8 @@ def test_rates_among_all_motions_of_a_body_are_those_of_its_class() -> None:
     for of in ("precession_rate", "spin_rate"):
         steps = [(getattr(made(start + e), of) - getattr(made(start - e), of)) / (2 * h) for e in h * np.eye(6)]
         np.testing.assert_allclose(made(start).sensitivity(0.0, names, of), steps, atol=1e-9)
-    elementary = atlas.motion(1.5, (0, 1, 2), (0, 0.7, atlas.ElementaryMotion(1.5, (1, 2), 0.7).omega3))
+    elementary = atlas.motion(0.5, (0, 1, 1), (0, 1, 2.5))
+    assert elementary.family == "elementary"
     rate, period = (elementary.sensitivity(0.0, names, of) for of in ("precession_rate", "period"))
     np.testing.assert_allclose(period, -rate * elementary.period / elementary.precession_rate, rtol=1e-12, atol=1e-20)
 

@@ -10,12 +10,14 @@ product, 15 u^2 for a quotient and 25/8 u^2 for a square root; the bounds below 
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from atlas.core.arithmetic.machine import keep
+from atlas.core.given import Given, Index, element, exact_number
 from atlas.core.inputs import FloatArray, common_shape
 from atlas.formulas import numbers
 
@@ -25,6 +27,9 @@ SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
 
 ORDINARY = 2.0**100
 """Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
+
+KNOWN = 2.0**-90
+"""Relative error of two words above which a number is made again, exactly."""
 
 BLOCK = 8192
 """Rows evaluated at once: few enough to stay in the cache and in memory that is kept, and so many that a call costs
@@ -205,7 +210,7 @@ def over(
     """
     alone = alone or partial(numbers.alone, formula)
     if not any(np.ndim(x) for x in inputs):
-        return alone(*(float(x) for x in inputs))
+        return alone(*(element(x, ()) for x in inputs))
     shape = common_shape(*(np.shape(x) for x in inputs))
     degrees = (degree,) if isinstance(degree, int) else degree
     out = np.empty((len(degrees), int(np.prod(shape))))
@@ -235,27 +240,88 @@ def blocks(
     third, with the rows that are ordinary numbers after that. No row depends on those beside it.
     """
     size = int(np.prod(shape))
-    columns = [np.float64(x) if np.ndim(x) == 0 else _flat(np.asarray(x), shape) for x in inputs]
+    columns = [column(x, shape) for x in inputs]
     keep()
     for start in range(0, size, BLOCK):
         rows = slice(start, min(start + BLOCK, size))
-        columns_of_block = [x if isinstance(x, np.float64) else x[rows] for x in columns]
-        used, exponents = columns_of_block, None
-        plain = _ordinary(columns_of_block, rows.stop - rows.start, bound)
+        used, exponents = [_cut(x, rows) for x in columns], None
+        numbers_of_block = [x.hi for x in used]
+        plain = _ordinary(numbers_of_block, rows.stop - rows.start, bound)
         if not plain.all():
-            used, exponents = _scaled(columns_of_block, unit, plain)
+            scaled, exponents = _scaled(numbers_of_block, unit, plain)
+            low = exponents[0]
+            units = range(len(used))[unit]
+            used = [
+                DoubleDouble(y, x.lo if x.lo is None or i not in units else np.ldexp(x.lo, -low), x.rel)
+                for i, (x, y) in enumerate(zip(used, scaled, strict=True))
+            ]
         with np.errstate(all="ignore"):
-            results = formula(*(DoubleDouble(x) for x in used))
-            yield rows, _row(columns_of_block), exponents, results if isinstance(results, tuple) else (results,)
+            results = formula(*used)
+            yield rows, _row(inputs, shape, start), exponents, results if isinstance(results, tuple) else (results,)
 
 
-def _row(columns: Sequence[Any]) -> Callable[[int], list[float]]:
-    return lambda i: [float(x if x.ndim == 0 else x[i]) for x in columns]
+def _row(inputs: Sequence[Any], shape: tuple[int, ...], start: int) -> Callable[[int], list[Any]]:
+    return lambda i: [element(x, _index(start + i, shape)) for x in inputs]
+
+
+def _index(i: int, shape: tuple[int, ...]) -> Index:
+    return tuple(map(int, np.unravel_index(i, shape)))
+
+
+def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
+    """Return an input as it broadcasts to a shape, in one row, to be read by slices; a number as it is."""
+    if np.ndim(x) == 0:
+        return DoubleDouble(x.hi[()], x.lo[()], x.rel) if isinstance(x, Given) else DoubleDouble(np.float64(x))
+    if isinstance(x, Given):
+        rel = x.rel if np.ndim(x.rel) == 0 else _flat(np.asarray(x.rel), shape)
+        return DoubleDouble(_flat(x.hi, shape), _flat(x.lo, shape), rel)
+    return DoubleDouble(_flat(np.asarray(x), shape))
+
+
+def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
+    """Return some rows of a column."""
+    parts = (y if y is None or isinstance(y, float) else y[rows] for y in (x.hi, x.lo, x.rel))
+    return DoubleDouble(*parts)
 
 
 def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
     """Return an array as it broadcasts to a shape, in one row, to be read by slices."""
     return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
+
+
+def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1) -> list[Any]:
+    """Return the `count` results of a formula as exact inputs of a motion: floats, arrays, or `Given`.
+
+    `formula` takes as many numbers and returns a tuple of numbers that are of the unit of the inputs `unit`. A number
+    that is not rational stands as the rational one nearest to it in 256 digits.
+    """
+    shape = common_shape(*(np.shape(x) for x in inputs))
+
+    @lru_cache(maxsize=1024)
+    def row(index: Index) -> tuple[fmpq, ...]:
+        with numbers.workprec():
+            results = formula(*(numbers.rational(element(x, index)) for x in inputs))
+            return tuple(map(numbers.as_rational, results))
+
+    if not shape:
+        return [exact_number(x) for x in row(())]
+    words = np.empty((3, count, int(np.prod(shape))))
+    for rows, _, exponents, results in blocks(formula, inputs, shape, unit):
+        for i, x in enumerate(results):
+            words[0, i, rows], words[1, i, rows], words[2, i, rows] = x.hi, x.low, x.rel
+        if exponents is not None:
+            words[:2, :, rows] = np.ldexp(words[:2, :, rows], exponents[0])
+            words[2, :, rows] = np.where(exponents[1], words[2, :, rows], np.inf)
+    doubtful = ~(words[2] < KNOWN).all(axis=0)
+    for n in np.flatnonzero(doubtful).tolist():
+        for i, x in enumerate(row(_index(n, shape))):
+            one = exact_number(x)
+            words[:, i, n] = (one.hi, one.lo, one.rel) if isinstance(one, Given) else (one, 0.0, 0.0)
+    parts = words.reshape(3, count, *shape)
+    return [
+        Given(*parts[:, i], exact=lambda index, i=i: row(index)[i])  # type: ignore[misc]
+        for i in range(count)
+    ]
 
 
 def _ordinary(columns: Sequence[Any], rows: int, bound: float = ORDINARY) -> Any:

@@ -16,12 +16,17 @@ ROUNDED = 1e-6
 
 def of_matrix(R: Any) -> FloatArray:
     """Return unit quaternions of rotation matrices (..., 3, 3), one of the two of each; shape (..., 4)."""
+    quaternions = rows_of_matrix(R)
+    return np.asarray(quaternions / np.sqrt((quaternions * quaternions).sum(-1))[..., None])
+
+
+def rows_of_matrix(R: Any) -> FloatArray:
+    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), each 4 times its largest component long."""
     entries: Any = np.moveaxis(np.asarray(R), (-2, -1), (0, 1))
     rows = quaternion_products(entries)
     table = np.array([np.stack(row, -1) for row in rows])
     largest = np.argmax([table[i, ..., i] for i in range(4)], axis=0)
-    quaternions = np.take_along_axis(table, largest[None, ..., None], axis=0)[0]
-    return np.asarray(quaternions / np.sqrt((quaternions * quaternions).sum(-1))[..., None])
+    return np.asarray(np.take_along_axis(table, largest[None, ..., None], axis=0)[0])
 
 
 def product(p: FloatArray, q: FloatArray) -> FloatArray:

@@ -13,8 +13,8 @@ __all__ = ["BITS", "ONE", "TURN", "ZERO", "exact", "floats", "magnitude", "middl
 
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
-    """Return each double as the number it is."""
-    return tuple(rational(float(x)) for x in numbers)
+    """Return each double as the number it is; rational numbers stay."""
+    return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in numbers)
 
 
 def floats(numbers: Iterable[Number]) -> FloatArray:

@@ -2,13 +2,16 @@
 
 from dataclasses import dataclass
 from dataclasses import field as attribute
+from fractions import Fraction
 from typing import Any, Self
 
 import numpy as np
+from flint import fmpq
 
 from atlas.core.arithmetic.words import exact
 from atlas.core.bodies import units as unit_systems
 from atlas.core.bodies.speeds import check_drift
+from atlas.core.given import as_float_or_fraction
 from atlas.core.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
 from atlas.core.quantities import NO_FIELDS, RATE, SI_FIELDS
 from atlas.core.shown import called
@@ -43,6 +46,8 @@ class Field:
     c: float
     prime: FloatArray = attribute(init=False)
     """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B. Its part [1:] is refused for B1 != 0."""
+    exact: tuple[float | Fraction, ...] = attribute(init=False)
+    """The components of B' without rounding, as motions take them: floats, or fractions where they are no floats."""
 
     def __init__(self, B: Any, E: Any = (0.0, 0.0, 0.0), mu: Any = 1.0, c: Any = 1.0) -> None:
         object.__setattr__(self, "c", positive(c, "c"))
@@ -50,7 +55,9 @@ class Field:
         object.__setattr__(self, "B", vector(B, "B", unit["B"]))
         object.__setattr__(self, "E", vector(E, "E", unit["E"]))
         object.__setattr__(self, "mu", number(mu, "mu", unit["mu"]))
-        object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c).view(Prime)))
+        prime = unit_systems.prime(mu if isinstance(mu, Fraction | fmpq) else self.mu, self.B, self.c)
+        object.__setattr__(self, "exact", tuple(as_float_or_fraction(x) for x in prime))
+        object.__setattr__(self, "prime", frozen(np.array([float(x) for x in self.exact]).view(Prime)))
 
     def __repr__(self) -> str:
         text = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
@@ -83,6 +90,12 @@ class Field:
         """(B2, B3) of B', what a motion takes a field for whose body points along e3, (32). DomainError for B1 != 0."""
         B2, B3 = self.prime[1:].tolist()
         return B2, B3
+
+    @property
+    def exact_pair(self) -> tuple[float | Fraction, ...]:
+        """(B2, B3) of `exact`. DomainError for B1 != 0."""
+        _ = self.pair
+        return self.exact[1:]
 
     def frame(self, axis: Any) -> "LaboratoryFrame":
         """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.

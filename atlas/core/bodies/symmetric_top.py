@@ -4,12 +4,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from atlas.core.bodies.body import moments
 from atlas.core.inputs import FloatArray, common_shape, components, number, plain
 from atlas.core.quantities import ENERGY, INERTIA, MOMENTUM
 from atlas.errors import DomainError
 from atlas.formulas.domain import check_direction, check_moments
+from atlas.formulas.numbers import as_rational, length, rational, workprec
 
 PARALLEL = 1e-14
 """Sine of the angle up to which a weight counts as parallel to the field."""
@@ -48,8 +50,11 @@ def moments_of_one(body: Any) -> tuple[float, float]:
     return I2, number(I3, "The ratio I3/I2 of the body")
 
 
-def along(field: tuple[float, float], weight: Any) -> float:
-    """Return the weight along the field, with its sign. Raises DomainError where it is not parallel to the field."""
+def along(field: tuple[float, float], weight: Any) -> fmpq:
+    """Return the weight along the field, with its sign, in 256 digits.
+
+    Raises DomainError where it is not parallel to the field.
+    """
     w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight", ENERGY))
     (B2, B3), size = field, float(np.hypot(w2, w3))
     if abs(w2 * B3 - w3 * B2) > PARALLEL * size * float(np.hypot(B2, B3)):
@@ -57,4 +62,6 @@ def along(field: tuple[float, float], weight: Any) -> float:
             f"The weight {(w2, w3)} is not parallel to the field {field}: with two fixed directions the momentum along "
             "neither is constant, and the motion is not that of a top in one potential."
         )
-    return float(np.copysign(size, w2 * B2 + w3 * B3))
+    with workprec():
+        exact = as_rational(length(rational(w2), rational(w3)))
+    return exact if w2 * B2 + w3 * B3 >= 0 else -exact

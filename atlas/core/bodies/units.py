@@ -18,10 +18,13 @@ those with mu_0 = 4 pi 1e-7 N/A^2, which since 2019 is a measured value, right t
 
 import reprlib
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
+from atlas.core.given import exact_number
 from atlas.core.inputs import FloatArray, finite, number, plain, positive, real
 from atlas.core.quantities import CHARGE, MASS, NO_FIELDS, SI_FIELDS
 from atlas.errors import AtlasError, DomainError
@@ -83,7 +86,9 @@ def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
     """
     c = system(units).c
     unit = SI_FIELDS if c == 1 else NO_FIELDS
-    return plain(prime(number(mu, "mu", unit["mu"]), real(B, "B", unit["B"]), c))
+    B = real(B, "B", unit["B"])
+    parts = [float(exact_number(x)) for x in prime(number(mu, "mu", unit["mu"]), B, c)]
+    return plain(np.reshape(parts, B.shape))
 
 
 def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:
@@ -91,11 +96,15 @@ def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:
     return 2 * larmor_field(mu, B, units)
 
 
-def prime(mu: float, B: FloatArray, c: float) -> FloatArray:
-    """Vector B' = mu B/(2c), (32), of numbers already checked: exact, then rounded once."""
-    factor = rational(mu) / (2 * rational(c))
-    components = np.array([nearest(factor * rational(b)) for b in B.ravel().tolist()])
-    finite(components, "B' = mu B/(2c)")
-    if mu and ((components == 0) != (B.ravel() == 0)).any():
+def prime(mu: Any, B: FloatArray, c: float) -> list[fmpq]:
+    """Components of the vector B' = mu B/(2c), (32), of numbers already checked, exactly.
+
+    Raises DomainError for one that is too large or too small for a float.
+    """
+    mu = fmpq(mu.numerator, mu.denominator) if isinstance(mu, Fraction) else rational(mu)
+    components = [mu * rational(b) / (2 * rational(c)) for b in B.ravel().tolist()]
+    rounded = np.array([nearest(x) for x in components])
+    finite(rounded, "B' = mu B/(2c)")
+    if mu != 0 and ((rounded == 0) != (B.ravel() == 0)).any():
         raise DomainError("B' = mu B/(2c) is too small for a float: choose a larger unit of time.")
-    return components.reshape(B.shape)
+    return components

@@ -41,7 +41,7 @@ def actions(motion: Any) -> Actions:
     """Return the actions of one motion, see `Motion.actions`."""
     if motion.shape:
         raise AtlasError(f"Actions are those of one motion, not of an array of them, of shape {motion.shape}.")
-    motion = getattr(motion, "own", motion)
+    motion = motion.own
     single, wheels = motion._single(0), wheels_of(motion)  # noqa: SLF001  of the same floor
     if motion.family == "asymmetric":
         J = k = np.array(motion.inertia)
@@ -49,7 +49,7 @@ def actions(motion: Any) -> Actions:
         field = motion.field_in_body
     else:
         J, k, linear, quadratic = One(motion, 0).inputs.parts
-        B = One(motion, 0).inputs.field if motion.family != "general" else single.attitude @ One(motion, 0).inputs.field
+        B = One(motion, 0).inputs.field
 
         def field(t: Any) -> FloatArray:
             return np.asarray(np.vecmat(B, motion.rotation(t)))

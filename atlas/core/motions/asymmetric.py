@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas.core.arithmetic.rotation import target
 from atlas.core.arithmetic.words import floats
-from atlas.core.inputs import FloatArray, components, finite, kept, plain, real
+from atlas.core.inputs import FloatArray, as_given, components, finite, kept, plain, real
 from atlas.core.motions.certified import Certified
 from atlas.core.motions.clebsch_theta import LOST, ThetaKernel, closed_form
 from atlas.core.motions.motion import Motion
@@ -166,7 +166,7 @@ class SingleAsymmetric:
 
 
 @lru_cache(maxsize=KEPT)
-def _single(*row: float) -> SingleAsymmetric:
+def _single(*row: Any) -> SingleAsymmetric:
     """Return a motion; those made last are kept, since a sweep asks for the same one at many times."""
     return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
 
@@ -220,7 +220,8 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         super().__init__(_single, *parts)
         self._of_each(lambda single: single.exact.kind)  # what is no motion is refused here
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
-        self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
+        kept = (tuple(map(as_given, parts[i : i + 3])) for i in (0, 3, 6))
+        self.arguments = dict(zip(("inertia", "field", "omega"), kept, strict=True))
 
     @kept
     def kind(self) -> Any:
@@ -343,22 +344,21 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        return self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
+        return self._spun(self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body; shape (..., 3).
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        return self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
+        return self._in_body(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
-        return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
+        return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
     def _fill_grid(self, single: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid, at exact times."""

@@ -7,8 +7,8 @@ import numpy as np
 from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
-from atlas.core.arithmetic.words import ONE, ZERO, exact
-from atlas.core.inputs import FloatArray, components, kept, plain, real
+from atlas.core.arithmetic.words import ONE, ZERO, exact, floats
+from atlas.core.inputs import FloatArray, as_given, components, kept, numbers, plain
 from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import INERTIA, MOMENTUM, RATE
 from atlas.formulas.ball import rates, turning
@@ -19,12 +19,12 @@ from atlas.formulas.numbers import alone, direction, workprec
 class Ball(DoubleRotation):
     """One ball: R = R_z(-alpha t) R_k(-gamma t), the transposed of R_k(gamma t) R_z(alpha t), (28)."""
 
-    def __init__(self, inertia: float, larmor: float, m2: float, m3: float) -> None:
+    def __init__(self, inertia: Any, larmor: Any, m2: Any, m3: Any) -> None:
         with workprec():
             along, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
             # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
             axis = (ZERO, *direction(along)) if gamma != 0 else (ZERO, ZERO, -ONE)
-        self.vectors = {"m": (0.0, m2, m3), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
+        self.vectors = {"m": (0.0, *floats(exact(m2, m3))), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
         super().__init__(axis, gamma, alpha, inverse=True)
 
 
@@ -46,12 +46,13 @@ class BallMotion(DoubleTurn[Ball]):
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
         m2, m3 = components(momentum, ("m2", "m3"), "The momentum", MOMENTUM)
-        inertia = real(inertia, "The inertia", INERTIA)
-        check_ball(inertia)
-        larmor = real(larmor, "The Larmor frequency", RATE)
+        inertia = numbers(inertia, "The inertia", INERTIA)
+        check_ball(np.asarray(inertia))
+        larmor = numbers(larmor, "The Larmor frequency", RATE)
         super().__init__(Ball, inertia, larmor, m2, m3)
         self.inertia, self.larmor, self.momentum = plain(inertia), plain(larmor), (plain(m2), plain(m3))
-        self.arguments = {"inertia": self.inertia, "larmor": self.larmor, "momentum": self.momentum}
+        momentum = (as_given(m2), as_given(m3))
+        self.arguments = {"inertia": as_given(inertia), "larmor": as_given(larmor), "momentum": momentum}
 
     @kept
     def gamma(self) -> Any:
@@ -81,6 +82,8 @@ class BallMotion(DoubleTurn[Ball]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
+        if self.is_placed:
+            return self._momentum_of(lambda Omega: Omega, t)
         return self._evaluate(lambda single, t, out: single.swung(single.vector("m"), t, out), t, (3,))
 
     def angular_velocity(self, t: Any) -> FloatArray:
@@ -88,13 +91,17 @@ class BallMotion(DoubleTurn[Ball]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,))
+        return self._spun(
+            self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,)), t
+        )
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, B' = (0, 0, alpha), (32); shape (..., 3), each within 1e-15 of |alpha|.
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
+        if self._placement is not None:
+            return np.asarray(np.vecmat(self._placement.field, self.rotation(t)))
         return np.asarray(np.asarray(self.larmor)[..., None] * self.rotation(t)[..., 2, :])
 
     def _groups(self) -> list[Group]:
@@ -102,4 +109,7 @@ class BallMotion(DoubleTurn[Ball]):
 
     def _vectors(self) -> dict[str, Any]:
         inertia, _, m2, m3 = self._inputs
-        return {"m": (0.0, m2, m3), "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, None), degree=(1, 1)))}
+        return {
+            "m": (0.0, *floats(exact(m2, m3))),
+            "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, None), degree=(1, 1))),
+        }

@@ -1,23 +1,42 @@
 """The motion of any body from any start, by the class that fits it, in the axes that were given."""
 
 import reprlib
+from collections.abc import Mapping
+from contextlib import suppress
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
+from flint import fmpq
 
+from atlas.core.arithmetic.double_double import given
+from atlas.core.arithmetic.words import exact
 from atlas.core.bodies.body import SymmetricBody, moments
 from atlas.core.bodies.inertia import inertia_tensor, principal
-from atlas.core.inputs import FloatArray, common_shape, components, plain, real, scaled, vectors
+from atlas.core.given import Given, broadcast, element, exact_number
+from atlas.core.inputs import FloatArray, common_shape, components, frozen, plain, real, vectors
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.core.motions.ball import BallMotion
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
-from atlas.core.motions.general import ORTHOGONAL, GeneralMotion
-from atlas.core.motions.turned import Turned, turned
+from atlas.core.motions.general import GeneralMotion, standing
+from atlas.core.motions.placement import Placement, turned_by
 from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.numbers import (
+    Number,
+    as_rational,
+    cross,
+    dot,
+    length,
+    nearest,
+    rational,
+    select,
+    unit,
+    workprec,
+)
 
-MEMBER = 8 * float(np.finfo(float).eps)
-"""Part of the largest rate of a start by which it may be off the paper's family, where it was turned and so rounded."""
+ORTHOGONAL = 1e-9
+"""An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
 
 
 class Body(NamedTuple):
@@ -28,106 +47,169 @@ class Body(NamedTuple):
     tensor: FloatArray
 
 
-def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Turned:
+def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Any:
     """Motion of a charged body of any shape from any start: of the class that fits, in the axes that are given.
 
-    `inertia` is a ratio I3/I2 or a SymmetricBody, or an array of them, with its axis along e3 or as its `axes` say;
-    three principal moments (I1, I2, I3) along the axes of the body; or a tensor (3, 3) in these axes, whose principal
-    axes are found, with -sum m x y and so on beside its diagonal; arrays of tensors (..., 3, 3). `field` (..., 3) is
-    the vector B' = mu B/(2c) in the laboratory, or a `Field`; `omega` (..., 3) the angular velocity at t = 0 along the
-    axes of the body; both in one unit 1/time. For arrays of moments, and of components, give tuples of three arrays.
-    `attitude` (..., 3, 3), or a Rotation of SciPy's, is R(0), with the axes of the body as columns; the unit matrix
-    otherwise. All broadcast.
+    Parameters
+    ----------
+    inertia : float, SymmetricBody, tuple or array_like
+        A ratio I3/I2 or a SymmetricBody, or an array of them, with its axis along e3 or as its `axes` say; three
+        principal moments (I1, I2, I3) along the axes of the body; or a tensor (..., 3, 3) in these axes, whose
+        principal axes are found, with -sum m x y and so on beside its diagonal.
+    field : array_like (..., 3) or Field
+        The vector B' = mu B/(2c) in the laboratory, in 1/time. For arrays of components give a tuple of three arrays.
+    omega : array_like (..., 3)
+        The angular velocity at t = 0 along the axes of the body, in the same unit.
+    attitude : array_like (..., 3, 3) or scipy Rotation, optional
+        R(0), with the axes of the body as columns; the unit matrix otherwise.
 
-    The result is a motion of the class that fits, as `family` says: "free" or "elementary", "ball" or "general" for a
-    body with two equal moments, "asymmetric" for any other; `kind` says of which kind it is there. `rotation`,
-    `quaternion`, `column` and `rotation_grid` are between the axes given, `angular_velocity` and `field_in_body` along
-    those of the body, `angular_momentum` in the laboratory; what the class has besides stays. Components along the axes
-    of the class are rounded, so that in other axes than those a phase f t is off by about f t 1e-16. Raises DomainError
-    for a tensor or for moments that no body has, an attitude that is no rotation, and for an array whose bodies are
-    partly symmetric; AtlasError for what is no finite number.
+    Returns
+    -------
+    Motion
+        A motion of the class that fits, as `family` says: "free", "elementary" or "ball" where a body with two equal
+        moments starts so exactly, otherwise "general"; "asymmetric" for any other body. `kind` says of which kind it is
+        there. `rotation`, `quaternion`, `column` and `rotation_grid` are between the axes given, `angular_velocity` and
+        `field_in_body` along those of the body, `angular_momentum` in the laboratory.
+
+    Raises
+    ------
+    DomainError
+        For a tensor or for moments that no body has, an attitude that is no rotation, and for an array whose bodies are
+        partly symmetric.
+    AtlasError
+        For what is no finite number.
+
+    Notes
+    -----
+    The motion is made of the numbers as they were given: components along other axes are not rounded, and no class is
+    chosen within a tolerance. A matrix of floats, as an attitude or principal axes, is orthogonal but for rounding, and
+    stands for the rotation of its quaternion, which is as near. Only the matrices that turn the result into the given
+    axes are rounded, so that entries of R are off by some 1e-15 at any time. `input_error` says what rounding of the
+    inputs themselves would change.
 
         >>> motion = atlas.motion([[2, 0.1, 0], [0.1, 1.5, 0.2], [0, 0.2, 1]], (0.3, 0, 1), (0.1, 0.2, 3.0))
         >>> motion.family, motion.kind
         ('asymmetric', 'on a torus')
     """
-    body = body_of(inertia)
-    B, w = _vectors(getattr(field, "prime", field), "The field", "B"), _vectors(omega, "The angular velocity", "omega")
+    body, B, w = body_of(inertia), _columns(field, "The field", "B"), _columns(omega, "The angular velocity", "omega")
     R = attitude_of(attitude)
-    shape = common_shape(body.moments.shape[:-1], B.shape[:-1], w.shape[:-1], R.shape[:-2])
-    arguments = {"inertia": inertia, "field": B, "omega": w, "attitude": attitude}
-    own, axes = _of_class(body, np.vecmat(B, R), w, shape)
-    return turned(own, R @ np.swapaxes(axes, -1, -2), axes, body.tensor, B, (R, w), arguments)
+    shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
+    arguments = {"inertia": inertia, "field": _argument(field, B), "omega": _argument(omega, w), "attitude": attitude}
+    own, axes = _of_class(body, State(B, w, R), shape)
+    return _placed(own, axes, body.tensor, State(B, w, R), motion, arguments, "motion")
 
 
-def _of_class(body: Body, K: FloatArray, w: FloatArray, shape: tuple[int, ...]) -> tuple[Any, FloatArray]:
+class State(NamedTuple):
+    """Field in the laboratory and angular velocity as they were given, by components, and the attitude.
+
+    The angular velocity is along the axes of the body, or where `outside` along those of the laboratory.
+    """
+
+    B: list[Any]
+    w: list[Any]
+    R: FloatArray
+    outside: bool = False
+
+    def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
+        """Return the components of field and angular velocity along axes of the body, its rows, without rounding."""
+        back = np.swapaxes(self.R, -1, -2)
+        return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
+
+    @property
+    def omega(self) -> FloatArray:
+        """Angular velocity along the axes of the body, (..., 3)."""
+        w = _joined_columns(self.w)
+        return np.asarray(np.vecmat(w, self.R)) if self.outside else w
+
+
+def _placed(
+    own: Any, axes: FloatArray, tensor: FloatArray, state: State, make: Any, arguments: Mapping[str, Any], made_by: str
+) -> Any:
+    """Return a motion along axes of its class, rows in those of the body, in the axes that were given."""
+    left = state.R @ np.swapaxes(axes, -1, -2)
+    before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (left, axes))
+    B, R, omega = frozen((_joined_columns(state.B), state.R, state.omega))
+    placement = Placement(before, after, frozen(tensor), B, R, omega, make, dict(own.arguments))
+    return own.place(placement, {name: _copied(value) for name, value in arguments.items()}, made_by)
+
+
+def _copied(value: Any) -> Any:
+    """Return what was given with arrays of its own, so that it stays when those of the user change."""
+    if isinstance(value, tuple | list):
+        return type(value)(map(_copied, value))
+    return frozen(value.copy()) if isinstance(value, np.ndarray) else value
+
+
+def _of_class(body: Body, state: State, shape: tuple[int, ...]) -> tuple[Any, FloatArray]:
     """Return the motion, and the axes of its class, as rows, in those of the body."""
     I = body.moments
-    first, last, outer = (I[..., i] == I[..., j] for i, j in ((0, 1), (1, 2), (0, 2)))
-    different = ~(first | last | outer)
+    different = np.logical_and.reduce([I[..., i] != I[..., j] for i, j in ((0, 1), (1, 2), (0, 2))])
     if different.any():
         if not different.all():
             raise DomainError("Some of these bodies are symmetric and some are not: make one array of each.")
-        own = AsymmetricMotion(_parts(I), _parts(np.matvec(body.axes, K)), _parts(np.matvec(body.axes, w)))
-        return own, body.axes
-    third = np.where(first, 2, np.where(last, 0, 1))
+        return AsymmetricMotion(_parts(I), *state.along(body.axes)), body.axes
+    symmetric, axes = _symmetric(body)
+    K, w = state.along(axes)
+    if not any(np.any(x) for x in K):
+        return FreeMotion(symmetric, tuple(broadcast(x, shape) if shape else x for x in w)), axes
+    if not shape:
+        exact = [*exactly(*K), *exactly(*w)]
+        for found in (_elementary, _ball):
+            if special := found(symmetric, exact):
+                return special[0], special[1] @ axes
+    return GeneralMotion(symmetric, tuple(K), tuple(w)), axes
+
+
+def _symmetric(body: Body) -> tuple[Any, FloatArray]:
+    """Return a body with two equal moments, or its ratio, and axes with that of symmetry last."""
+    I = body.moments
+    third = np.where(I[..., 0] == I[..., 1], 2, np.where(I[..., 1] == I[..., 2], 0, 1))
     order = (third[..., None] + np.array([1, 2, 3])) % 3
     axes = np.take_along_axis(np.broadcast_to(body.axes, (*I.shape, 3)), order[..., None], axis=-2)
     I2, I3 = (plain(np.take_along_axis(I, order[..., i : i + 1], axis=-1)[..., 0]) for i in (0, 2))
-    symmetric = I3 if np.all(I2 == 1) else SymmetricBody(I2, I3)
-    if not K.any():
-        start = np.matvec(axes, w)
-        return FreeMotion(symmetric, _parts(np.broadcast_to(start, (*shape, 3)))), axes
-    turn, field, omega = _in_plane(axes, K, w)
-    if not shape:
-        rounded = 0.0 if np.isin(turn, (-1, 0, 1)).all() else MEMBER * max(map(abs, omega))
-        if elementary := _elementary(symmetric, field, omega, rounded):
-            return elementary, turn
-        if I2 == I3:
-            along, exponent = scaled(K)
-            size = np.linalg.norm(along)
-            b, turn = float(np.ldexp(size, exponent)), _upright(along / size, scaled(w)[0])
-            _, m2, m3 = _parts(I3 * (turn @ w))
-            return BallMotion(I3, b, (m2, m3)), turn
-    return GeneralMotion(symmetric, field, omega), turn
+    return I3 if np.all(I2 == 1) else SymmetricBody(I2, I3), axes
 
 
-def _upright(third: FloatArray, second: FloatArray) -> FloatArray:
-    """Return axes as rows: e3 along a unit vector, the other vector in the plane of e2 and e3."""
-    across = second - (second @ third) * third
-    if np.linalg.norm(across) <= MEMBER * np.linalg.norm(second):
-        across = np.eye(3)[np.argmin(abs(third))]
-        across = across - (across @ third) * third
-    e2 = across / np.linalg.norm(across)
-    return np.array([np.cross(e2, third), e2, third])
-
-
-def _in_plane(axes: FloatArray, K: FloatArray, w: FloatArray) -> tuple[FloatArray, Any, Any]:
-    """Return axes with the same third one and the field in the plane of e2 and e3, (B2, B3) and omega along them."""
-    K1, K2, K3 = _parts(np.matvec(axes, K))
-    (x, y), exponent = scaled(np.array([K1, K2]))
-    size = np.hypot(x, y)
-    turns = K1 != 0
-    with np.errstate(invalid="ignore"):
-        c, s = np.where(turns, y / size, 1.0), np.where(turns, x / size, 0.0)
-    zero, one = np.zeros_like(c), np.ones_like(c)
-    turn = np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]])
-    turn = np.moveaxis(turn, (0, 1), (-2, -1)) @ axes
-    return turn, (plain(np.where(turns, np.ldexp(size, exponent), K2)), K3), _parts(np.matvec(turn, w))
-
-
-def _elementary(body: Any, field: Any, omega: Any, rounded: float) -> ElementaryMotion | None:
-    """Return the elementary motion that starts so, components `rounded` by as much, None where there is none."""
-    w1, w2, w3 = omega
-    if abs(w1) > rounded:
+def _elementary(body: Any, state: list[fmpq]) -> tuple[ElementaryMotion, FloatArray] | None:
+    """Return the elementary motion that starts so, and the axes in which omega1 = B1 = 0; None where there is none."""
+    K1, K2, K3, w1, w2, w3 = state
+    if w1 * K2 != w2 * K1 or not standing(*moments(body), *state).exact.is_steady:
         return None
-    for omega3 in (None, w3):
-        try:
-            motion = ElementaryMotion(body, field, w2, omega3)
-        except DomainError:
-            continue
-        return motion if abs(motion.omega3 - w3) <= rounded else None
+    (size, turn), square = _across(K1, K2), K1 * K1 + K2 * K2
+    field = exact_number(size), exact_number(K3)
+    omega2 = exact_number((w1 * K1 + w2 * K2) / square * size if square != 0 else w2)
+    for omega3 in (None, exact_number(w3)):
+        with suppress(DomainError):
+            return ElementaryMotion(body, field, omega2, omega3), turn
     return None
+
+
+def _across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
+    """Return the component of a vector along e2 after the turn about e3 that makes K1 zero, and that turn."""
+    if K1 == 0:
+        return K2, np.eye(3)
+    with workprec():
+        size = as_rational(length(K1, K2))
+        c, s = (nearest(x / size) for x in (K2, K1))
+    return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+
+def _ball(body: Any, state: list[fmpq]) -> tuple[BallMotion, FloatArray] | None:
+    """Return the motion of a ball, and axes with the third along the field and m(0) across the first, else None."""
+    I2, I3 = moments(body)
+    if I2 != I3:
+        return None
+    K, w = state[:3], state[3:]
+    square, along, size = dot(K, K), dot(w, K), rational(I3)
+    aside = [square * x - along * y for x, y in zip(w, K, strict=True)]
+    with workprec():
+        b, across = as_rational(length(*K)), as_rational(length(*aside))
+        if across == 0:
+            e = exact(*np.eye(3)[np.argmin([abs(nearest(x / b)) for x in K])])
+            aside = [square * x - dot(e, K) * y for x, y in zip(e, K, strict=True)]
+        axes = np.array([[nearest(x) for x in unit(row)] for row in (cross(aside, K), aside, K)])
+    larmor, m2, m3 = (exact_number(x) for x in (b, size * across / square, size * along / square * b))
+    return BallMotion(I3, larmor, (m2, m3)), axes
 
 
 def body_of(inertia: Any) -> Body:
@@ -173,11 +255,28 @@ def _parts(v: FloatArray) -> tuple[Any, Any, Any]:
     return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
 
 
-def _vectors(value: Any, name: str, letter: str) -> FloatArray:
-    """Return vectors (..., 3): of three components, each a number or an array, or of an array with these last."""
-    if isinstance(value, tuple):
-        return _rows(components(value, [f"{letter}{i}" for i in (1, 2, 3)], name, RATE))
-    return vectors(value, name, RATE)
+def _columns(value: Any, name: str, letter: str) -> list[Any]:
+    """Return the components of vectors: of a `Field`, of a tuple of numbers or arrays, or of an array (..., 3)."""
+    listed = isinstance(value, list) and any(isinstance(x, Fraction) for x in value)
+    if isinstance(value, tuple) or listed or hasattr(value, "exact"):
+        names = [f"{letter}{i}" for i in (1, 2, 3)]
+        return [x if isinstance(x, Given) else plain(x) for x in components(value, names, name, RATE)]
+    return list(_parts(vectors(value, name, RATE)))
+
+
+def _joined_columns(v: list[Any]) -> FloatArray:
+    """Return vectors (..., 3) by their components, rounded."""
+    return np.stack(np.broadcast_arrays(*map(np.asarray, v)), -1)
+
+
+def _argument(value: Any, parts: list[Any]) -> Any:
+    """Return what is kept of vectors: an array of them, or where no floats hold the components what was given."""
+    return value if any(isinstance(x, Given) for x in parts) else _joined_columns(parts)
+
+
+def exactly(*numbers: Any) -> tuple[fmpq, ...]:
+    """Return the numbers of one motion as rational ones."""
+    return exact(*(element(x, ()) for x in numbers))
 
 
 def _rows(parts: list[FloatArray]) -> FloatArray:
@@ -200,28 +299,67 @@ def attitude_of(attitude: Any) -> FloatArray:
     return np.asarray(R if off == 0 else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)
 
 
-def in_laboratory(family: type[Any], body: Any, field: Any, attitude: Any, omega: Any, parameters: Any) -> Turned:
+def in_laboratory(family: type[Any], body: Any, field: Any, attitude: Any, omega: Any, parameters: Any) -> Any:
     """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
-    R, B = attitude_of(attitude), _vectors(getattr(field, "prime", field), "The field", "B")
-    K = np.vecmat(B, R)
-    w = K if omega is None else np.vecmat(_vectors(omega, "The angular velocity", "omega"), R)
-    if family.family == "top":
-        I2, I3 = components(body, ("I2", "I3"), "The inertia", INERTIA)
-        known = _of_moments((I2, I2, I3), np.eye(3))
-        axes, direction, start = _in_plane(known.axes, K, w)
-        own = family((I2, I3), direction=direction, omega=start, **parameters)
-    elif family.family == "elliptic":
-        known = body_of(body)
-        axes = known.axes
-        own = family(_parts(known.moments), _parts(np.matvec(axes, K)), **parameters)
+    R, B = attitude_of(attitude), _columns(field, "The field", "B")
+    w = [0.0, 0.0, 0.0] if omega is None else _columns(omega, "The angular velocity", "omega")
+    state = State(B, w, R, outside=True)
+    known = _of_top(body) if family.family == "top" else body_of(body)
+    if family.family in ("top", "elliptic"):
+        own, axes = (_top if family.family == "top" else _elliptic)(family, known, state, parameters)
+    elif family.family == "general":
+        symmetric, axes = _symmetric(known)
+        own = family(symmetric, *map(tuple, state.along(axes)))
+    elif omega is None and "omega2" in parameters:
+        symmetric, axes = _symmetric(known)
+        K1, K2, K3 = exactly(*state.along(axes)[0])
+        size, turn = _across(K1, K2)
+        own, axes = family(symmetric, (exact_number(size), exact_number(K3)), **parameters), turn @ axes
     else:
-        moving: Turned = motion(body, B, w, R)
-        if not issubclass(type(moving), family):
+        shape = common_shape(known.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
+        own, axes = _of_class(known, state, shape)
+        if not isinstance(own, family):
             raise DomainError(
-                f"So no {family.__name__} starts, but one of the family {moving.family}: atlas.motion finds the class."
+                f"So no {family.__name__} starts, but one of the family {own.family}: atlas.motion finds the class."
             )
-        return moving
-    arguments = {"body": body, "field": B, "attitude": attitude, "angular_velocity": omega, **parameters}
-    w = np.asarray(own.angular_velocity(0.0)) @ axes if omega is None else w
-    left, made_by = R @ np.swapaxes(axes, -1, -2), f"{family.__name__}.in_laboratory"
-    return turned(own, left, axes, known.tensor, B, (R, w), arguments, made_by)
+    if omega is None:
+        start = np.asarray(own.angular_velocity(0.0)) @ axes
+        state = State(B, list(_parts(start)), R)
+    arguments = {
+        "body": body, "field": _argument(field, B), "attitude": attitude,
+        "angular_velocity": None if omega is None else _argument(omega, w), **parameters,
+    }  # fmt: skip
+    return _placed(own, axes, known.tensor, state, family.in_laboratory, arguments, f"{family.__name__}.in_laboratory")
+
+
+def _of_top(inertia: Any) -> Body:
+    """Return the body of a top with the moments (I2, I3)."""
+    I2, I3 = components(inertia, ("I2", "I3"), "The inertia", INERTIA)
+    return _of_moments((I2, I2, I3), np.eye(3))
+
+
+def _top(family: Any, body: Body, state: State, parameters: Any) -> tuple[Any, FloatArray]:
+    """Return a top, and axes in which its direction is in the plane of e2 and e3."""
+    n, w = state.along(np.eye(3))
+    axes: FloatArray = np.eye(3)
+    if np.any(n[0]):
+        n2, n3, w1, w2, w3, c, s = given(_in_plane, *n, *w, 1.0, unit=slice(3, 6), count=7)
+        n, w = [0.0, n2, n3], [w1, w2, w3]
+        zero, one, c, s = np.broadcast_arrays(0.0, 1.0, np.asarray(c), np.asarray(s))
+        axes = np.moveaxis(np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]), (0, 1), (-2, -1))
+    I = body.moments
+    return family((plain(I[..., 1]), plain(I[..., 2])), direction=n[1:], omega=w, **parameters), axes
+
+
+def _in_plane(*numbers: Number) -> tuple[Number, ...]:
+    """Return n2, n3, omega, and cosine and sine, after the turn about e3 that makes n1 zero."""
+    n1, n2, n3, w1, w2, w3, one = numbers
+    size = length(n1, n2)
+    unit = select(size, size, one)
+    c, s = select(size, n2 / unit, one), n1 / unit
+    return size, n3, c * w1 - s * w2, s * w1 + c * w2, w3, c, s
+
+
+def _elliptic(family: Any, body: Body, state: State, parameters: Any) -> tuple[Any, FloatArray]:
+    """Return an elliptic motion, and its principal axes."""
+    return family(_parts(body.moments), tuple(state.along(body.axes)[0]), **parameters), body.axes

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
-from atlas.core.arithmetic.words import ZERO, exact
+from atlas.core.arithmetic.words import ZERO, exact, floats
 from atlas.core.bodies.body import kept_ratio, moments
-from atlas.core.inputs import FloatArray, components, kept, plain, real, turn_time
+from atlas.core.given import broadcast, low_word, part
+from atlas.core.inputs import FloatArray, as_given, common_shape, components, kept, numbers, plain, turn_time
 from atlas.core.motions.integrals import integrals, shape_factors
 from atlas.core.motions.motion import DoubleTurn
-from atlas.core.quantities import RATE
+from atlas.core.quantities import RATE, TIME, bare
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.domain import CASES, FREE, case_of, check_omega3
 from atlas.formulas.elementary import conserved, constants, free, quotient, scalars, turning
@@ -28,14 +29,15 @@ from atlas.lazy import cached_property
 class Elementary(DoubleRotation):
     """One elementary motion: its case, omega3, and the exact axis and frequencies."""
 
-    def __init__(self, I2: float, I3: float, B2: float, B3: float, omega2: float, omega3: float | None) -> None:
-        self.case = case_of(I2, I3, B2, B3, omega2)
+    def __init__(self, I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any, omega3: Any) -> None:
         inputs = exact(I2, I3, B2, B3, omega2, 0.0 if omega3 is None else omega3)
+        self.case = case_of(*inputs[:5])
         with workprec():
             w3, along, k, phi = constants(self.case, *inputs)
             axis, third = (ZERO, *direction(along)), nearest(inputs[1] * w3 / inputs[0])
         self.omega3 = nearest(w3)
         check_omega3(self.case, omega3, self.omega3)
+        _, _, B2, B3, omega2, _ = map(nearest, inputs)
         self.vectors = {"Omega": (0.0, omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, omega2, third)}
         super().__init__(axis, k, phi)
 
@@ -77,18 +79,20 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         I2, I3 = moments(ratio)
         self.ratio = kept_ratio(ratio, I3)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
-        omega2 = real(omega2, "omega2", RATE)
-        given_omega3 = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
+        omega2 = numbers(omega2, "omega2", RATE)
+        given_omega3 = np.array(None) if omega3 is None else numbers(omega3, "omega3", RATE)
         super().__init__(Elementary, I2, I3, B2, B3, omega2, given_omega3)
         self.field = (plain(B2), plain(B3))
-        free = None if omega3 is None else plain(given_omega3)
-        self.arguments = {"ratio": self.ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
+        self.arguments = {
+            "ratio": self.ratio, "field": (as_given(B2), as_given(B3)), "omega2": as_given(omega2),
+            "omega3": None if omega3 is None else as_given(given_omega3),
+        }  # fmt: skip
         if not self.shape:
             self._single()
         else:
             self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
             if omega3 is not None:
-                self._refuse((self._codes >= FREE) & (given_omega3 != self.omega3))
+                self._refuse((self._codes >= FREE) & (np.asarray(given_omega3) != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
         """Raise the error of the first row for which there is no motion."""
@@ -166,21 +170,22 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     def _codes(self) -> NDArray[np.intp]:
         """Places of the cases in CASES; one more for a row that is no motion."""
         I2, I3, B2, B3, w2, _ = np.broadcast_arrays(*self._inputs)
-        flat, steady, pole = B3 == 0, B2 == 0, w2 == -B2
+        flat, steady = B3 == 0, B2 == 0
+        pole = (w2 == -B2) & (low_word(self._inputs[4]) == -low_word(self._inputs[2]))
         free = [steady & flat, steady & (w2 == 0), ~steady & pole & flat, ~steady & pole & (I2 == I3)]
         return np.select([*free, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
 
     def _cases(self) -> list[tuple[str, Any, list[Any]]]:
         """Return each case that there is, its rows and their inputs; omega2 = 0 is on the curve like any other."""
         codes = np.where(self._codes == CASES.index("at rest"), CASES.index("precession"), self._codes).ravel()
-        *inputs, omega3 = map(np.asarray, self._inputs)
-        inputs.append(np.zeros(()) if omega3.dtype == object else omega3)
+        *inputs, omega3 = self._inputs
+        inputs.append(0.0 if np.asarray(omega3).dtype == object else omega3)
         present = np.unique(codes)
         if present.size == 1:
-            return [(CASES[present[0]], slice(None), [np.broadcast_to(inputs[0], self.shape), *inputs[1:]])]
-        rows = [np.broadcast_to(x, self.shape).reshape(-1) for x in inputs]
+            return [(CASES[present[0]], slice(None), [broadcast(inputs[0], self.shape), *inputs[1:]])]
+        rows = [broadcast(x, self.shape) for x in inputs]
         return [
-            (CASES[code], index, [x[index] for x in rows])
+            (CASES[code], index, [part(x, index) for x in rows])
             for code in present
             for index in [np.flatnonzero(codes == code)]
         ]
@@ -197,20 +202,23 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
+        Omega = self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
+        return self._spun(Omega, t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda single, t, out: single.swung(single.vector("K"), t, out), t, (3,))
+        return self._in_body(self._evaluate(lambda single, t, out: single.swung(single.vector("K"), t, out), t, (3,)))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
+        if self.is_placed:
+            return self._momentum_of(lambda Omega: Omega, t)
         return self._evaluate(lambda single, t, out: single.turned(single.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
@@ -222,7 +230,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """
         if t is None:
             return dict(zip(NAMES, map(plain, self._table(conserved, (2, 2, 1, 2, 2))), strict=True))
-        Omega, K = self.angular_velocity(t), self.field_in_body(t)
+        Omega, K = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
         four = integrals(self.ratio, Omega, K)
         along = Omega * K * np.stack(np.broadcast_arrays(1.0, 1.0, shape_factors(self.ratio)[0]), -1)
         return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(m,B')": plain(along.sum(-1))}
@@ -246,8 +254,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 class Free(DoubleRotation):
     """One free body."""
 
-    def __init__(self, I2: float, I3: float, *omega: float) -> None:
-        self.vectors = {"Omega": omega}
+    def __init__(self, I2: Any, I3: Any, *omega: Any) -> None:
+        self.vectors = {"Omega": tuple(floats(exact(*omega)).tolist())}
         with workprec():
             momentum, k, phi = free(*exact(I2, I3, *omega))
             axis = direction(momentum)
@@ -270,7 +278,7 @@ class FreeMotion(DoubleTurn[Free]):
         I2, I3 = moments(ratio)
         super().__init__(Free, I2, I3, *omega)
         self.ratio, self.omega = kept_ratio(ratio, I3), tuple(map(plain, omega))
-        self.arguments = {"ratio": self.ratio, "omega": self.omega}
+        self.arguments = {"ratio": self.ratio, "omega": tuple(map(as_given, omega))}
 
     @kept
     def k(self) -> Any:
@@ -312,10 +320,15 @@ class FreeMotion(DoubleTurn[Free]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
+        Omega = self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
+        return self._spun(Omega, t)
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = 0 in the body; shape (..., 3)."""
+        return np.zeros((*common_shape(self.shape, np.shape(bare(t, "The time", TIME))), 3))
 
     def _groups(self) -> list[Group]:
         return [(free, slice(None), self._inputs)]
 
     def _vectors(self) -> dict[str, Any]:
-        return {"Omega": self._inputs[2:]}
+        return {"Omega": self.omega}

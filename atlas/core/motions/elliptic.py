@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, components, finite, kept, plain
+from atlas.core.inputs import FloatArray, as_given, components, finite, kept, plain
 from atlas.core.motions.clebsch import conserved
 from atlas.core.motions.nutating import NutatingMotion
 from atlas.core.nutation.constants import FIRST
@@ -70,7 +70,8 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         self.inertia, self.field, (self.z, self.branch) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
         )
-        self.arguments = {"inertia": self.inertia, "field": self.field, "z": self.z, "branch": self.branch}
+        field = tuple(map(as_given, parts[3:6]))
+        self.arguments = {"inertia": self.inertia, "field": field, "z": self.z, "branch": self.branch}
 
     @kept
     def period(self) -> Any:
@@ -141,8 +142,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
-        return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
+        return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants of any body's motion, theorem-clebsch: H, F, (M, K), K^2 and the kinetic energy.
@@ -157,7 +157,6 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
             )
             columns = np.moveaxis(finite(np.reshape(constants, (*self.shape, len(CONSTANTS))), "H"), -1, 0)
             return dict(zip(CONSTANTS, map(plain, columns), strict=True))
+        state = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
         J = [self.inertia[i // 4] if i % 4 == 0 else 0.0 for i in range(9)]
-        return dict(
-            zip(CONSTANTS, vars(conserved(J, self.angular_velocity(t), self.field_in_body(t))).values(), strict=True)
-        )
+        return dict(zip(CONSTANTS, vars(conserved(J, *state)).values(), strict=True))

@@ -8,7 +8,6 @@ from atlas.core.bodies.field import LaboratoryFrame
 from atlas.core.inputs import FloatArray, common_shape, kept, vectors
 from atlas.core.motions.euler_poisson import bracket
 from atlas.core.motions.particle import ParticleMotion
-from atlas.core.motions.turned import Turned
 from atlas.core.quantities import LENGTH
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError
@@ -97,7 +96,7 @@ class Flight(Shown):
 
 def _field_of(motion: Any) -> FloatArray | None:
     """Return the field B' in the laboratory in which a motion turns, shape (..., 3); None where it does not tell it."""
-    if isinstance(motion, Turned):
+    if getattr(motion, "is_placed", False):
         return None if motion.family == "top" else motion.given[1]
     field = getattr(motion, "field", None)
     if field is None:

@@ -14,9 +14,11 @@ import numpy as np
 from atlas.core.arithmetic.grid import fill_grid
 from atlas.core.arithmetic.rotation import DoubleRotation, target
 from atlas.core.arithmetic.turnings import Group, Turnings
+from atlas.core.given import element
 from atlas.core.inputs import FloatArray, common_shape, finite, number, real, whole
+from atlas.core.motions.placement import Placement
 from atlas.core.quantities import TIME, bare
-from atlas.core.shown import Shown, notebook
+from atlas.core.shown import Shown, made, notebook
 from atlas.errors import AtlasError
 from atlas.lazy import cached_property
 
@@ -59,6 +61,8 @@ class Motion(Shown, Generic[Single]):
 
     _rows: Any = None
     """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
+    _placement: Placement | None = None
+    """Where the motion stands, if not along the axes of its class with R(0) = 1."""
 
     def __new__(cls, *_: Any, **arguments: Any) -> Self:
         """Tell who gives a start that is another class's which one takes it."""
@@ -79,10 +83,13 @@ class Motion(Shown, Generic[Single]):
         if single is None:
             if len(self._made) >= KEPT:
                 self._made.clear()
-            values = (np.asarray(x) for x in self._inputs)
-            row = (np.broadcast_to(x, self.shape).flat[i] if self.shape else x[()] for x in values)
-            single = self._made.setdefault(i, self._make(*(x if x is None else float(x) for x in row)))
+            single = self._made.setdefault(i, self._make(*self._row(i)))
         return single
+
+    def _row(self, i: int = 0) -> list[Any]:
+        """Return the inputs of the i-th motion: floats, rational numbers that no float holds, or None."""
+        index = tuple(map(int, np.unravel_index(i, self.shape))) if self.shape else ()
+        return [element(x, index) for x in self._inputs]
 
     def _of_each(self, value: Callable[[Single], Any]) -> Any:
         """Return a value of each motion made by itself: plain for one motion, else an array."""
@@ -91,6 +98,42 @@ class Motion(Shown, Generic[Single]):
         values = np.array([value(self._single(i)) for i in range(prod(self.shape))])
         return values.reshape(self.shape + values.shape[1:])
 
+    def place(self, placement: Placement, arguments: Mapping[str, Any], made_by: str) -> Self:
+        """Put a motion that nobody has yet where it was asked for, by what made it; return the motion."""
+        self._placement, self.made_by, self.arguments = placement, made_by, arguments
+        return self
+
+    @property
+    def is_placed(self) -> bool:
+        """Whether axes or an attitude were given, as for `atlas.motion` and `in_laboratory`."""
+        return self._placement is not None
+
+    @property
+    def axes(self) -> FloatArray:
+        """Axes of the class as rows, in those of the body that were given; shape (..., 3, 3)."""
+        return np.eye(3) if self._placement is None else self._placement.sides[1]
+
+    @property
+    def given(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Inertia tensor, field in the laboratory, R(0) and Omega(0) of `atlas.motion`, as arrays in the given axes."""
+        p = self._placement
+        if p is None:
+            raise AtlasError(f"A {type(self).__name__} by its class has its parameters, and R(0) = 1.")
+        return p.tensor, p.field, p.attitude, p.omega
+
+    @cached_property
+    def own(self) -> Self:
+        """The same motion along the axes of its class, with R(0) = 1."""
+        if self._placement is None:
+            return self
+        own = type(self)(**self._placement.arguments)
+        own._made = self._made  # noqa: SLF001  of this class
+        return own
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let it be copied, and sent to another process, as the call that makes it."""
+        return super().__reduce__() if self._placement is None else (made, (self._placement.make, dict(self.arguments)))
+
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrix R(t), (84), (85), with the body's axes as columns; shape (..., 3, 3).
 
@@ -98,7 +141,8 @@ class Motion(Shown, Generic[Single]):
         Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of a `TopMotion` or an
         `EllipticMotion` within 3.6e-15, of an `AsymmetricMotion` within its own `accuracy`. Raises AtlasError beyond.
         """
-        return self._evaluate(lambda single, t, out: single.rotation(t, out), t, (3, 3), out)
+        R, p = self._evaluate(lambda single, t, out: single.rotation(t, out), t, (3, 3), out), self._placement
+        return R if p is None else p.started(p.matrices(R), p.attitude, 2, t)
 
     def column(self, j: int, t: Any) -> FloatArray:
         """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3).
@@ -106,7 +150,10 @@ class Motion(Shown, Generic[Single]):
         Raises AtlasError for another j, and for times as `rotation` does.
         """
         check_column(j)
-        return self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
+        p = self._placement
+        if p is None:
+            return self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
+        return np.ascontiguousarray(self.rotation(t)[..., j - 1])
 
     def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
         """Quaternion (x, y, z, w) of R(t), of length 1, its Cayley-Klein parameters; shape (..., 4).
@@ -116,11 +163,32 @@ class Motion(Shown, Generic[Single]):
         `rotation`. Raises AtlasError for times as that does.
         """
         quaternions = self._evaluate(lambda single, t, out: single.quaternion(t, out), t, (4,))
+        if self._placement is not None:
+            quaternions = self._placement.quaternions(quaternions)
         return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3)."""
         raise NotImplementedError
+
+    def _spun(self, Omega: FloatArray, t: Any) -> FloatArray:
+        """Return angular velocities along the axes of the class along those of the body, that at t = 0 as given."""
+        p = self._placement
+        return Omega if p is None else p.started(p.vectors(Omega), p.omega, 1, t)
+
+    def _in_body(self, v: FloatArray) -> FloatArray:
+        """Return vectors along the axes of the class along those of the body."""
+        return v if self._placement is None else self._placement.vectors(v)
+
+    def _along_class(self, v: FloatArray) -> FloatArray:
+        """Return vectors along the axes of the body along those of the class."""
+        return v if self._placement is None else self._placement.along_class(v)
+
+    def _momentum_of(self, factors: Callable[[FloatArray], FloatArray], t: Any, name: str = "m") -> FloatArray:
+        """Return R II Omega in the laboratory; `factors` gives II Omega along the axes of the class."""
+        Omega, p = self.angular_velocity(t), self._placement
+        momentum = factors(Omega) if p is None else np.matvec(p.tensor, Omega)
+        return np.asarray(finite(np.matvec(self.rotation(t), momentum), name))
 
     def angular_velocity_in_laboratory(self, t: Any) -> FloatArray:
         """Angular velocity R Omega in the laboratory; shape (..., 3). Raises AtlasError as `angular_velocity` does."""
@@ -133,9 +201,10 @@ class Motion(Shown, Generic[Single]):
         """Motion of this class with R(0) = `attitude`, in a field of any direction, as `atlas.motion` gives it.
 
         `body` as there, (I2, I3) for a top; `field` (..., 3), of a top its direction n, and `angular_velocity` are in
-        the laboratory; `parameters` are the coupling and the potential of a top, or the z and branch of an
-        `EllipticMotion`, which has no free angular velocity. Raises DomainError where the motion is not of this class,
-        AtlasError for what is no number.
+        the laboratory; `parameters` are the coupling and the potential of a top, or in the place of the angular
+        velocity the z and branch of an `EllipticMotion`, or the omega2 and omega3 of an `ElementaryMotion`, for which
+        e2 is where the field is at the start. Raises DomainError where the motion is not of this class, decided
+        exactly, AtlasError for what is no number.
         """
         chosen = import_module("atlas.core.motions.chosen")
         motion: Self = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
@@ -168,6 +237,22 @@ class Motion(Shown, Generic[Single]):
         from atlas.core.motions.sensitivity import of as derivatives
 
         return derivatives(self, t, names, of)
+
+    def input_error(self, t: Any) -> FloatArray:
+        """Bound on what rounding each input to a float can turn the body by until t, in radians, to first order.
+
+        It is the sum over the inputs of half an ulp of each times the length of its vector of `sensitivity`; the inputs
+        are those of `atlas.motion`, or of the class where the motion was made by that. Values of the motion itself are
+        those of the floats that were given, and have no such error: it says how far numbers that no float holds, as
+        0.1, are represented. It grows as t, on an unstable motion as an exponential of t. Raises as `sensitivity` does.
+
+            >>> unstable = atlas.motion(0.7, (-0.765, 1.02, 0.192), (0.88, -1.1735, 0.2746))
+            >>> bool(unstable.input_error(100.0) > 1e-12)
+            True
+        """
+        from atlas.core.motions.sensitivity import of_rounding
+
+        return of_rounding(self, t)
 
     def spectrum(self, of: str = "rotation", least: float = 1e-6) -> Any:
         """Lines of a function of time, the sum over all lines of amplitude exp(i frequency t): a `Spectrum`.
@@ -238,7 +323,7 @@ class Motion(Shown, Generic[Single]):
         out = target(out, (*self.shape, count, 3, 3))
         for i, matrices in enumerate(out.reshape(prod(self.shape), count, 3, 3)):
             self._fill_grid(self._single(i), start, step, matrices)
-        return out
+        return out if self._placement is None else self._placement.matrices(out, between=1)
 
     def _fill_grid(self, single: Single, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""

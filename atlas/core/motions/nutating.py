@@ -113,16 +113,16 @@ class NutatingMotion(Motion[Nutation]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(
-            finite(self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), "Omega")
-        )
+        Omega = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
+        return self._spun(np.asarray(finite(Omega, "Omega")), t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)), "K"))
+        K = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
+        return self._in_body(np.asarray(finite(K, "K")))
 
     def _scalar(self, name: str) -> Any:
         """Return a number for each motion, in an array NaN for a motion that has none."""

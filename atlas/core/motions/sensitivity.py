@@ -27,7 +27,8 @@ from atlas.core.motions.sensitivity_inputs import (
 )
 from atlas.core.quantities import TIME, bare
 from atlas.errors import AtlasError, DomainError
-from atlas.formulas.numbers import rational
+from atlas.formulas.numbers import nearest, rational
+from atlas.lazy import cached_property
 
 VECTORS = ("rotation", "angular_velocity", "field")
 """What varies with time."""
@@ -56,21 +57,33 @@ def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
             "A closed motion has p/q in the place of omega2: ask ElementaryMotion(ratio, field, omega2) for what "
             "depends on it."
         )
-    known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
-    each = range(int(np.prod(motion.shape)))
-    ones = (known.get(i) or known.setdefault(i, One(motion, i)) for i in each)
+    ones = _ones(motion)
     if of not in VECTORS:
         return np.array([single.scalar(names, of) for single in ones]).reshape(*motion.shape, len(names))
     times = real(bare(t, "The time", TIME), "The time")
     if not motion.shape:
-        (single,) = ones
-        return single.vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
+        return ones[0].vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
     full = common_shape(motion.shape, times.shape)
     out, times = np.empty((*full, len(names), 3)), np.broadcast_to(times, full)
-    own = np.broadcast_to(np.arange(len(each)).reshape(motion.shape), full)
+    own = np.broadcast_to(np.arange(len(ones)).reshape(motion.shape), full)
     for i, single in enumerate(ones):
         out[own == i] = single.vectors(times[own == i], names, of)
     return out
+
+
+def of_rounding(motion: Any, t: Any) -> FloatArray:
+    """Return the bound of `Motion.input_error`."""
+    probe = _ones(motion)
+    names = list(probe[0].rounded) if probe else []
+    v = of(motion, t, names, "rotation")
+    halves = np.array([[x.rounded[name] for name in names] for x in probe]).reshape(*motion.shape, len(names))
+    return np.asarray((np.sqrt((v * v).sum(-1)) * halves).sum(-1))
+
+
+def _ones(motion: Any) -> list["One"]:
+    """Return what is known of each motion of an array, kept with it."""
+    known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
+    return [known.get(i) or known.setdefault(i, One(motion, i)) for i in range(int(np.prod(motion.shape)))]
 
 
 class One:
@@ -78,57 +91,55 @@ class One:
 
     def __init__(self, motion: Any, i: int) -> None:
         self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same floor
-        family, turned = motion.family, hasattr(motion, "own")
-        self.sides = self.left, self.axes = self._sides(i) if turned else (np.eye(3), np.eye(3))
-        row = [np.broadcast_to(x, motion.shape).flat[i] for x in getattr(motion, "_inputs", ())]
+        family, placed = motion.family, motion.is_placed
+        self.sides = self.left, self.axes = self._sides(i)
+        row = motion._row(i)  # noqa: SLF001  of the same floor
         if family == "general":
             exact = self.one.exact
             self.inputs = of_general(exact.I, exact.field, exact.omega)
-            if not turned:
-                self.sides = self.left, _ = self.one.attitude, self.axes
-        elif turned and family in ("elementary", "free", "ball"):
+        elif placed and family in ("elementary", "free", "ball"):
             self.inputs = self._any_start(i, row)
         elif family == "asymmetric":
             self.inputs = of_asymmetric(self.one)
         elif family in ("top", "elliptic"):
-            self.inputs = of_top([float(x) for x in row]) if family == "top" else of_elliptic(self.one.exact)
+            self.inputs = of_top(row) if family == "top" else of_elliptic(self.one.exact)
         elif family == "elementary":
-            self.inputs = of_elementary(
-                self.one.case, [0.0 if x is None else float(x) for x in row], row[5] is not None
-            )
+            self.inputs = of_elementary(self.one.case, [0.0 if x is None else x for x in row], row[5] is not None)
         else:
-            self.inputs = (of_free if family == "free" else of_ball)([float(x) for x in row])
-        self.moved = self._moved(turned, i)
+            self.inputs = (of_free if family == "free" else of_ball)(row)
+        self.moved = self._moved(placed, i)
         self._known, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
 
     def _sides(self, i: int) -> tuple[FloatArray, FloatArray]:
-        """Return L and C of a motion in given axes."""
-        left, right = (np.eye(3) if x is None else x for x in self.motion._sides)  # noqa: SLF001
-        shape = (*self.motion.shape, 3, 3)
-        return tuple(np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in (left, right))
+        """Return L and C of the motion."""
+        placement, shape = self.motion._placement, (*self.motion.shape, 3, 3)  # noqa: SLF001
+        if placement is None:
+            return np.eye(3), np.eye(3)
+        left, right = (np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in placement.sides)
+        return left, right
 
     def _any_start(self, i: int, row: Sequence[Any]) -> Inputs:
         """Return the inputs of a motion in elementary functions among all of its body."""
         shape, is_ball = (*self.motion.shape, 3), self.motion.family == "ball"
-        R, w = self.motion._start  # noqa: SLF001
+        _, B, R, w = self.motion.given
         start = np.broadcast_to(R, (*shape, 3)).reshape(-1, 3, 3)[i]
         self.axes = np.eye(3) if is_ball else self.axes
         self.left = start @ self.axes.T
-        B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (self.motion._given_field, w))  # noqa: SLF001
-        ratio = fmpq(1) if is_ball else rational(float(row[1])) / rational(float(row[0]))
+        B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (B, w))
+        ratio = fmpq(1) if is_ball else rational(row[1]) / rational(row[0])
         K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
         return of_any_start(self.motion.family, ratio, K, omega)
 
-    def _moved(self, turned: bool, i: int) -> dict[str, Moved]:
+    def _moved(self, placed: bool, i: int) -> dict[str, Moved]:
         """Return how each name that a user may ask for moves the inputs."""
         own, L, C = self.inputs.names, self.left, self.axes
-        moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if turned else "K")}
-        if "K1" in own or (turned and "n2" in own):
+        moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if placed else "K")}
+        if "K1" in own or (placed and "n2" in own):
             K = [x for x, name in zip(self.inputs.values, own, strict=True) if name[0] in "Kn"]
             B = L @ floats([fmpq(0)] * (3 - len(K)) + K)
             across = np.eye(3)
             if "n2" in own:  # of a top only the direction matters, and along it nothing, not even rounding
-                given = np.broadcast_to(self.motion._given_field, (*self.motion.shape, 3)).reshape(-1, 3)[i]  # noqa: SLF001
+                given = np.broadcast_to(self.motion.given[1], (*self.motion.shape, 3)).reshape(-1, 3)[i]
                 u = given / abs(given).max()
                 across = np.cross(np.cross(u, across), u) / (u @ u)
             for j, e in enumerate(np.eye(3)):
@@ -137,10 +148,24 @@ class One:
                     moved[name] = self._of_field(change, turn)
         elif self.motion.family == "asymmetric":  # free
             moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
-        if turned and "omega1" in own:
+        if placed and "omega1" in own:
             moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
         # no derivative has to be made in what has no weight
         return {name: x._replace(weights={y: w for y, w in x.weights.items() if w != 0}) for name, x in moved.items()}
+
+    @cached_property
+    def rounded(self) -> dict[str, float]:
+        """Half an ulp of each input that a user gives, by its name; an attitude, which may be any, has none."""
+        values = {x: nearest(value) for x, value in zip(self.inputs.names, self.inputs.values, strict=True)}
+        if self.motion.is_placed:
+            shape = (*self.motion.shape, 3)
+            _, B, _, w = self.motion.given
+            for letter, x in (("B", B), ("omega", w)):
+                row = np.broadcast_to(x, shape).reshape(-1, 3)[self.place].tolist()
+                values |= {f"{letter}{j + 1}": x for j, x in enumerate(row)}
+        elif "K1" in self.inputs.names:
+            values |= {f"B{j}": values[f"K{j}"] for j in (1, 2, 3)}
+        return {name: float(np.spacing(abs(values[name]))) / 2 for name in self.moved if name in values}
 
     def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
         """Return what a change of the field in the axes of the class at t = 0 moves, and a turn of the body."""

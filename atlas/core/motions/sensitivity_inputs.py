@@ -26,7 +26,7 @@ from atlas.exact.nutation.differences import Differences
 from atlas.exact.nutation.nutating import Nutating
 from atlas.exact.nutation.variations import Constants, TooNearError, constants, variations
 from atlas.formulas import ball, elementary
-from atlas.formulas.numbers import direction, rational
+from atlas.formulas.numbers import direction, nearest, rational
 
 _NUMBERS = "period", "precession_per_period", "spin_per_period", "precession_rate", "spin_rate", "modulus", "nome"
 NUTATION: dict[str, Callable[[Any], Any]] = {name: attrgetter(name) for name in _NUMBERS}
@@ -145,9 +145,9 @@ def _units(names: Sequence[str]) -> dict[str, FloatArray]:
     return dict(zip(names, np.eye(3)[3 - len(names) :], strict=True))
 
 
-def of_top(row: Sequence[float]) -> Inputs:
+def of_top(row: Sequence[Any]) -> Inputs:
     """Return the inputs of a top."""
-    values = tuple(rational(float(x)) for x in row)
+    values, row = tuple(map(rational, row)), [nearest(rational(x)) for x in row]
     I2, I3, k2, k3, n2, n3, w1, w2, w3 = values[:9]
     pull, push = (rational(float(np.sqrt(abs(x / row[0])))) for x in row[9:])
     w, n = _size(k2 / I2, k3 / I3, w1, w2, w3, pull, push), _size(n2, n3)
@@ -256,35 +256,36 @@ def of_any_start(family: str, I: fmpq, K: Sequence[fmpq], omega: Sequence[fmpq])
     return replace(of_general(I, K, omega), scalars=scalars)
 
 
-def of_elementary(case: str, row: Sequence[float], omega3_is_input: bool) -> Inputs:
+def of_elementary(case: str, row: Sequence[Any], omega3_is_input: bool) -> Inputs:
     """Return the inputs of an elementary motion."""
-    I2, I3, B2, B3, w2, w3 = (rational(float(x)) for x in row)
+    I2, I3, B2, B3, w2, w3 = map(rational, row)
     size = _size(B2, B3, w2, w3)
-    case, J = "precession" if case == "at rest" else case, np.array([1.0, 1.0, row[1] / row[0]])
+    case, J = "precession" if case == "at rest" else case, np.array([1.0, 1.0, nearest(I3 / I2)])
     count = 5 if omega3_is_input else 4
     return Inputs(
         ("ratio", "B2", "B3", "omega2", "omega3")[:count],
         (I3 / I2, B2, B3, w2, w3)[:count], (I3 / I2, *[size] * 4)[:count],
         lambda *x: Turns(*elementary.turning(case, fmpq(1), *x, *[fmpq(0)] * (5 - count))),
-        TURNS, (J, J, 0.0, 0.0), np.array([0.0, row[2], row[3]]), _units(("B2", "B3")),
+        TURNS, (J, J, 0.0, 0.0), np.array([0.0, *floats([B2, B3])]), _units(("B2", "B3")),
     )  # fmt: skip
 
 
-def of_free(row: Sequence[float]) -> Inputs:
+def of_free(row: Sequence[Any]) -> Inputs:
     """Return the inputs of a free body."""
-    I2, I3, *omega = (rational(float(x)) for x in row)
-    J = np.array([1.0, 1.0, row[1] / row[0]])
+    I2, I3, *omega = map(rational, row)
+    J = np.array([1.0, 1.0, nearest(I3 / I2)])
     return Inputs(
         ("ratio", "omega1", "omega2", "omega3"), (I3 / I2, *omega), (I3 / I2, *[_size(*omega)] * 3),
         lambda ratio, *w: Turns(*elementary.free(fmpq(1), ratio, *w)), TURNS | FREE, (J, J, 0.0, 0.0), np.zeros(3), {},
     )  # fmt: skip
 
 
-def of_ball(row: Sequence[float]) -> Inputs:
+def of_ball(row: Sequence[Any]) -> Inputs:
     """Return the inputs of a ball, in its field along e3."""
-    inertia, larmor, *m = (rational(float(x)) for x in row)
+    inertia, larmor, *m = map(rational, row)
     size, J = _size(larmor, *(x / inertia for x in m)), np.ones(3)
     return Inputs(
         ("inertia", "larmor", "m2", "m3"), (inertia, larmor, *m), (inertia, size, size * inertia, size * inertia),
-        lambda *x: Turns(*ball.turning(*x)), BALL, (J, J, 0.0, 0.0), np.array([0.0, 0.0, row[1]]), _units(("larmor",)),
+        lambda *x: Turns(*ball.turning(*x)), BALL, (J, J, 0.0, 0.0), np.array([0.0, 0.0, nearest(larmor)]),
+        _units(("larmor",)),
     )  # fmt: skip

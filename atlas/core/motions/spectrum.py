@@ -200,7 +200,8 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
 def wheels_of(motion: Any) -> Wheels:
     """Return the turns of one motion. Raises DomainError where it has none."""
     single, e3 = motion._single(0), np.array([0.0, 0.0, 1.0])  # noqa: SLF001  of the same floor
-    L, C = (np.eye(3) if x is None else x for x in getattr(motion, "_sides", (None, None)))
+    placement = motion._placement  # noqa: SLF001
+    L, C = placement.sides if placement else (np.eye(3), np.eye(3))
     if motion.family == "asymmetric":
         closed = single.closed
         if isinstance(closed, ThetaKernel):
@@ -213,7 +214,7 @@ def wheels_of(motion: Any) -> Wheels:
             raise DomainError(f"The motion has no lines in closed form: it is {single.exact.kind}, {single.agreement}")
         return _of_nutation(motion, closed.exact, L, C)
     if isinstance(single, SingleMotion):
-        return _of_nutation(motion, single.exact, L @ single.rotation(0.0), C)
+        return _of_nutation(motion, single.exact, L, C)
     n = np.array([nearest(x) for x in single.axis])
     k, phi = (nearest(x) for x in single.frequencies)
     turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)

@@ -3,7 +3,6 @@
 from typing import Any, Self
 
 import numpy as np
-from flint import fmpq
 
 from atlas.core.arithmetic.double_double import over
 from atlas.core.bodies.body import SymmetricBody
@@ -11,7 +10,8 @@ from atlas.core.bodies.charge import ChargeMoments
 from atlas.core.bodies.laboratory import anisotropy
 from atlas.core.bodies.symmetric_top import along, inputs_of_top, moments_of_one
 from atlas.core.bodies.units import system
-from atlas.core.inputs import FloatArray, components, finite, kept, number, plain, positive
+from atlas.core.given import exact_number
+from atlas.core.inputs import FloatArray, as_given, components, finite, kept, number, plain, positive
 from atlas.core.motions.nutating import SymmetricMotion
 from atlas.core.nutation.blocks import TopBlocks
 from atlas.core.nutation.constants import FIRST
@@ -24,7 +24,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.top import TopMotion as Balls
 from atlas.exact.motions.top_steady import SteadyPrecession
-from atlas.formulas.numbers import nearest, workprec
+from atlas.formulas.numbers import as_rational, length, nearest, rational, workprec
 from atlas.formulas.top import constants, of_given
 
 
@@ -39,14 +39,6 @@ def _constants(*row: float) -> list[float]:
     with workprec():
         h, M3, p = map(nearest, balls(*row[:6], *row[8:], *row[6:8]).invariants)
     return [2 * h, M3, p]
-
-
-def _rounded(x: fmpq) -> float:
-    """Return a rational number as the nearest float. Raises DomainError where it is too large for one."""
-    try:
-        return int(x.p) / int(x.q)
-    except OverflowError as error:
-        raise DomainError("A moment or the weight of this top is too large for a float: choose other units.") from error
 
 
 class TopMotion(SymmetricMotion[SingleTop]):
@@ -90,12 +82,13 @@ class TopMotion(SymmetricMotion[SingleTop]):
     ) -> None:
         *top, a0, A0 = inputs_of_top(inertia, coupling, direction, linear, quadratic)
         parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE), a0, A0]
-        super().__init__(lambda *row: SingleTop(balls(*row), np.eye(3)), *parts)
+        super().__init__(lambda *row: SingleTop(balls(*row)), *parts)
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
         )
         names = ("inertia", "coupling", "direction", "omega", "linear", "quadratic")
-        self.arguments = {name: getattr(self, name) for name in names}
+        kept = (tuple(map(as_given, parts[i:j])) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9)))
+        self.arguments = dict(zip(names, (*kept, *map(as_given, parts[9:])), strict=True))
 
     @classmethod
     def heavy(
@@ -105,7 +98,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         `body` with its moments about the centre of mass, which lies at `length` along the axis from the fixed point;
         `gravity` g >= 0 and `mass`, in the units of the moments; `direction` (n2, n3) points up, against gravity. The
-        moment across the axis is I2 + m l^2, and linear = m g l; both are rounded once.
+        moment across the axis is I2 + m l^2, and linear = m g l, exactly.
         Raises AtlasError for what is no body or no number, DomainError for a mass that is not positive or a negative g.
         """
         I2, I3 = moments_of_one(body)
@@ -113,9 +106,9 @@ class TopMotion(SymmetricMotion[SingleTop]):
         g = number(gravity, "The gravity g", "m / s**2")
         if g < 0:
             raise DomainError(f"The gravity g must not be negative, but is {g}: turn the direction round instead.")
-        i2, m_, g_, l_ = (fmpq(*float(x).as_integer_ratio()) for x in (I2, m, g, l))
-        across, linear = i2 + m_ * l_ * l_, m_ * g_ * l_
-        return cls((_rounded(across), I3), (0.0, 0.0), direction, omega, linear=_rounded(linear))
+        i2, m_, g_, l_ = (rational(float(x)) for x in (I2, m, g, l))
+        across, linear = map(exact_number, (i2 + m_ * l_ * l_, m_ * g_ * l_))
+        return cls((across, I3), (0.0, 0.0), direction, omega, linear=linear)
 
     @classmethod
     def charged(
@@ -143,7 +136,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         `susceptibility` chi and factor N of `demagnetization` along its axis has V chi/(mu0 (1 + N chi)) along it, in
         SI, and adds its own. `weight` = (w2, w3), parallel to the field, is m g l along the upward vertical of a body
         held at a point, at the distance l from the centre of mass; its moments are then those about that point.
-        Products are rounded. Raises AtlasError for what is no body or no number, DomainError for B = 0, where there is
+        Products and |B| are not rounded, but for that of `volume`
+        and `susceptibility`. Raises AtlasError for what is no body or no number, DomainError for B = 0, where there is
         no direction: use `FreeMotion`; and for a weight that is not parallel to the field: two directions are no top.
         """
         I2, I3 = moments_of_one(body)
@@ -156,16 +150,19 @@ class TopMotion(SymmetricMotion[SingleTop]):
             raise AtlasError("A charged top takes B itself, in the units that are said, not a Field, which has B'.")
         parts = components(field, ("B2", "B3"), "The field", SI_FIELDS["B"] if c == 1 else "")
         B2, B3 = (number(x, "A component of the field") for x in parts)
-        size = float(np.hypot(B2, B3))
-        if not size:
+        if not (B2 or B3):
             raise DomainError("Without a field a charged top has no direction: it is a free body, FreeMotion.")
-        half, (a2, a3) = size / (2 * positive(c, "c")), components(polarizability, ("a2", "a3"), "The polarizability")
-        coupling = charges.J2 * half, charges.J3 * half
-        linear = along((B2, B3), weight) - number(moment, "The moment", "J/T") * size
+        with workprec():
+            size = as_rational(length(rational(B2), rational(B3)))
+        half = size / (2 * rational(positive(c, "c")))
+        induced = components(polarizability, ("a2", "a3"), "The polarizability")
+        a2, a3 = (rational(number(x, "A polarizability")) for x in induced)
         if susceptibility:
-            a3 = a3 + anisotropy(susceptibility, volume, demagnetization, c != 1)
-        quadratic = -(a3 - a2) * size * size
-        return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
+            a3 = a3 + rational(anisotropy(susceptibility, volume, demagnetization, c != 1))
+        linear = along((B2, B3), weight) - rational(number(moment, "The moment", "J/T")) * size
+        quadratic = (a2 - a3) * size * size
+        coupling = [exact_number(rational(float(J)) * half) for J in (charges.J2, charges.J3)]
+        return cls((I2, I3), coupling, (B2, B3), omega, linear=exact_number(linear), quadratic=exact_number(quadratic))
 
     @kept
     def stable(self) -> Any:
@@ -214,14 +211,15 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)), "b"))
+        b = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
+        return self._in_body(np.asarray(finite(b, "b")))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(t)), "M/I2"))
+        return self._momentum_of(lambda _: self._momentum(t), t, "M/I2")
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction.
@@ -234,7 +232,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
             inputs = *top, a0, A0, w1, w2, w3
             twice, M3, p = map(plain, over(of_given(constants), *inputs, degree=(1, 1, 1), alone=_constants))
             return {"h": finite(twice / 2, "h"), "M3": M3, "p": p}
-        Omega, b, M = self.angular_velocity(t), self.field_in_body(t), self._momentum(t)
+        Omega, b = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
+        M = self._momentum(t)
         (I2, I3), nu = self.inertia, b[..., 2]
         spinning = Omega[..., 0] ** 2 + Omega[..., 1] ** 2 + I3 / I2 * Omega[..., 2] ** 2
         h = spinning / 2 + (self.linear * nu + self.quadratic * nu * nu / 2) / I2
@@ -244,6 +243,6 @@ class TopMotion(SymmetricMotion[SingleTop]):
         """Return M/I2 in the body."""
         (I2, I3), (k2, k3) = self.inertia, self.coupling
         return np.asarray(
-            self.angular_velocity(t) * np.stack(np.broadcast_arrays(1.0, 1.0, I3 / I2), -1)
-            + self.field_in_body(t) * np.stack(np.broadcast_arrays(k2 / I2, k2 / I2, k3 / I2), -1)
+            self._along_class(self.angular_velocity(t)) * np.stack(np.broadcast_arrays(1.0, 1.0, I3 / I2), -1)
+            + self._along_class(self.field_in_body(t)) * np.stack(np.broadcast_arrays(k2 / I2, k2 / I2, k3 / I2), -1)
         )

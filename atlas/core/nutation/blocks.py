@@ -14,10 +14,11 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen, constant, stacked
 from atlas.core.arithmetic.turnings import PER_RADIAN
+from atlas.core.given import broadcast, ldexp, part
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import Means
 from atlas.core.nutation.pair import TERMS, Pair
-from atlas.core.nutation.roots import Roots, roots_of, roots_of_tops
+from atlas.core.nutation.roots import Roots, in_plane, roots_of, roots_of_tops
 from atlas.core.nutation.spheres import sphere_of_field
 from atlas.core.nutation.swing_rows import Swings, SwingSums, swing_sums
 from atlas.lazy import cached_property
@@ -50,6 +51,7 @@ class Constants(NamedTuple):
     tilt: FloatArray
     azimuth: FloatArray
     sizes: FloatArray
+    plane: FloatArray
     is_certain: Any
 
 
@@ -127,6 +129,7 @@ class Block:
             r.tilt,
             np.array(sphere.azimuth),
             np.ldexp(np.array(sphere.sizes), self.exponents if r.top is None else 0),
+            r.plane if r.plane is not None else np.stack([np.ones_like(r.b.hi), np.zeros_like(r.b.hi)]),
             known & r.exact & self.fine & ~r.free,
         )
 
@@ -138,7 +141,7 @@ def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, Floa
 
 
 class Blocks:
-    """Motions I2, I3, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
+    """Motions I2, I3, B1, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
 
     What is known of a single block is kept for whoever asks next; of many it would take too much memory.
     """
@@ -159,17 +162,18 @@ class Blocks:
 
     def each(self) -> Iterator[Block]:
         """Make the blocks."""
-        columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape) for x in self.inputs]
+        columns = [broadcast(x, self.shape) for x in self.inputs]
         for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
-            fine = _alike([abs(x.reshape(-1)[rows]) for x in columns[self._unit]])
+            fine = _alike([abs(np.asarray(x).reshape(-1)[rows]) for x in columns[self._unit]])
             power, ordinary = exponents or (0, True)
             yield self._block(rows, roots, power, fine & ordinary)
 
     @staticmethod
     def _roots(*inputs: DoubleDouble) -> Any:
         """Return the turning points and the rest."""
-        I2, I3, B2, B3, *omega = inputs
-        return roots_of(I2, I3, (B2, B3), omega)
+        I2, I3, *vectors = inputs
+        (B2, B3), omega, plane = in_plane(*vectors)
+        return roots_of(I2, I3, (B2, B3), omega, plane=plane)
 
 
 class TopBlocks(Blocks):
@@ -177,42 +181,41 @@ class TopBlocks(Blocks):
 
     def each(self) -> Iterator[Block]:
         """Make the blocks."""
-        columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape).reshape(-1) for x in self.inputs]
+        columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
-            rows_of_block = [x[start : start + BLOCK] for x in columns]
-            scaled, exponents = _scaled(rows_of_block)
+            given = [part(x, slice(start, start + BLOCK)) for x in columns]
+            rows_of_block = [np.asarray(x) for x in given]
+            powers, exponents = _powers(rows_of_block)
+            scaled = [x if power is None else ldexp(x, -power) for x, power in zip(given, powers, strict=True)]
             shape = scaled[0].shape
             for rows, _, extreme, (roots,) in blocks(roots_of_tops, scaled, shape, slice(0)):
-                I2, _, k2, k3, n2, n3, *omega, linear, quadratic = map(abs, scaled)
+                I2, _, k2, k3, n2, n3, *omega, linear, quadratic = (abs(np.asarray(x)) for x in scaled)
                 potential = np.sqrt(linear / I2), np.sqrt(quadratic / I2)
                 fine = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])
                 fine = fine if extreme is None else fine & extreme[1]
                 # a number that the scaling made zero is none
                 fine &= np.logical_and.reduce(
-                    [(x == 0) == (y == 0) for x, y in zip(rows_of_block, scaled, strict=True)]
+                    [(x == 0) == (np.asarray(y) == 0) for x, y in zip(rows_of_block, scaled, strict=True)]
                 )
                 yield Block(slice(start, start + rows.stop), roots, exponents, fine)
 
 
-def _scaled(columns: list[FloatArray]) -> tuple[list[FloatArray], Any]:
-    """Return tops whose moments, rates and n are of the order of one, and the exponents of the unit of their rates.
+def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
+    """Return powers of two over which moments, rates and n of tops are of the order of one, and those of their rates.
 
-    Those whose numbers are ordinary as they are stay so.
+    Tops whose numbers are ordinary as they are stay so; None where all are.
     """
     with np.errstate(all="ignore"):
-        I2, I3, k2, k3, n2, n3, *omega, linear, quadratic = columns
+        I2, _, k2, k3, n2, n3, *omega, linear, quadratic = columns
         plain = np.logical_and.reduce([(x == 0) | ((abs(x) > 1 / ORDINARY) & (abs(x) < ORDINARY)) for x in columns])
         if plain.all():
-            return columns, 0
+            return [None] * len(columns), 0
         body, length = _exponent(I2, plain), _exponent(np.maximum(abs(n2), abs(n3)), plain)
         couplings, potential = ([np.ldexp(x, -body) for x in pair] for pair in ((k2, k3), (linear, quadratic)))
         largest = np.max([*map(abs, (*omega, *couplings)), *(np.sqrt(abs(x)) for x in potential)], axis=0)
         rate = _exponent(largest, plain)
-        return [
-            *(np.ldexp(x, -body) for x in (I2, I3)), *(np.ldexp(x, -rate) for x in couplings),
-            *(np.ldexp(x, -length) for x in (n2, n3)), *(np.ldexp(x, -rate) for x in omega),
-            *(np.ldexp(x, -2 * rate) for x in potential),
-        ], rate  # fmt: skip
+        couplings, potential = [body + rate] * 2, [body + 2 * rate] * 2
+        return [body, body, *couplings, length, length, rate, rate, rate, *potential], rate
 
 
 def _exponent(x: FloatArray, plain: Any) -> Any:

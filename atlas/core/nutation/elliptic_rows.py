@@ -55,6 +55,7 @@ class EllipticRoots(Turning):
     frame: FloatArray
     elliptic: Any
     top: None = None
+    plane: None = None
 
     @property
     def width(self) -> DoubleDouble:

@@ -97,7 +97,8 @@ class Roots(Turning):
     """The turning points of motions, with what else their spheres take; `a` and `top` of tops alone.
 
     `moving`, `steady` are where theta is certain to vary, or not to; `b` is the length of (n2, n3), I c3 the momentum
-    M3 along the axis, M2 that along e2; `frame` is the rate k2/I2 of the frame about n.
+    M3 along the axis, M2 that along e2; `frame` is the rate k2/I2 of the frame about n; `plane` (2, m) are cosine and
+    sine of the turn about e3 that brought n into the plane of e2 and e3, None where there was none.
     """
 
     I: DoubleDouble
@@ -112,6 +113,7 @@ class Roots(Turning):
     A: DoubleDouble
     a: DoubleDouble | None
     top: "Top | None"
+    plane: FloatArray | None
     steady: Any
     moving: Any
 
@@ -163,6 +165,7 @@ def roots_of(
     omega: Sequence[DoubleDouble],
     couplings: tuple[DoubleDouble, DoubleDouble] = (ONE, ONE),
     top: Top | None = None,
+    plane: FloatArray | None = None,
 ) -> Roots:
     """Return the turning points and the rest of bodies in a field n = (B2, B3), or of tops in the direction n.
 
@@ -198,7 +201,22 @@ def roots_of(
     low, high, f = turning(q, poles)
     steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
     frame = across * b
-    return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, steady, moving)
+    return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, plane, steady, moving)
+
+
+def in_plane(
+    n1: DoubleDouble, n2: DoubleDouble, n3: DoubleDouble, *omega: DoubleDouble
+) -> tuple[tuple[DoubleDouble, DoubleDouble], Sequence[DoubleDouble], FloatArray | None]:
+    """Return a vector n and omega after the turn about e3 that brings n to n1 = 0, and cosine and sine of that."""
+    turns = n1.hi != 0
+    if not turns.any():
+        return (n2, n3), omega, None
+    w1, w2, w3 = omega
+    zero = constant(0.0, n1)
+    size = (n1 * n1 + n2 * n2).sqrt()
+    unit = chosen(turns, size, constant(1.0, n1))
+    c, s = chosen(turns, n2 / unit, constant(1.0, n1)), chosen(turns, n1 / unit, zero)
+    return (chosen(turns, size, n2), n3), (c * w1 - s * w2, s * w1 + c * w2, w3), np.array([c.hi, s.hi])
 
 
 def poles_of(along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> DoubleDouble:

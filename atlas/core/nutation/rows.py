@@ -102,18 +102,31 @@ class MotionsAtTimes:
         pair = self._pair(*self._rows.field)
         for j in range(3):
             pair.column(j + 1, out[:, :, j])
+        pair.turn_back(out)
+        pair.turn_back(np.swapaxes(out, -1, -2))
 
-    def column(self, j: int, _: FloatArray, out: FloatArray) -> None:
+    def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
         """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
-        self._pair(*self._rows.field).column(j, out)
+        pair = self._pair(*self._rows.field)
+        if pair.turns and j != len("123"):
+            R = np.empty((len(out), 3, 3))
+            self.rotation(t, R)
+            out[:] = R[:, :, j - 1]
+        else:
+            pair.column(j, out)
+            pair.turn_back(out)
 
     def quaternion(self, _: FloatArray, out: FloatArray) -> None:
         """Write quaternions (x, y, z, w) into (m, 4)."""
-        self._pair(*self._rows.field).quaternion(out)
+        pair = self._pair(*self._rows.field)
+        pair.quaternion(out)
+        pair.turn_back(out)
 
     def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
         """Write K into (m, 3)."""
-        self._pair(*self._rows.field).vector(out)
+        pair = self._pair(*self._rows.field)
+        pair.vector(out)
+        pair.turn_back(out)
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
         """Write Omega into (m, 3): its pair is that of (Omega2, Omega1, -sqrt(I) Omega3)."""
@@ -121,6 +134,7 @@ class MotionsAtTimes:
         pair, third = self._pair(constants), self._taken(third)
         pair.vector(out, first=1)
         out[:, 2] = pair.third(third)
+        pair.turn_back(out)
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * largest(out)))
 
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "Pairs":
@@ -204,6 +218,18 @@ class Pairs:
         C, S = np.where(cos < 0, (abs(shorter), np.copysign(longer, sin)), (longer, shorter)) / np.sqrt(self.square)
         (w, x), (z, y) = self.pair.real, self.pair.imag
         out[:] = np.stack([(C * x - S * w) * side, (C * y + S * z) * side, C * z - S * y, C * w + S * x], -1)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the field is not in the plane of e2 and e3 for all motions."""
+        return bool(self.constants.plane[1].any())
+
+    def turn_back(self, out: FloatArray) -> None:
+        """Turn vectors (m, ..., 3), or quaternions, into the axes in which the field was given."""
+        if self.turns:
+            x, y = out[..., 0].copy(), out[..., 1]
+            cos, sin = (z.reshape(-1, *[1] * (x.ndim - 1)) for z in self.constants.plane)
+            out[..., 0], out[..., 1] = cos * x + sin * y, cos * y - sin * x
 
     def vector(self, out: FloatArray, first: int = 0) -> None:
         """Write the vector into (m, 3), its first two components from the `first` on."""

@@ -9,10 +9,11 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from flint import arb
+from flint import arb, fmpq
 
 from atlas.core.arithmetic.quaternions import between
 from atlas.core.arithmetic.rotation import combined, evaluate
+from atlas.core.given import exact_number
 from atlas.core.inputs import FloatArray, largest, real
 from atlas.core.nutation.cayley_klein import Evaluation, entries
 from atlas.core.nutation.constants import FIRST, CayleyKlein
@@ -35,11 +36,11 @@ VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
 class SingleMotion:
     """One motion whose axis nutates: its constants in balls, and what turns times into matrices.
 
-    `exact` is the motion with R(0) = 1; `attitude` (3, 3) stands before its matrix.
+    `exact` is the motion with R(0) = 1.
     """
 
-    def __init__(self, exact: Nutating, attitude: FloatArray) -> None:
-        self.exact, self.attitude = exact, attitude
+    def __init__(self, exact: Nutating) -> None:
+        self.exact = exact
 
     @cached_property
     def parts(self) -> CayleyKlein:
@@ -72,7 +73,7 @@ class SingleMotion:
         """What stands before the matrix of (alpha, beta)."""
         cos, sin, _, _ = self._tilt
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
-        return np.asarray(self.attitude @ self.right.T @ tilt)
+        return np.asarray(self.right.T @ tilt)
 
     @cached_property
     def entries(self) -> FloatArray:
@@ -153,13 +154,9 @@ FEW = 16
 
 
 class SingleGeneral(SingleMotion):
-    """One general motion; `inputs` are I2, I3, B2, B3 and omega where the field is (0, B2, B3)."""
+    """One general motion."""
 
     exact: GeneralMotion
-
-    def __init__(self, exact: GeneralMotion, attitude: FloatArray, inputs: tuple[float, ...] | None = None) -> None:
-        super().__init__(exact, attitude)
-        self._inputs = inputs
 
     @cached_property
     def velocity(self) -> tuple[CayleyKlein, FloatArray, float, float]:
@@ -187,11 +184,13 @@ class SingleGeneral(SingleMotion):
     def _third(self, t: FloatArray) -> FloatArray:
         """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""
         out, left = np.empty((t.size, 3)), np.arange(t.size)
-        if self._inputs and t.size > FEW:
+        if t.size > FEW:
             from atlas.core.nutation.blocks import Blocks
             from atlas.core.nutation.rows import MotionsAtTimes, Rows
 
-            rows = Rows(Blocks(self._inputs, (1,)), MotionsAtTimes).at(np.zeros(t.size, dtype=int), t)
+            exact = self.exact
+            inputs = [exact_number(x) for x in (fmpq(1), exact.I, *exact.field, *exact.omega)]
+            rows = Rows(Blocks(inputs, (1,)), MotionsAtTimes).at(np.zeros(t.size, dtype=int), t)
             rows.angular_velocity(t, out)
             left = rows.extreme
         for i in left.tolist():

@@ -23,7 +23,7 @@ class SingleElliptic(SingleMotion):
     exact: EllipticMotion
 
     def __init__(self, exact: EllipticMotion) -> None:
-        super().__init__(exact, np.eye(3))
+        super().__init__(exact)
 
     @cached_property
     def right(self) -> FloatArray:

@@ -1,0 +1,133 @@
+"""Exact numbers that no double holds: fractions, and products or components along other axes of what was given."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from atlas.errors import DomainError
+
+Index = tuple[int, ...]
+
+
+class Given:
+    """Exact numbers, each also in two words: the nearest double `hi`, and `lo`, what it leaves, within `rel` of both.
+
+    NumPy takes an object of this class for the array of its nearest doubles; kernels for arrays take both words, and
+    what is made of one motion the rational number itself.
+
+    Parameters
+    ----------
+    hi, lo : ndarray
+        The two words, of one shape.
+    rel : float or ndarray
+        Bound on the relative error of hi + lo.
+    exact : callable
+        Takes an index of the shape and returns the rational number there.
+    """
+
+    __slots__ = ("_exact", "hi", "lo", "rel", "shape")
+
+    def __init__(self, hi: Any, lo: Any, rel: Any, exact: Callable[[Index], fmpq]) -> None:
+        self.hi, self.lo, self.rel, self._exact = np.asarray(hi), np.asarray(lo), rel, exact
+        self.shape: tuple[int, ...] = self.hi.shape
+
+    @property
+    def ndim(self) -> int:
+        """Number of axes, as of an array."""
+        return len(self.shape)
+
+    def at(self, index: Index) -> fmpq:
+        """Return the exact number at an index of an array to which this one broadcasts."""
+        return self._exact(_own(self.shape, index))
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        del copy
+        return np.array(self.hi, dtype=dtype)
+
+    def __float__(self) -> float:
+        return float(self.hi)
+
+    def as_integer_ratio(self) -> tuple[int, int]:
+        """Return one number as a fraction, as a float does."""
+        x = self.at(())
+        return int(x.p), int(x.q)
+
+    def __repr__(self) -> str:
+        return f"<exact numbers {self.shape}>" if self.shape else repr(Fraction(*self.as_integer_ratio()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let one number be copied as the fraction that it is."""
+        return exact_number, (Fraction(*self.as_integer_ratio()),)
+
+
+def _own(shape: tuple[int, ...], index: Index) -> Index:
+    """Return the index in an array of this shape of what broadcasts to an index."""
+    return tuple(0 if n == 1 else i for n, i in zip(shape, index[len(index) - len(shape) :], strict=True))
+
+
+def exact_number(x: Any) -> Any:
+    """Return a Fraction or a rational number of flint as the float that it is or, if it is none, as a `Given`."""
+    x = fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x
+    try:
+        head = int(x.p) / int(x.q)
+    except OverflowError as error:
+        raise DomainError("A number that was given is too large for a float: choose other units.") from error
+    rest = x - fmpq(*head.as_integer_ratio())
+    if rest == 0:
+        return head + 0.0
+    return Given(head, int(rest.p) / int(rest.q), 2.0**-104, lambda _: x)
+
+
+def as_float_or_fraction(x: fmpq) -> float | Fraction:
+    """Return a rational number as the float that it is, else as a Fraction."""
+    found = exact_number(x)
+    return Fraction(*found.as_integer_ratio()) if isinstance(found, Given) else float(found)
+
+
+def element(x: Any, index: Index) -> Any:
+    """Return what an input is at an index of all motions: a float, a rational number, or None."""
+    if isinstance(x, Given):
+        return x.at(index)
+    x = np.asarray(x)
+    value = x[_own(x.shape, index)] if x.ndim else x[()]
+    return value if value is None or isinstance(value, fmpq) else float(value)
+
+
+def broadcast(x: Any, shape: Index) -> Any:
+    """Return an input as an array, or as exact numbers, of a shape."""
+    if not isinstance(x, Given):
+        return np.broadcast_to(np.asarray(x, dtype=float), shape)
+    hi, lo, rel = (np.broadcast_to(y, shape) for y in (x.hi, x.lo, x.rel))
+    return Given(hi, lo, rel, x.at)
+
+
+def part(x: Any, rows: Any) -> Any:
+    """Return some of the numbers of an array in one row, by a slice or by their places."""
+    if not isinstance(x, Given):
+        return x.reshape(-1)[rows]
+    places, shape = np.arange(x.hi.size)[rows], x.shape
+
+    def at(index: Index) -> fmpq:
+        return x.at(tuple(map(int, np.unravel_index(places[index], shape))))
+
+    hi, lo, rel = (y.reshape(-1)[rows] for y in (x.hi, x.lo, np.broadcast_to(x.rel, shape)))
+    return Given(hi, lo, rel, at)
+
+
+def low_word(x: Any) -> Any:
+    """Return what the nearest doubles of an input leave."""
+    return x.lo if isinstance(x, Given) else 0.0
+
+
+def ldexp(x: Any, power: Any) -> Any:
+    """Return numbers times powers of two; of exact ones only their words."""
+    if not isinstance(x, Given):
+        return np.ldexp(x, power)
+    return Given(np.ldexp(x.hi, power), np.ldexp(x.lo, power), x.rel, _words_only)
+
+
+def _words_only(index: Index) -> fmpq:
+    raise NotImplementedError(f"Only the words of these numbers are kept, not those at {index}.")
