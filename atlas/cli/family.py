@@ -186,7 +186,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
         def floats() -> dict[str, Any]:
             motion = _kernel(family, options)
             lines = _recorded(_spectrum(motion, options))
-            return named | _answers(family, motion, times, sampled) | lines
+            return named | _answers(family, motion, times, sampled) | lines | _input_error(family, motion, times)
 
         @cache
         def near() -> list[Any]:
@@ -213,12 +213,13 @@ def _command_of(family: Family, described: Described) -> click.Command:
             return
         first, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
         texts = answer(options, parameters, floats, partial(balls, first, family), spare)
-        _warn_of_rounding(family, lambda: _kernel(family, options), options, times)
         if texts is not None:
             texts["samples"] = chain(
                 texts.get("samples", []), _later(balls, family, times[len(first) :], options, spare)
             )
-            show(_printout(family, described, texts, options, certificate(options), _in_hertz(family, texts, options)))
+            says, rounding = _in_hertz(family, texts, options), _of_rounding(family, options, times)
+            printout = _printout(family, described, texts, options, certificate(options), says)
+            show(replace(printout, notes=chain(printout.notes, rounding)))
             _show_lines(family, options)
 
     texts = {"help": described.help, "epilog": examples(*described.examples)}
@@ -408,12 +409,11 @@ def _in_doubles(
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     record = {"family": family.name} | _answers(family, motion, times, sampled)
-    _warn_of_rounding(family, lambda: motion, options, times)
     record |= _recorded(_spectrum(motion, options))
     if options["as_json"]:
         known = body_of(motion.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
-        dump({"parameters": parameters, **principal, **record})
+        dump({"parameters": parameters, **principal, **record, **_input_error(family, motion, times)})
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
@@ -422,22 +422,31 @@ def _in_doubles(
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
             printout = replace(printout, notes=chain([says], printout.notes))
+        printout = replace(printout, notes=chain(printout.notes, _of_rounding(family, options, times, motion)))
         show(printout)
         _show_lines(family, options, motion)
 
 
-def _warn_of_rounding(
-    family: Family, motion: Callable[[], Any], options: dict[str, Any], times: Sequence[float]
-) -> None:
-    """Say on the error stream at which time rounding of the inputs to floats matters, where this is known at once."""
-    if not times or options["digits"] is not None or options["decimal"] or family.name not in SENSITIVE:
-        return
-    farthest = max(map(float, times), key=abs)
+def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
+    """Return what rounding of the inputs to floats can turn the body by until the farthest time, where it is much."""
+    if not times or family.name not in SENSITIVE:
+        return {}
     with suppress(AtlasError):  # where there are no derivatives there is no bound
-        error = float(motion().input_error(farthest))
-        if error > ROUNDING:
-            click.echo(f"atlas: rounding the inputs to floats turns the body by up to {error:.1g} rad at "
-                       f"t = {farthest:g}; --digits 15 --decimal takes them as typed", err=True)  # fmt: skip
+        error = float(motion.input_error(max(map(float, times), key=abs)))
+        return {"input_error": error} if error > ROUNDING else {}
+    return {}
+
+
+def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
+    """Yield the sentence under a table that says what rounding of the inputs does, where they are rounded."""
+    if options["digits"] is not None or options["decimal"] or family.name not in SENSITIVE:
+        return
+    for error in _input_error(family, motion or _kernel(family, options), times).values():
+        farthest = max(map(float, times), key=abs)
+        yield (
+            f"Rounding the inputs to floats turns the body by up to {error:.1g} rad at t = {farthest:g}; --digits with "
+            "--decimal takes them as typed."
+        )
 
 
 def _kernel(family: Family, options: dict[str, Any]) -> Any:

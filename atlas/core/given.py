@@ -81,7 +81,7 @@ def exact_number(x: Any) -> Any:
     return Given(head, int(rest.p) / int(rest.q), 2.0**-104, lambda _: x)
 
 
-def as_float_or_fraction(x: fmpq) -> float | Fraction:
+def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
     """Return a rational number as the float that it is, else as a Fraction."""
     found = exact_number(x)
     return Fraction(*found.as_integer_ratio()) if isinstance(found, Given) else float(found)

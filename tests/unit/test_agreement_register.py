@@ -126,6 +126,20 @@ UNTIED = {
             ("trace", "the curve of third_axis, in test_notebook"),
         )
     },
+    **{
+        f"{kind}Motion.{name}": reason
+        for kind in ("Elementary", "Free", "General", "Top", "Elliptic", "Asymmetric", "Ball")
+        for name, reason in (
+            ("axes", AXES),
+            ("given", GIVEN),
+            ("is_placed", NAME),
+            ("own", "the motion itself: test_exact_start"),
+            ("input_error", "a bound, held against moved inputs in test_exact_start"),
+        )
+    },
+    "FreeMotion.field_in_body": "zero",
+    "Field.exact": "Field.prime, which is tied, without rounding: test_exact_start",
+    "Field.exact_pair": "Field.prime, which is tied, without rounding: test_exact_start",
     "AsymmetricMotion.curve": "compared with proven digits, in test_torus",
     "Flight.rotation": "the matrix of its motion in other axes: compared with it in test_flight",
     "Quadric.of_top": "compared with the paper's quadric and with Taylor series of a top, in test_top_quadric",

@@ -203,11 +203,12 @@ def test_the_error_of_rounded_inputs_bounds_what_an_ulp_changes() -> None:
             other = atlas.motion(RATIO, *state).rotation(t)
             moved += Rotation.from_matrix(other @ R.T).magnitude()
     assert 1e-12 < moved <= 1.01 * bound <= 4 * moved
-    said = CliRunner().invoke(command, [
+    words = [
         "motion", "--ratio", repr(RATIO), "--field", *map(repr, FIELD), "--omega", *map(repr, OMEGA), "--times", "30",
-    ])  # fmt: skip
-    assert "rounding the inputs" in said.stderr
-    assert len(said.stderr.splitlines()) == 1
+    ]  # fmt: skip
+    said = [CliRunner().invoke(command, [*words, *more]).stdout for more in ([], ["--json"])]
+    assert said[0].count("Rounding the inputs to floats turns the body by up to 2e-09 rad at t = 30;") == 1
+    assert json.loads(said[1])["input_error"] == bound
 
 
 def test_the_series_give_a_ball_its_two_turns() -> None:

@@ -6,7 +6,6 @@ from fractions import Fraction
 from typing import Any, Self
 
 import numpy as np
-from flint import fmpq
 
 from atlas.core.arithmetic.words import exact
 from atlas.core.bodies import units as unit_systems
@@ -55,7 +54,7 @@ class Field:
         object.__setattr__(self, "B", vector(B, "B", unit["B"]))
         object.__setattr__(self, "E", vector(E, "E", unit["E"]))
         object.__setattr__(self, "mu", number(mu, "mu", unit["mu"]))
-        prime = unit_systems.prime(mu if isinstance(mu, Fraction | fmpq) else self.mu, self.B, self.c)
+        prime = unit_systems.prime(mu if isinstance(mu, Fraction) else self.mu, self.B, self.c)
         object.__setattr__(self, "exact", tuple(as_float_or_fraction(x) for x in prime))
         object.__setattr__(self, "prime", frozen(np.array([float(x) for x in self.exact]).view(Prime)))
 

@@ -28,7 +28,7 @@ from atlas.core.given import exact_number
 from atlas.core.inputs import FloatArray, finite, number, plain, positive, real
 from atlas.core.quantities import CHARGE, MASS, NO_FIELDS, SI_FIELDS
 from atlas.errors import AtlasError, DomainError
-from atlas.formulas.numbers import nearest, rational
+from atlas.formulas.numbers import nearest
 
 SPEED_OF_LIGHT = 299_792_458.0
 """m/s, exact."""
@@ -96,14 +96,14 @@ def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:
     return 2 * larmor_field(mu, B, units)
 
 
-def prime(mu: Any, B: FloatArray, c: float) -> list[fmpq]:
+def prime(mu: Any, B: FloatArray, c: float) -> list[Fraction]:
     """Components of the vector B' = mu B/(2c), (32), of numbers already checked, exactly.
 
     Raises DomainError for one that is too large or too small for a float.
     """
-    mu = fmpq(mu.numerator, mu.denominator) if isinstance(mu, Fraction) else rational(mu)
-    components = [mu * rational(b) / (2 * rational(c)) for b in B.ravel().tolist()]
-    rounded = np.array([nearest(x) for x in components])
+    factor = Fraction(mu) / (2 * Fraction(c))
+    components = [factor * Fraction(b) for b in B.ravel().tolist()]
+    rounded = np.array([nearest(fmpq(x.numerator, x.denominator)) for x in components])
     finite(rounded, "B' = mu B/(2c)")
     if mu != 0 and ((rounded == 0) != (B.ravel() == 0)).any():
         raise DomainError("B' = mu B/(2c) is too small for a float: choose a larger unit of time.")

@@ -130,7 +130,8 @@ def _placed(
     before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (left, axes))
     B, R, omega = frozen((_joined_columns(state.B), state.R, state.omega))
     placement = Placement(before, after, frozen(tensor), B, R, omega, make, dict(own.arguments))
-    return own.place(placement, {name: _copied(value) for name, value in arguments.items()}, made_by)
+    kept = {name: _copied(value) for name, value in arguments.items()}
+    return own._place(placement, kept, made_by)  # noqa: SLF001  nobody else has the motion yet
 
 
 def _copied(value: Any) -> Any:
@@ -291,7 +292,7 @@ def attitude_of(attitude: Any) -> FloatArray:
         return np.eye(3)
     R = real(attitude.as_matrix() if hasattr(attitude, "as_matrix") else attitude, "The attitude")
     if R.shape[-2:] != (3, 3):
-        raise AtlasError(f"The attitude must be a rotation matrix (3, 3), not of the shape {R.shape}.")
+        raise AtlasError(f"The attitude must be a rotation matrix (3, 3), not of shape {R.shape}.")
     off = abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(initial=0.0)
     if off > ORTHOGONAL or (np.linalg.det(R) < 0).any():
         raise DomainError("The attitude must be a rotation matrix: R^T R = 1 to 1e-9, and det R = 1.")

@@ -14,10 +14,10 @@ from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ZERO, exact, floats
 from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.given import broadcast, low_word, part
-from atlas.core.inputs import FloatArray, as_given, common_shape, components, kept, numbers, plain, turn_time
+from atlas.core.inputs import FloatArray, as_given, common_shape, components, kept, numbers, plain, real, turn_time
 from atlas.core.motions.integrals import integrals, shape_factors
 from atlas.core.motions.motion import DoubleTurn
-from atlas.core.quantities import RATE, TIME, bare
+from atlas.core.quantities import RATE, TIME
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.domain import CASES, FREE, case_of, check_omega3
 from atlas.formulas.elementary import conserved, constants, free, quotient, scalars, turning
@@ -324,8 +324,8 @@ class FreeMotion(DoubleTurn[Free]):
         return self._spun(Omega, t)
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = 0 in the body; shape (..., 3)."""
-        return np.zeros((*common_shape(self.shape, np.shape(bare(t, "The time", TIME))), 3))
+        """Field K(t) = 0 in the body; shape (..., 3). Raises AtlasError for a time that is no finite number."""
+        return np.zeros((*common_shape(self.shape, real(t, "The time", TIME).shape), 3))
 
     def _groups(self) -> list[Group]:
         return [(free, slice(None), self._inputs)]

@@ -98,7 +98,7 @@ class Motion(Shown, Generic[Single]):
         values = np.array([value(self._single(i)) for i in range(prod(self.shape))])
         return values.reshape(self.shape + values.shape[1:])
 
-    def place(self, placement: Placement, arguments: Mapping[str, Any], made_by: str) -> Self:
+    def _place(self, placement: Placement, arguments: Mapping[str, Any], made_by: str) -> Self:
         """Put a motion that nobody has yet where it was asked for, by what made it; return the motion."""
         self._placement, self.made_by, self.arguments = placement, made_by, arguments
         return self
@@ -244,7 +244,8 @@ class Motion(Shown, Generic[Single]):
         It is the sum over the inputs of half an ulp of each times the length of its vector of `sensitivity`; the inputs
         are those of `atlas.motion`, or of the class where the motion was made by that. Values of the motion itself are
         those of the floats that were given, and have no such error: it says how far numbers that no float holds, as
-        0.1, are represented. It grows as t, on an unstable motion as an exponential of t. Raises as `sensitivity` does.
+        0.1, are represented. It grows as t, on an unstable motion as an exponential of t. Raises AtlasError
+        and DomainError as `sensitivity` does.
 
             >>> unstable = atlas.motion(0.7, (-0.765, 1.02, 0.192), (0.88, -1.1735, 0.2746))
             >>> bool(unstable.input_error(100.0) > 1e-12)
