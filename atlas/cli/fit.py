@@ -65,7 +65,7 @@ def command(file: Path, **options: Any) -> int:
     else:
         click.echo("\n".join([f"{file.name}: {result.report()}", *lines]))
     picture(result, options["figure"], silent=options["as_json"])
-    return 1 if result.doubts else 0
+    return 1 if result.warnings else 0
 
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
@@ -77,15 +77,15 @@ def fitted(file: Path, options: dict[str, Any]) -> Any:
 
 def arguments(options: dict[str, Any]) -> dict[str, Any]:
     """Return the arguments of `fit_file` that the options stand for. Raises click.UsageError for a name given twice."""
-    params = dict[str, Any]()
-    for option, vary in (("fix", False), ("start", True)):
+    given: dict[str, dict[str, float]] = {"fix": {}, "start": {}}
+    for option, values in given.items():
         for name, value in map(_pair, options[option]):
-            if name in params:
+            if name in given["fix"] or name in values:
                 raise click.UsageError(f"{name} is given twice: it is fixed by --fix or sought by --start, once.")
-            params[name] = {"value": value, "vary": vary}
+            values[name] = value
     sigma = None if options["sigma"] is None else float(options["sigma"])
     same = {name: options[name] for name in ("family", "kind", "loss")}
-    return {**same, "sigma": sigma, "epoch": float(options["epoch"]), "params": params}
+    return {**same, "sigma": sigma, "epoch": float(options["epoch"]), "fix": given["fix"], "params": given["start"]}
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:

@@ -76,17 +76,18 @@ def of_fit(file: Path, **options: Any) -> int:
 
     typed = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
     called, given = _called(options), dict(arguments(options))
-    found = fitted(file, options).params.values()
-    given["params"] = {p.name: {"value": float(p.value), "vary": bool(p.vary)} for p in found if not p.expr}
+    found = {name: p for name, p in fitted(file, options).parameters.items() if not p.expr}
+    given["fix"] = {name: p.value for name, p in found.items() if not p.vary}
+    given["params"] = {name: p.value for name, p in found.items() if p.vary}
     result = fit_file(file, **given)  # as the recipe of the page's picture finds it
     wanted = Fitted(
         result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
         given, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"] or "", called,
     )  # fmt: skip
     status = make(wanted, options["out"], options["jobs"])
-    for doubt in result.doubts:
-        click.echo(f"atlas: {doubt}", err=True)
-    return status or (1 if result.doubts else 0)
+    for warning in result.warnings:
+        click.echo(f"atlas: {warning}", err=True)
+    return status or (1 if result.warnings else 0)
 
 
 def motion_of(made: Any) -> Any:

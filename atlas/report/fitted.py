@@ -95,7 +95,7 @@ class Fitted:
             self._parameters(),
             {"kind": "figure", "recipe": f"./{self.name}.py", "id": "data"},
             *self._correlations(),
-            *([] if self.fit.doubts else [self._horizons()]),
+            *([] if self.fit.warnings else [self._horizons()]),
             *([_prose("What was asked of the time to come:", "", "```", *self.ahead, "```")] if self.ahead else []),
             *self._motion(left_out, there),
             _prose(
@@ -119,18 +119,18 @@ class Fitted:
     def _verdict(self) -> str:
         """Say how good the fit is, what it does not tell, and what speaks against it."""
         fit = self.fit
-        expected = f"where 1 ± {(2 / fit.result.nfree) ** 0.5:.2g} is expected"
+        expected = f"where 1 ± {(2 / fit.nfree) ** 0.5:.2g} is expected"
         lines = [
             f"The reduced chi square is {fit.redchi:.4g}, {expected}. The standard error of a measurement was given, "
             f"{fit.noise}."
             if fit.known
             else f"The standard error of a measurement, which makes the reduced chi square 1, is {fit.noise}."
         ]
-        lines += [] if fit.doubts else ["Nothing in the residuals speaks against this motion."]
+        lines += [] if fit.warnings else ["Nothing in the residuals speaks against this motion."]
         for head, sentences in (
-            ("What speaks against this motion:", fit.doubts),
+            ("What speaks against this motion:", fit.warnings),
             ("What the data do not determine:", fit.undetermined),
-            ("Other minima:", fit.others),
+            ("Alternatives:", fit.others),
         ):
             lines += ["", head, "", *(f"- {_marked(sentence)}" for sentence in sentences)] if sentences else []
         return "\n".join(lines)
@@ -156,7 +156,7 @@ class Fitted:
         """Yield the table of strong correlations, or the sentence that there are none."""
         pairs = {
             frozenset((name, other)): size
-            for name, p in self.fit.params.items()
+            for name, p in self.fit.parameters.items()
             for other, size in (p.correl or {}).items()
             if abs(size) >= STRONG
         }

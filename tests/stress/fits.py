@@ -166,7 +166,7 @@ def outcome(kind: str, seed: int, i: int) -> Outcome:
     # in the false minimum next to the true one, a parameter is off by far more than its error; of a motion that hardly
     # nutates it may be that none is determined, and the fit says so
     if fit.redchi > 1.5 or any(off > 8 * error + 1e-9 for off, error in told):
-        return Outcome(0, 0, seconds, f"{i}: chi square {fit.redchi:.3g}{', doubted' if fit.doubts else ''}")
+        return Outcome(0, 0, seconds, f"{i}: chi square {fit.redchi:.3g}{', doubted' if fit.warnings else ''}")
     return Outcome(len(told), sum(off < error for off, error in told), seconds, "")
 
 

@@ -1,6 +1,10 @@
 """From made-up measurements, integrated by SciPy, back to the body and the field."""
 
 import json
+import pickle
+from concurrent.futures import ProcessPoolExecutor
+from copy import copy, deepcopy
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +20,9 @@ from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.errors import AtlasError
 from atlas.study.fit.data import Data, _inverse_right, of_arrays, of_file
-from atlas.study.fit.models import MODELS, model_of, within
-from atlas.study.fit.problem import LIMITS, Problem
+from atlas.study.fit.models import MODELS, model_of
+from atlas.study.fit.parameters import Parameter, Parameters, parameters_of
+from atlas.study.fit.problem import Problem
 from atlas.study.fit.result import Fit
 
 RATIO, FIELD, OMEGA = 1.3, (0.2, -0.4, 1.1), (1.2, 0.3, 0.7)
@@ -56,7 +61,7 @@ def test_ratio_and_field_are_found_without_a_start(kind: str) -> None:
         assert abs(found.params[name].value - truth) < 5 * found.params[name].stderr, name
     assert found.params["b"].stderr < 0.02
     assert abs(found.redchi - 1) < 0.3
-    assert not found.doubts
+    assert not found.warnings
 
 
 def test_all_ten_parameters_of_attitudes(attitudes: Any) -> None:
@@ -87,16 +92,14 @@ def test_a_prediction_keeps_to_its_band(attitudes: Any) -> None:
 @pytest.mark.parametrize("kind", ["rotation", "axis", "angular_velocity", "field_in_body", "signal"])
 def test_slopes_are_those_of_the_residuals(kind: str, family: str) -> None:
     """By central differences, of residuals that are small, as they are where least squares end."""
-    import lmfit
-
     t = np.linspace(0.1, 5, 9)
     values = {"ratio": RATIO} | dict(
         zip([f"{x}{i}" for x in ("B", "omega", "a") for i in "123"], [*FIELD, *OMEGA, 0.3, -0.2, 0.4], strict=True)
     )
     if family == "elementary":
         values = {name: value for name, value in values.items() if "omega" not in name} | {"omega2": 0.7}
-    params = lmfit.create_params(**values)
     model = model_of(family)
+    params = Parameters({name: Parameter(value) for name, value in values.items()})
     motion = model.make(values)
     function = lambda R: R[:, 0, 1] ** 2 + R[:, 2, 2]  # noqa: E731
     data = Data(kind, t, np.zeros((9, 1)), np.ones((9, 1)), function)
@@ -145,7 +148,9 @@ def test_noise_is_found_and_outliers_do_not_carry_it_off() -> None:
     robust = atlas.fit(t, rotation=R, loss="soft_l1")
     assert abs(robust.sigma / NOISE - 1) < 0.3
     assert abs(robust.params["ratio"].value - RATIO) < 5 * robust.params["ratio"].stderr < 0.05
-    told = [[words for words in fit.doubts if "soft_l1" in words] for fit in (found, robust, atlas.fit(t, rotation=R))]
+    told = [
+        [words for words in fit.warnings if "soft_l1" in words] for fit in (found, robust, atlas.fit(t, rotation=R))
+    ]
     assert [len(words) for words in told] == [0, 0, 1]
 
 
@@ -155,7 +160,7 @@ def test_one_outlier_of_few_attitudes_is_told() -> None:
     turns = rng.normal(0, 1e-3, (18, 3))
     turns[9, 0] += 0.03
     R = atlas.FreeMotion(1.5, (0.3, 0.7, 0.2)).rotation(t) @ Rotation.from_rotvec(turns).as_matrix()
-    assert any("soft_l1" in words for words in atlas.fit(t, "free", rotation=R).doubts)
+    assert any("soft_l1" in words for words in atlas.fit(t, "free", rotation=R).warnings)
 
 
 def test_rounding_errors_determine_nothing() -> None:
@@ -174,7 +179,7 @@ def test_drag_is_told() -> None:
     slowed = t - 0.02 * t * t / (2 * t[-1])
     steps = atlas.simulate(RATIO, FIELD, OMEGA, slowed, rtol=1e-11)
     found = atlas.fit(t, rotation=steps.R, sigma=1e-4, family="general")
-    assert any("chi square" in words for words in found.doubts)
+    assert any("chi square" in words for words in found.warnings)
     assert "drag" in str(found)
 
 
@@ -183,7 +188,7 @@ def test_a_wider_family_is_named() -> None:
     t, _ = measured("rotation", 60, 15.0)
     R = atlas.AsymmetricMotion((0.8, 1.0, 1.3), FIELD, OMEGA).rotation(t)
     found = atlas.fit(t, rotation=R, sigma=1e-3)
-    assert any("asymmetric" in words for words in found.doubts)
+    assert any("asymmetric" in words for words in found.warnings)
     assert not atlas.fit(t, "asymmetric", rotation=R, sigma=1e-3).undetermined
 
 
@@ -210,7 +215,7 @@ def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
     sigma = 0.3 * float(true.std(0).max())
     found = atlas.fit(t, angular_velocity=true + rng.normal(0, sigma, true.shape), sigma=sigma)
     assert abs(found.redchi - 1) < 0.2
-    assert not found.doubts
+    assert not found.warnings
 
 
 def test_bounds_and_expressions_are_kept() -> None:
@@ -240,6 +245,185 @@ def test_a_fit_is_shown(attitudes: Any) -> None:
     assert json.loads(json.dumps(attitudes.record()))["params"]["ratio"]["stderr"] > 0
 
 
+def quotient(R: Any) -> Any:
+    """Return a signal of one number."""
+    return R[:, 0, 0] / (2 + R[:, 1, 2])
+
+
+def fitted_signal(start: Any) -> Any:
+    """Return a fit that another process can make."""
+    t = np.linspace(0, 10, 60)
+    motion = atlas.GeneralMotion.in_laboratory(RATIO, FIELD, np.eye(3), OMEGA)
+    return atlas.fit(t, signal=(quotient(motion.rotation(t)), quotient), sigma=NOISE, params=start)
+
+
+def test_a_process_returns_a_fit(attitudes: Any) -> None:
+    """With its parameters, its motion and its predictions, all equal; and so do copies and pickles."""
+    start = {"ratio": RATIO, **{f"B{i}": x for i, x in enumerate(FIELD, 1)}}
+    start |= {f"omega{i}": x for i, x in enumerate(OMEGA, 1)} | {"a1": 0.0, "a2": 0.0, "a3": 0.0}
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        there = pool.submit(fitted_signal, start).result()
+    others = [(attitudes, f(attitudes)) for f in (copy, deepcopy, lambda fit: pickle.loads(pickle.dumps(fit)))]  # noqa: S301  our own
+    for here, other in [(fitted_signal(start), there), *others]:
+        assert other.record() == here.record()
+        assert {name: p.stderr for name, p in other.params.items()} == {n: p.stderr for n, p in here.params.items()}
+        for first, second in zip(here.predict([1.0, 20.0]), other.predict([1.0, 20.0]), strict=True):
+            assert np.array_equal(first, second)
+    assert others[0][1].conf_interval(p_names=["ratio"], sigmas=[1])
+
+
+def test_former_names_say_the_new_ones(attitudes: Any) -> None:
+    """And a name that a fit never had is only said to be none."""
+    for old, new in {"doubts": "warnings", "rivals": "alternatives"}.items():
+        with pytest.raises(AttributeError, match=f"{old}.*{new}"):
+            getattr(attitudes, old)
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = attitudes.nothing
+
+
+def test_a_fit_is_one_line_in_a_list(attitudes: Any) -> None:
+    """As `repr` shows it."""
+    assert len(repr([attitudes])) < 160
+    assert "\n" not in repr(attitudes)
+
+
+def test_what_is_known_is_fixed_by_name() -> None:
+    """As `--fix` does it; where `params` has the name too, it is refused."""
+    t, R = measured("rotation", 60, 10.0)
+    found = atlas.fit(t, rotation=R, sigma=NOISE, fix={"ratio": RATIO}, params={"B1": 0.1})
+    assert "ratio" not in found.names
+    assert found.params["ratio"].value == RATIO
+    for fix, says in [
+        ({"ratio": 3.0}, "ratio must be in"),
+        ({"B1": 0.1}, "B1 is in both"),
+        ({"k9": 1.0}, "have no 'k9'"),
+    ]:
+        with pytest.raises(AtlasError, match=says):
+            atlas.fit(t, rotation=R, fix=fix, params={"B1": 0.1})
+
+
+def diagonal(R: Any) -> Any:
+    """Return the signals R11, R22, R33."""
+    return R[:, [0, 1, 2], [0, 1, 2]]
+
+
+def squares(R: Any) -> Any:
+    """Return squares, which no reversal of an axis changes, and which order the axes of the laboratory."""
+    return np.column_stack([R[:, 0, 0] ** 2, R[:, 1, 2] ** 2 + R[:, 0, 1], R[:, 2, 2] ** 2])
+
+
+def exchanged(R: Any) -> Any:
+    """Return what does not tell the axes 1 and 2 of the laboratory from each other, nor the direction of the third."""
+    return np.column_stack([R[:, 0, 2] + R[:, 1, 2], R[:, 0, 2] * R[:, 1, 2], R[:, 2, 0] ** 2 - R[:, 2, 1]])
+
+
+def four(R: Any) -> Any:
+    """Return entries of R that change their signs together for no pair of reversals."""
+    return R[:, [0, 1, 2, 2], [0, 2, 0, 2]]
+
+
+def of_start(family: str, signal: Any, truth: dict[str, float], noise: float = 1e-3) -> tuple[Any, Any]:
+    """Return a fit of a noisy signal from the true values, and the times."""
+    t = np.linspace(0, 20, 200)
+    values = signal(model_of(family).make(truth).rotation(t))
+    noisy = values + np.random.default_rng(0).normal(0, noise, values.shape)
+    free = {name: x for name, x in truth.items() if name not in model_of(family).fixed}
+    return atlas.fit(t, family, signal=(noisy, signal), sigma=noise, params=free), t
+
+
+TRUTH = {
+    "ratio": 1.4, "B1": 0.4, "B2": -0.9, "B3": 1.2, "omega1": 0.5, "omega2": 0.3, "omega3": -1.1, "a1": 0.1, "a2": -0.2,
+    "a3": 0.3,
+}  # fmt: skip
+OF_THREE = {name: x for name, x in TRUTH.items() if name != "ratio"} | {"I1": 0.8, "I3": 1.4}
+OF_TOP = {n: x for n, x in TRUTH.items() if n[0] in "oa"} | {
+    "I3": 0.7, "k2": 0.3, "k3": 0.4, "linear": 1.5, "quadratic": 0.6, "n1": 0.0, "n2": 0.0, "n3": 1.0,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("family", "signal", "truth", "count"),
+    [
+        ("general", diagonal, TRUTH, 3),
+        ("general", squares, TRUTH, None),
+        ("general", exchanged, TRUTH, None),
+        ("general", quotient, TRUTH, 3),
+        ("general", four, TRUTH, 0),
+        ("asymmetric", diagonal, OF_THREE, 3),
+        ("top", squares, OF_TOP, None),
+    ],
+)
+def test_solutions_that_are_equal_by_symmetry_are_listed(family: str, signal: Any, truth: Any, count: Any) -> None:
+    """Each gives the same data, made by itself, at other values; R11, R22, R33 have four solutions."""
+    found, t = of_start(family, signal, truth)
+    equal = [other for other in found.alternatives if other.equal]
+    assert (len(equal) == count) if count is not None else equal
+    assert any("by symmetry" in words for words in found.warnings) == bool(equal)
+    own = signal(found.motion.rotation(t))
+    solutions = [found.record()["params"][name]["value"] for name in model_of(family).names]
+    solutions = [solutions, *([other.values[name] for name in model_of(family).names] for other in equal)]
+    for i, other in enumerate(equal):
+        assert signal(model_of(family).make(other.values).rotation(t)) == pytest.approx(own, abs=1e-9)
+        assert min(np.abs(np.subtract(solutions[i + 1], x)).max() for x in solutions[: i + 1]) > 1e-3
+
+
+def test_a_signal_found_without_a_start_has_the_truth_among_its_solutions() -> None:
+    """Where the fit has another one, that of the truth is listed."""
+    motion, t = atlas.motion(1.4, (0.4, -0.9, 1.2), (0.5, 0.3, -1.1)), np.linspace(0, 20, 200)
+    values = diagonal(motion.rotation(t)) + np.random.default_rng(0).normal(0, 1e-3, (200, 3))
+    found = atlas.fit(t, signal=(values, diagonal), sigma=1e-3)
+    solutions = [found.record()["params"]] + [other.values for other in found.alternatives if other.equal]
+    fields = [[p["value"] if isinstance(p, dict) else p for p in map(x.get, ("B1", "B2", "B3"))] for x in solutions]
+    assert min(np.abs(np.subtract(field, (0.4, -0.9, 1.2))).max() for field in fields) < 1e-3
+
+
+def test_bounds_choose_one_of_equal_solutions() -> None:
+    """With the signs of two components known there is one only."""
+    t = np.linspace(0, 20, 200)
+    values = diagonal(model_of("general").make(TRUTH).rotation(t))
+    noisy = values + np.random.default_rng(0).normal(0, 1e-3, values.shape)
+    known = TRUTH | {"B2": {"value": -0.9, "max": 0.0}, "B3": {"value": 1.2, "min": 0.0}}
+    found = atlas.fit(t, signal=(noisy, diagonal), sigma=1e-3, params=known)
+    assert not [other for other in found.alternatives if other.equal]
+    assert not found.warnings
+
+
+def test_other_kinds_of_data_have_their_equal_solutions() -> None:
+    """The axis of three moments does not tell a half turn about it; attitudes and the axis of a symmetric body do."""
+    t, rng = np.linspace(0, 15, 100), np.random.default_rng(1)
+    for family, truth in (("general", TRUTH), ("asymmetric", OF_THREE)):
+        R = Rotation.from_rotvec(rng.normal(0, 1e-3, (100, 3))).as_matrix() @ model_of(family).make(truth).rotation(t)
+        for kind, values in (("rotation", R), ("axis", R[:, :, 2])):
+            start = {name: x for name, x in truth.items() if (family, kind, name) != ("general", "axis", "a3")}
+            found = atlas.fit(t, family, **{kind: values}, sigma=1e-3, params=start)
+            equal = [other for other in found.alternatives if other.equal]
+            assert bool(equal) == ((family, kind) == ("asymmetric", "axis"))
+            for other in equal:
+                axes = model_of(family).make(other.values).rotation(t)[:, :, 2]
+                assert axes == pytest.approx(found.motion.rotation(t)[:, :, 2], abs=1e-9)
+
+
+def test_a_dipole_that_biases_the_field_is_named() -> None:
+    """Unseen in a second the family top fits as well, with other values; where it is seen, that is a warning."""
+    t, b = np.linspace(0, 1, 300), float(np.linalg.norm((0.3, 0.5, 1.1)))
+    noise = Rotation.from_rotvec(np.random.default_rng(1).normal(0, 1e-3, (300, 3))).as_matrix()
+    told = []
+    for dipole in (0.02, 0.1):
+        top = atlas.TopMotion.in_laboratory(
+            (1.0, 1.3), np.array((0.3, 0.5, 1.1)) / b, np.eye(3), OMEGA, coupling=(b, 1.3 * b), linear=dipole
+        )
+        found = atlas.fit(t, rotation=noise @ top.rotation(t), sigma=1e-3)
+        other = next(other for other in found.alternatives if other.family == "top")
+        off = [
+            abs(other.values[n] - found.params[n].value) / found.params[n].stderr for n in ("ratio", "B1", "B2", "B3")
+        ]
+        assert max(off) > 5
+        assert abs(other.redchi - 1) < 0.2
+        assert "wider family top" in found.report()
+        told.append(any("wider family top" in words for words in found.warnings))
+    assert told == [False, True]
+
+
 def written(path: Path, count: int = 80) -> Path:
     """Write attitudes into a file."""
     t, R = measured("rotation", count, 15.0)
@@ -263,6 +447,20 @@ def test_the_command_fits_a_file(tmp_path: Path) -> None:
     assert found["horizon"] > 15
     assert (tmp_path / "mine.svg").stat().st_size > 1000
     assert found["sigma"] == NOISE
+
+
+def test_the_command_ends_with_one_where_solutions_are_equal(tmp_path: Path) -> None:
+    """Of a file with R11, R22, R33, from a start so that none is sought."""
+    t = np.linspace(0, 20, 200)
+    values = diagonal(model_of("general").make(TRUTH).rotation(t))
+    noisy = values + np.random.default_rng(0).normal(0, 1e-3, values.shape)
+    np.savetxt(tmp_path / "s.csv", np.column_stack([t, noisy]), delimiter=",", header="t,R11,R22,R33", comments="")
+    start = [f"{name}={x}" for name, x in TRUTH.items()]
+    words = ["fit", str(tmp_path / "s.csv"), "--sigma", "1e-3", "--start", *start, "--json"]
+    result = CliRunner().invoke(command, words, standalone_mode=False)
+    record = json.loads(result.stdout)
+    assert result.return_value == 1
+    assert sum(other["equal"] for other in record["alternatives"]) == 3
 
 
 def test_the_command_knows_the_families() -> None:
@@ -347,7 +545,7 @@ def test_a_signal_of_few_numbers_is_enough(seen: Any) -> None:
     found = atlas.fit(t, signal=(values + rng.normal(0, NOISE, values.shape), seen), sigma=NOISE)
     assert abs(found.redchi - 1) < 0.4
     assert abs(found.params["ratio"].value - RATIO) < 5 * found.params["ratio"].stderr < 0.1
-    assert not found.doubts
+    assert [words for words in found.warnings if "by symmetry" not in words] == []
 
 
 def test_a_free_body_is_not_taken_for_one_of_those_in_a_field_that_turn_alike() -> None:
@@ -423,16 +621,13 @@ def test_standard_errors_are_those_of_many_measurements(loss: str) -> None:
 
     Of 40 measurements of small noise; the mean of so many squares of normal numbers scatters by a fourteenth.
     """
-    import lmfit
-
     noise = 1e-4
     values = {"ratio": RATIO} | dict(
         zip([f"{x}{i}" for x in ("B", "omega", "a") for i in "123"], [*FIELD, *OMEGA, 0.3, -0.2, 0.4], strict=True)
     )
     model, t = model_of("general"), np.linspace(0, 20, 80)
     R, truth = model.make(values).rotation(t), np.array([*values.values()])
-    params = lmfit.create_params(**values)
-    params.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
+    params, _ = parameters_of(model, Data("rotation", t, R, np.ones((80, 1))), {})
     squares = []
     for seed in range(40):
         rng = np.random.default_rng(seed)
@@ -440,7 +635,7 @@ def test_standard_errors_are_those_of_many_measurements(loss: str) -> None:
         if loss != "linear":
             turns[:4] = rng.normal(size=(4, 3))
         data = Data("rotation", t, Rotation.from_rotvec(turns).as_matrix() @ R, np.full((80, 1), noise))
-        problem = Problem(model, data, params.copy(), loss, 2.0)
+        problem = Problem(model, data, params, loss, 2.0)
         found = Fit.of(problem, [(problem.chi_square(truth), truth)], 0.0)
         off = np.array([found.params[name].value for name in found.names]) - truth
         squares.append(off @ np.linalg.solve(found.covariance, off))
@@ -495,15 +690,24 @@ def test_a_held_value_is_within_its_own_bounds() -> None:
     """Also where lmfit has moved it already; what is sought may begin anywhere, and what is tied follows."""
     import lmfit
 
-    held = {"value": 1.8, "max": 1.5, "vary": False}
-    for params in (lmfit.create_params(ratio=held), lmfit.create_params(B1={"value": -3.0, "min": -2, "vary": False})):
-        with pytest.raises(AtlasError, match="must be in"):
-            within(params, LIMITS)
-    within(lmfit.create_params(ratio=2.5, I3={"value": 2.0, "vary": False}, B1={"min": 1}, B2={"expr": "2*B1"}), LIMITS)
-    tied = lmfit.Parameters()
-    tied.add_many(lmfit.Parameter("B2", expr="2*B1"))
-    within(tied, LIMITS)
-    within(lmfit.create_params(ratio={"value": 2.0, "max": 2.0, "vary": False}), LIMITS)
+    attitudes = Data("rotation", np.arange(9.0), np.tile(np.eye(3), (9, 1, 1)), np.ones((9, 1)))
+
+    def taken(**params: Any) -> Any:
+        plain = parameters_of(model_of("general"), attitudes, params)
+        assert plain[1] == parameters_of(model_of("general"), attitudes, lmfit.create_params(**params))[1]
+        return plain
+
+    for params in (
+        {"ratio": {"value": 1.8, "max": 1.5, "vary": False}},
+        {"B1": {"value": -3, "min": -2, "vary": False}},
+    ):
+        for given in (params, lmfit.create_params(**params)):
+            with pytest.raises(AtlasError, match="must be in"):
+                parameters_of(model_of("general"), attitudes, given)
+    free, start = taken(ratio=2.5, B1={"min": 1.0}, B2={"expr": "2*B1"})
+    assert start == {"ratio": 2.5}
+    assert free.values_with({"B1": 3.0})["B2"] == 6.0
+    assert taken(ratio={"value": 2.0, "max": 2.0, "vary": False})[0]["ratio"].value == 2.0
 
 
 def test_no_prediction_is_better_than_all_are(attitudes: Any, tmp_path: Path) -> None:
@@ -544,4 +748,4 @@ def test_few_axes_of_unknown_noise_are_followed_by_the_least_squares() -> None:
     found = atlas.fit(t, axis=n)
     for name, truth in zip(("B1", "B2", "B3"), B, strict=True):
         assert abs(found.params[name].value - truth) < 4 * found.params[name].stderr
-    assert found.rivals
+    assert found.alternatives

@@ -98,8 +98,7 @@ CASES = [
     ),
     Case(
         "fit turns.csv --sigma 0.01",
-        "flint lmfit msgspec numpy scipy matplotlib pandas multiprocessing",  # lmfit itself loads the last three
-        slow=True,
+        "flint msgspec numpy scipy",
     ),
     Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
     Case(

@@ -1,6 +1,6 @@
 """From a measurement to the body and the field: `fit`."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,8 @@ from atlas.study.fit.data import of_arrays, of_file
 from atlas.study.fit.free import freely
 from atlas.study.fit.models import model_of
 from atlas.study.fit.nutation import of_ratio_one, settled
-from atlas.study.fit.problem import Problem, lag, parameters
+from atlas.study.fit.parameters import parameters_of
+from atlas.study.fit.problem import Problem, lag
 from atlas.study.fit.result import FOLLOWED, Fit
 from atlas.study.fit.search import grown, rate_of, tries
 
@@ -48,41 +49,88 @@ def fit(
     field_in_body: Any = None,
     signal: tuple[Any, Callable[..., Any]] | None = None,
     params: Any = None,
+    fix: Mapping[str, float] | None = None,
     loss: str = "linear",
     epoch: float = 0.0,
     scalar_first: bool = False,
 ) -> Fit:
-    """Find the body, the field and the motion from what was measured at the times `t` (N,), in any order.
+    """Find the body, the field and the motion from measurements at the times `t`.
 
-    One of: `rotation` (N, 3, 3), or `quaternion` (N, 4) as SciPy has it, of attitudes R; `axis` (N, 3), the third axis
-    in the laboratory; `angular_velocity` (N, 3) and `field_in_body` (N, 3), along the axes of the body (of a top the
-    direction n in the body); `signal` = (values, function), numbers (N,) or (N, m) that ``function`` makes of R
-    (N, 3, 3). `sigma` is the standard error of each component, one or (N,): of attitudes and axes an angle in radians.
-    Without it the scatter about the motion tells it.
+    Parameters
+    ----------
+    t : array_like, shape (N,)
+        Times, in any order, at least 5. Their unit is the unit of time of every result.
+    family : {"general", "elementary", "ball", "free", "top", "elliptic", "asymmetric"}
+        Family of motions: "general" is any motion of a symmetric body in a field, "asymmetric" that of a body with
+        three moments, "top" a symmetric top with a dipole and a coupling to the field.
+    sigma : float or array_like, shape (N,), optional
+        Standard error of each measured component; of rotations, quaternions and axes an angle in radians. Without
+        `sigma` the scatter about the motion gives the standard error.
+    rotation : array_like, shape (N, 3, 3)
+        Matrices R(t) that take the body to the laboratory. Give exactly one of `rotation` to `signal`.
+    quaternion : array_like, shape (N, 4)
+        The same as unit quaternions, scalar last as SciPy has them.
+    axis : array_like, shape (N, 3)
+        The body's third axis R e3, along the axes of the laboratory.
+    angular_velocity : array_like, shape (N, 3)
+        Omega along the axes of the body, in rad/time.
+    field_in_body : array_like, shape (N, 3)
+        The field B' along the axes of the body, in 1/time; of tops the unit vector of its direction.
+    signal : (values, function)
+        Numbers (N,) or (N, m), and the function that makes them of rotations (M, 3, 3) for any M.
+    params : mapping or lmfit.Parameters, optional
+        Start values, bounds or expressions of parameters by name: a number, or a mapping with "value", "vary", "min",
+        "max", "expr" as `lmfit.create_params` takes it.
+    fix : mapping of str to float, optional
+        Parameters that are known, with their values: ``fix={"ratio": 1.5}``.
+    loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
+        Loss of `scipy.optimize.least_squares`; all but "linear" bear outliers.
+    epoch : float
+        Time at which the parameters hold.
+    scalar_first : bool
+        Whether the scalar is the first component of a quaternion.
 
-    `family` is "general" (any motion of a symmetric body in a field), "elementary", "ball", "free", "top", "elliptic"
-    or "asymmetric". Parameters, at the time `epoch`, are `ratio` I3/I2 or I1, I3 in units of I2; `B1` to `B3`, the
-    field B' in the laboratory, and its length `b`; `omega1` to `omega3` in the body, of elementary motions `omega2`
-    along the field's part across the axis; the rotation vector `a1` to `a3` of the attitude R; of tops I3, k2, k3,
-    linear, quadratic and the direction n1 to n3, which stands unless it is freed; of elliptic motions z. Where
-    attitudes are not seen, a is 0: the field is along the axes that the body has then; of an axis the angle about it is
-    not seen, and a3 is 0. No start is needed. `params` are `lmfit.Parameters`, or what `lmfit.create_params` takes,
-    with values, bounds, expressions or ``vary=False`` for some of them: ``{"ratio": {"value": 1.5, "vary": False}}``.
+    Returns
+    -------
+    Fit
+        Parameters with errors, the motion, predictions, and sentences on what the data leave open; see `Fit`.
 
-    Motions are sought from random starts, always the same ones, on short arcs of the data, which grow. A signal of one
-    number may tell several motions apart by little: `doubts` says where none was found that follows the data, `rivals`
-    holds the other minima, and `params` take values to start from, as the ratio of a body that hardly nutates. Bodies
-    with three moments are integrated while they are sought; `motion` and predictions are in closed form.
+    Raises
+    ------
+    AtlasError
+        For data of a wrong shape, an entry that is not finite, a matrix that is no rotation, an unknown parameter, a
+        value outside its bounds, fewer numbers than parameters, or where no motion of the family is found.
 
-    `loss` "soft_l1", "huber", "cauchy" or "arctan" keeps outliers from carrying the fit off. Raises AtlasError for data
-    of another shape, what is no number, no rotation or no parameter, fewer numbers than parameters, and where no motion
-    is found at all.
+    Notes
+    -----
+    Parameters, at the time `epoch`:
 
-        >>> t = [i / 10 for i in range(100)]
-        >>> motion = atlas.motion(1.3, (0.2, 0.4, 1.9), (0.5, 0.3, 1.7))
-        >>> found = atlas.fit(t, rotation=motion.rotation(t), sigma=1e-3)
-        >>> round(found.params["ratio"].value, 6)
-        1.3
+    ==================  ==========================================================================================
+    ratio               I3/I2, in (0, 2]; of families with three moments, and tops, I1 and I3 in units of I2
+    B1, B2, B3, b       the field B' in the laboratory and its length, in 1/time
+    omega1 to omega3    angular velocity along the axes of the body, in rad/time
+    omega2              of elementary motions alone: its component along the part of the field across the axis
+    a1, a2, a3          rotation vector of R, in radians
+    k2, k3              of tops: coupling to the field over I2, in 1/time
+    linear, quadratic   of tops: parts of the potential over I2, in 1/time^2
+    n1, n2, n3          of tops: direction of the field, held at (0, 0, 1) unless freed by ``vary=True``
+    z, branch           of elliptic motions: see `EllipticMotion`
+    ==================  ==========================================================================================
+
+    Where attitudes are not measured, a is held at 0 and the field is along the axes that the body has at `epoch`. Where
+    the axis alone is measured, a3 is held at 0.
+
+    No start is needed: motions are sought from reproducible random starts on short arcs of the data, which grow. Data
+    that hardly change, or a signal of one number, may have several minima: see `Fit.warnings` and `Fit.alternatives`,
+    and give start values by `params`. Standard errors are of first order; no digit of a fit is certified.
+
+    Examples
+    --------
+    >>> t = [i / 10 for i in range(100)]
+    >>> motion = atlas.motion(1.3, (0.2, 0.4, 1.9), (0.5, 0.3, 1.7))
+    >>> found = atlas.fit(t, rotation=motion.rotation(t), sigma=1e-3)
+    >>> round(found.params["ratio"].value, 6)
+    1.3
     """
     model = model_of(family)
     measured = {
@@ -94,15 +142,15 @@ def fit(
         raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
     if loss != "linear" and not data.known:
         data = replace(data, sigma=data.sigma * GUESS * data.spread)
-    named, given_values = parameters(model, data, params)
-    problem = Problem(model, data, named, loss, rate_of(data), given_values)
+    free, given_values = parameters_of(model, data, params, fix)
+    problem = Problem(model, data, free, loss, rate_of(data), given_values)
     numbers = data.t.size * problem.width
     if numbers <= len(problem.names):
         raise AtlasError(f"{numbers} numbers do not determine {len(problem.names)} parameters: measure more times.")
     tried = _tried(problem)
     if loss != "linear" and not data.known:  # a robust loss needs the noise: once by a guess, once as it was found
         noise = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
-        problem = Problem(model, replace(data, sigma=data.sigma * noise), named, loss, problem.rate, given_values)
+        problem = Problem(model, replace(data, sigma=data.sigma * noise), free, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
     steady = doubt = ""
     if model.name == "general":

@@ -46,6 +46,18 @@ NEAR = 0.5
 
 
 @dataclass(frozen=True)
+class Entries:
+    """Signal of some entries of R; a class, so that a fit of a file can be pickled."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+    def __call__(self, R: FloatArray) -> FloatArray:
+        """Return the entries (N, k) of rotations (N, 3, 3)."""
+        return R[:, self.rows, self.columns]
+
+
+@dataclass(frozen=True)
 class Data:
     """Data of one kind at times (N,), sorted, with their standard errors (N, 1)."""
 
@@ -244,9 +256,8 @@ def of_file(path: Path, kind: str | None) -> tuple[FloatArray, dict[str, Any], f
         )
     kind = kind or there[0]
     if kind == "signal":
-        places = [(int(name[1]) - 1, int(name[2]) - 1) for name in entries]
-        rows, cols = zip(*places, strict=True)
-        signal = np.column_stack([x[name] for name in entries]), lambda R: R[:, list(rows), list(cols)]
+        rows, columns_of_R = zip(*((int(name[1]) - 1, int(name[2]) - 1) for name in entries), strict=True)
+        signal = np.column_stack([x[name] for name in entries]), Entries(rows, columns_of_R)
         return x["t"], {"signal": signal}, known[0] if known else None
     values = np.column_stack([x[name] for name in columns[kind]])
     values = values.reshape(-1, 3, 3) if kind == "rotation" else values

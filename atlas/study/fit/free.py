@@ -35,9 +35,7 @@ def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple
     """
     if not set(B) <= set(problem.names):
         return tried, ""
-    params = problem.params.copy()
-    for name in B:
-        params[name].set(value=0.0, vary=False)
+    params = problem.params.changed(**{name: {"value": 0.0, "vary": False} for name in B})
     free = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
     best, x = tried[0]
     try:

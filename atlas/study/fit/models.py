@@ -223,23 +223,6 @@ def model_of(family: Any) -> Model:
     return MODELS[family]
 
 
-def within(params: Any, limits: Mapping[str, tuple[float, float]]) -> None:
-    """Raise AtlasError for a value of lmfit's that is nan, or is held outside its bounds and the limits of its name.
-
-    Where lmfit moved a value to a bound, what was given is its `init_value`. A lower limit is none of the values.
-    """
-    for name, p in params.items():
-        if p.expr is not None:
-            continue  # of others, which may not be there yet
-        least, most = limits.get(name, (-np.inf, np.inf))
-        low, high = max(p.min, least), min(p.max, most)
-        value = p.init_value if p.value in (p.min, p.max) and p.init_value is not None else p.value
-        if np.isnan(value) or not (p.vary or (np.isfinite(value) and least < value and low <= value <= high)):
-            span = f"{'(' if low == least else '['}{low:g}, {high:g}{']' if np.isfinite(high) else ')'}"
-            bounds = "" if np.isneginf(low) and np.isposinf(high) else f" in {span} and"
-            raise AtlasError(f"{name} must be{bounds} finite, not {value:g}.")
-
-
 def field_of(model: Model, p: Values) -> FloatArray:
     """Return what `field_in_body` shows of a motion, in the laboratory."""
     return direction_of(p) if model.name == "top" else vector(p, B)

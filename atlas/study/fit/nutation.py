@@ -19,7 +19,8 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.study.fit.least import SCORE
 from atlas.study.fit.models import ATTITUDE, OMEGA, B, Values, attitude, in_plane, model_of, state, upright, vector
-from atlas.study.fit.problem import Problem, parameters
+from atlas.study.fit.parameters import parameters_of
+from atlas.study.fit.problem import Problem
 from atlas.study.fit.search import grown
 
 HEIGHT = 1.0
@@ -113,8 +114,7 @@ def of_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple
         return tried
     chi, other = best, x
     for r in np.geomspace(values["ratio"], 1.0, 2 + int(-np.log(values["ratio"]) / STRIDE))[1:].tolist():
-        params = problem.params.copy()
-        params["ratio"].set(value=r, vary=False)
+        params = problem.params.changed(ratio={"value": r, "vary": False})
         held = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
         K3 = float(attitude(values)[:, 2] @ vector(values, B))
         start = values | {"ratio": r, "omega3": (values["omega3"] + K3) * values["ratio"] / r - K3}
@@ -134,8 +134,8 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
     Where the axis alone is seen, they lead from the circle through the data too, which may have more turns.
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
-    named, _ = parameters(model, data, {n: p for n, p in problem.params.items() if n in model.names})
-    other = Problem(model, data, named, problem.loss, problem.rate)
+    params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
+    other = Problem(model, data, params, problem.loss, problem.rate)
     axis, e3 = vector(values, B) / values["b"], np.array([0.0, 0.0, 1.0])
     rates = float(motion.precession_rate), float(motion.spin_rate)
     if not np.isfinite(rates).all():

@@ -24,10 +24,8 @@ from atlas.study.fit.models import (
     state,
     units_of,
     unseen,
-    within,
 )
-
-LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, np.inf), "I3": (0.0, np.inf)}
+from atlas.study.fit.parameters import Parameters
 
 HUGE, LOST = 1e6, 1e100
 """A residual where there is no motion, and size from which on one is taken for that."""
@@ -36,7 +34,7 @@ LONG = 3000.0
 """Radians up to which motions without a fast closed form are integrated."""
 
 FULL: Mapping[str, Any] = {"ftol": 1e-5, "xtol": 1e-9, "gtol": 1e-10, "max_nfev": 60}
-"""Where the iteration ends."""
+"""Where SciPy's least squares end."""
 
 
 Vector: TypeAlias = Sequence[float] | FloatArray
@@ -51,43 +49,14 @@ def lag(t: FloatArray, r: FloatArray) -> float:
     return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
 
 
-def parameters(model: Model, data: Data, typed: Any) -> tuple[Any, dict[str, float]]:
-    """Return lmfit's parameters, and the values to start from. Raises AtlasError for what is none of the family's."""
-    import lmfit
-
-    try:
-        ready = typed and all(isinstance(p, lmfit.Parameter) for p in typed.values())
-        own = typed if ready else lmfit.create_params(**(typed or {}))
-    except (AttributeError, TypeError, ValueError) as error:
-        raise AtlasError(f"The parameters of a fit are as lmfit.create_params takes them: {error}.") from error
-    hidden, parameters_of_fit = unseen(model, data.kind), lmfit.Parameters()
-    for name in model.names:
-        low, high = LIMITS.get(name, (-np.inf, np.inf))
-        value = model.fixed.get(name, hidden.get(name, 1.0 if name in LIMITS else 0.0))
-        parameters_of_fit.add(name, value, min=low, max=high, vary=name not in model.fixed and name not in hidden)
-    for name, p in own.items():
-        if name not in parameters_of_fit and p.expr is None:
-            raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
-    within(own, LIMITS)
-    for name, p in own.items():
-        low, high = LIMITS.get(name, (-np.inf, np.inf))
-        parameters_of_fit.add(
-            name, value=None if p.expr else p.value, vary=p.vary, min=max(p.min, low), max=min(p.max, high), expr=p.expr
-        )
-    if all(name in model.names for name in B) and "b" not in parameters_of_fit:
-        parameters_of_fit.add("b", expr="sqrt(B1**2 + B2**2 + B3**2)")
-    start = {name: float(p.value) for name, p in own.items() if p.vary and not p.expr and np.isfinite(p.value)}
-    return parameters_of_fit, start
-
-
 class Problem:
-    """The least squares of a family on data: lmfit's parameters say what is varied, between which bounds."""
+    """Least squares of a family on data: the parameters say what is varied, between which bounds."""
 
     def __init__(
-        self, model: Model, data: Data, params: Any, loss: str, rate: float, given: Values | None = None
+        self, model: Model, data: Data, params: Parameters, loss: str, rate: float, given: Values | None = None
     ) -> None:
         self.model, self.data, self.params, self.loss = model, data, params, loss
-        self.names = [name for name, p in params.items() if p.vary and p.expr is None]
+        self.names = [name for name, p in params.items() if p.free]
         self.rate, self.units = rate, units_of(model, rate)
         self.given = given or {}
         """Values that a user gave to start from."""
@@ -131,10 +100,7 @@ class Problem:
 
     def values(self, x: Vector) -> dict[str, float]:
         """Return all parameters, of those that are varied."""
-        for name, value in zip(self.names, x, strict=True):
-            self.params[name].value = value
-        self.params.update_constraints()
-        return dict(self.params.valuesdict())
+        return self.params.values_with(dict(zip(self.names, map(float, x), strict=True)))
 
     def several(self, X: FloatArray) -> dict[str, FloatArray]:
         """Return all parameters, each (M,), of M motions."""
@@ -220,7 +186,6 @@ class Problem:
             h = STEP * self.units[free]
             up, down = (self.values([*x[:j], x[j] + step, *x[j + 1 :]]) for step in (h, -h))
             out[:, j] = [(up[name] - down[name]) / (2 * h) for name in names]
-        self.values(x)
         return out
 
     def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
@@ -300,3 +265,18 @@ class Problem:
         """Return the unit of differences of chi square: 1, or its least value a number where sigma is a guess."""
         known = self.data.known and self.loss == "linear"
         return 1.0 if known else chi / (self.data.t.size * self.width - len(self.names))
+
+
+def minimum(problem: Problem, x: FloatArray, *, steady: bool) -> tuple[FloatArray, FloatArray]:
+    """Return the least squares nearest to a start, or the start itself where it is steady, and the Jacobian there.
+
+    With a robust loss the Jacobian is the one that SciPy has weighted.
+    """
+    from scipy.optimize import least_squares
+
+    with np.errstate(invalid="ignore"):  # where a combination is not determined
+        found = least_squares(
+            problem.residuals, x, problem.jacobian, problem.bounds, loss=problem.loss, x_scale="jac",
+            **dict(FULL) | ({"gtol": np.inf} if steady else {}),
+        )  # fmt: skip
+    return np.asarray(found.x), np.asarray(found.jac)

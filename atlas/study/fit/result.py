@@ -1,7 +1,6 @@
 """What a fit found: the parameters with their errors, what the data do not see, whether the family is the right one."""
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -13,10 +12,15 @@ from atlas.errors import AtlasError
 from atlas.lazy import cached_property
 from atlas.paper.plain import html_table, table
 from atlas.scene import Curve, Layer, Plane, Points, Scene
+from atlas.study.fit.alternatives import Alternative, equal_solutions, other_minima, warnings_of, wider_families
 from atlas.study.fit.data import KINDS, Data
 from atlas.study.fit.least import SCORE
-from atlas.study.fit.problem import FULL, Problem, lag
+from atlas.study.fit.parameters import Parameters
+from atlas.study.fit.problem import Problem, lag, minimum
 from atlas.study.fit.seen import Seen, gauge
+
+RENAMED = {"doubts": "warnings", "rivals": "alternatives"}
+"""Attributes of a fit by their former names."""
 
 SURPRISE = 5.0
 """Standard deviations of chi square and of a correlation that are no chance."""
@@ -39,28 +43,49 @@ class Prediction(NamedTuple):
     sigma: FloatArray
 
 
-class Rival(NamedTuple):
-    """Another minimum of chi square, where a start ended."""
-
-    redchi: float
-    values: Mapping[str, float]
-
-
 @dataclass(eq=False)
 class Fit:
-    """A fitted motion: `str`, or `report()`, is what `atlas fit` prints.
+    """A fitted motion, as `atlas.fit` returns it; `str`, or `report()`, is the text that `atlas fit` prints.
 
-    `params` are `lmfit.Parameters` with values, ``stderr`` (None where the data do not determine one) and correlations;
-    `covariance` (n, n) is that of the varied ones, `names`. `residuals` (N, k) are in standard errors, in the order of
-    time `t`; `redchi` is chi square over the degrees of freedom, 1 where sigma was not given, for it is `sigma` then.
-    `motion` is the motion with the time 0 at `epoch`. `undetermined` and `doubts` are sentences; `rivals` the other
-    minima. `result` is lmfit's own.
+    Attributes
+    ----------
+    params : lmfit.Parameters
+        Values with ``stderr`` and ``correl``, both None where the data do not determine a parameter. Reading this
+        attribute loads lmfit; `names`, `covariance` and `record()` do not.
+    names : tuple of str
+        The varied parameters, in the order of `covariance`.
+    covariance : ndarray, shape (n, n)
+        Covariance of the varied parameters.
+    redchi : float
+        Chi square over the degrees of freedom `nfree`; 1 where sigma was not given, for the scatter is `sigma` then.
+    sigma : float or ndarray, shape (N,)
+        Standard error of a measurement, given or found; `known` says which.
+    t : ndarray, shape (N,)
+        Times, ascending.
+    residuals : ndarray, shape (N, k)
+        Data minus motion at `t`, in standard errors.
+    motion : Motion
+        The fitted motion; its time 0 is `epoch`.
+    undetermined : tuple of str
+        A sentence for each combination of parameters that the data do not determine.
+    warnings : tuple of str
+        A sentence for each sign that the motion or its parameters are not the true ones; `atlas fit` then exits with 1.
+    alternatives : tuple of Alternative
+        Other parameters that the data leave possible, each with `redchi`, `values`, `equal` and `family`: solutions
+        that are equal by a symmetry of the data (`equal` is True, and a warning says so), wider families that fit as
+        well with other values, and other minima of chi square.
+    family, kind, epoch : str, str, float
+        Family of motions, kind of data, and time of the parameters.
+
+    Notes
+    -----
+    A fit can be copied and pickled; a signal's function must then be one that pickle takes, defined in a module.
     """
 
     family: str
     kind: str
     epoch: float
-    params: Any
+    parameters: Parameters
     names: tuple[str, ...]
     covariance: FloatArray
     residuals: FloatArray
@@ -69,9 +94,8 @@ class Fit:
     redchi: float
     motion: Any
     undetermined: tuple[str, ...]
-    doubts: tuple[str, ...]
-    rivals: tuple[Rival, ...]
-    result: Any
+    warnings: tuple[str, ...]
+    alternatives: tuple[Alternative, ...]
     problem: Problem
     _free: FloatArray
     _units: FloatArray
@@ -82,52 +106,59 @@ class Fit:
         cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
     ) -> "Fit":
         """Return the fit from the best of what was tried; a steady motion stays where it was found."""
-        import lmfit
-
-        data, names = problem.data, problem.names
-        problem.values(tried[0][1])
-
-        def residual(params: Any) -> FloatArray:
-            return problem.residuals([params[name].value for name in names])
-
-        def slopes(params: Any) -> FloatArray:
-            return problem.jacobian([params[name].value for name in names])
-
-        minimizer = lmfit.Minimizer(residual, problem.params.copy(), scale_covar=not data.known)
-        with np.errstate(invalid="ignore"):  # where a combination is not determined
-            result = minimizer.minimize(
-                method="least_squares",
-                jac=slopes,
-                loss=problem.loss,
-                x_scale="jac",
-                kwargs={},
-                **dict(FULL) | ({"gtol": np.inf} if steady else {}),
-            )
-        x = np.array([result.params[name].value for name in names])
+        data = problem.data
+        x, jac = minimum(problem, tried[0][1], steady=bool(steady))
         motion = problem.model.make(problem.values(x))
         r, J = problem.residuals(x), problem.jacobian(x)
         free = r.size - len(x)
         score = SCORE[problem.loss](r * r)
         redchi = problem.reduced(r)
         scale = 1.0 if data.known else float(np.sqrt(redchi))
-        seen = Seen(problem, motion, x, J, result.jac if problem.loss != "linear" else J, score * r, scale)
-        seen.mark(result)
+        seen = Seen(problem, motion, x, J, jac if problem.loss != "linear" else J, score * r, scale)
         sigma = data.sigma[:, 0] * scale
         residuals = (r / scale).reshape(data.t.size, -1)
         redchi = redchi / scale**2
+        parameters = seen.parameters()
+        words = seen.words()
+        equal = equal_solutions(problem, x, redchi, signs=bool(words or steady))
+        wider = [] if steady or problem.loss != "linear" else wider_families(problem, x, parameters, scale)
         return cls(
-            family=problem.model.name, kind=data.kind, epoch=epoch, params=result.params, names=tuple(names),
-            covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
+            family=problem.model.name, kind=data.kind, epoch=epoch, parameters=parameters,
+            names=tuple(problem.names), covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
             sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
-            undetermined=(*[steady] * bool(steady), *seen.words(), *gauge(problem)),
-            doubts=(*[doubt] * bool(doubt), *_doubts(problem, x, residuals, redchi, free)),
-            rivals=tuple(_rivals(problem, tried, free * scale**2)), result=result, problem=problem,
+            undetermined=(*[steady] * bool(steady), *words, *gauge(problem)),
+            warnings=(*[doubt] * bool(doubt), *_warnings(problem, x, residuals, redchi, free),
+                      *warnings_of(parameters, equal, wider)),
+            alternatives=(*equal, *(other for _, other in wider), *other_minima(problem, tried, free * scale**2)),
+            problem=problem,
             _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole,
         )  # fmt: skip
 
+    def __getattr__(self, name: str) -> Any:
+        """Say the new name of an attribute that was renamed."""
+        new = RENAMED.get(name)
+        raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a pickle holds: lmfit's objects are made again when they are read."""
+        return {name: value for name, value in self.__dict__.items() if name != "params"}
+
+    def __repr__(self) -> str:
+        return f"<Fit: {self._title}>"
+
     @cached_property
+    def params(self) -> Any:
+        """The parameters as `lmfit.Parameters`, with ``stderr`` and ``correl``."""
+        return self.parameters.to_lmfit()
+
+    @property
+    def nfree(self) -> int:
+        """Degrees of freedom: numbers measured minus parameters varied."""
+        return self.residuals.size - len(self.names)
+
+    @property
     def _x(self) -> FloatArray:
-        return np.array([self.params[name].value for name in self.names])
+        return np.array([self.parameters[name].value for name in self.names])
 
     def predict(self, t: Any, of: str = "") -> Prediction:
         """Return what is to be expected at times of any shape, with its standard errors.
@@ -154,7 +185,7 @@ class Fit:
             "linear",
             self.problem.rate,
         )
-        there.names, there.params, there.followed = list(self.names), self.params.copy(), False
+        there.followed = False
         J = -there.slopes(self._x)
         if kind == "axis":
             J = R[:, :, :1] * J[:, :1] + R[:, :, 1:2] * J[:, 1:]
@@ -204,20 +235,26 @@ class Fit:
             return self.problem.jacobian([p[n].value for n in self.names])[:, free]
 
         minimizer = lmfit.Minimizer(
-            lambda p: self.problem.residuals([p[n].value for n in self.names]), self.params.copy(), Dfun=slopes,
-            scale_covar=not self.problem.data.known,
+            lambda p: self.problem.residuals([p[n].value for n in self.names]), self.parameters.to_lmfit(),
+            Dfun=slopes, scale_covar=not self.problem.data.known,
         )  # fmt: skip
+        chi_square = float((self.problem.residuals(self._x) ** 2).sum())
+        best = lmfit.minimizer.MinimizerResult(
+            params=self.parameters.to_lmfit(), chisqr=chi_square, nfree=self.nfree, nvarys=len(self.names)
+        )
         try:
-            return lmfit.conf_interval(minimizer, self.result, **options)
+            return lmfit.conf_interval(minimizer, best, **options)
         except lmfit.MinimizerException as error:
             raise AtlasError(f"There are no confidence intervals of these parameters: {error}".strip()) from error
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
         """Return heading and rows of the parameters."""
         heading, rows = ["parameter", "value", "standard error", ""], []
-        for name, p in self.params.items():
-            note = "" if p.vary else f"= {p.expr}" if p.expr else "fixed"
-            sought = p.vary or any(self.params[x].vary for x in re.findall(r"\w+", p.expr or "") if x in self.params)
+        for name, p in self.parameters.items():
+            note = "" if p.free else f"= {p.expr}" if p.expr else "fixed"
+            sought = p.free or any(
+                self.parameters[x].free for x in re.findall(r"\w+", p.expr or "") if x in self.parameters
+            )
             if p.stderr:
                 digits = max(0, 1 - int(np.floor(np.log10(p.stderr))))
                 rows.append([name, f"{p.value:.{digits}f}", f"{p.stderr:.{digits}f}", note])
@@ -246,14 +283,14 @@ class Fit:
 
     @property
     def others(self) -> list[str]:
-        """The other minima, in sentences."""
-        return [f"another start ended at a reduced chi square of {rival.redchi:.3g}" for rival in self.rivals]
+        """The alternatives, in sentences."""
+        return [other.sentence(self.family, self.parameters) for other in self.alternatives]
 
     def _sentences(self) -> list[str]:
-        return [*self.undetermined, *self.doubts, *self.others]
+        return [*self.undetermined, *self.warnings, *self.others]
 
     def report(self) -> str:
-        """Return the parameters with their errors, what is not determined, and doubts."""
+        """Return the table of parameters with their errors, then `undetermined`, `warnings` and the alternatives."""
         return "\n".join([self._title, table(*self.rows()), *self._sentences()])
 
     __str__ = report
@@ -266,15 +303,15 @@ class Fit:
     def record(self) -> dict[str, Any]:
         """Return the fit as plain data for JSON."""
         values = {
-            name: {"value": p.value, "stderr": p.stderr, "vary": p.vary, "expr": p.expr}
-            for name, p in self.params.items()
+            name: {"value": p.value, "stderr": p.stderr, "vary": p.free, "expr": p.expr}
+            for name, p in self.parameters.items()
         }
         return {
             "family": self.family, "kind": self.kind, "epoch": self.epoch, "times": int(self.t.size), "params": values,
             "redchi": self.redchi, "sigma": np.asarray(self.sigma).tolist(), "names": list(self.names),
             "covariance": self.covariance.tolist(), "undetermined": list(self.undetermined),
-            "doubts": list(self.doubts),
-            "rivals": [{"redchi": rival.redchi, "values": dict(rival.values)} for rival in self.rivals],
+            "warnings": list(self.warnings),
+            "alternatives": [{**other._asdict(), "values": dict(other.values)} for other in self.alternatives],
         }  # fmt: skip
 
     def scene(self) -> Scene:
@@ -307,7 +344,7 @@ class Fit:
                 Plane(tuple(rest), "$t$", r"residual, in $\sigma$"),
             ),
             size=(140.0, 120.0),
-            parameters={name: float(p.value) for name, p in self.params.items()},
+            parameters={name: p.value for name, p in self.parameters.items()},
         )
 
     def predict_values(self, t: FloatArray) -> FloatArray:
@@ -320,7 +357,7 @@ class Fit:
         return notebook("pictures").to_figure(self.scene(), style)
 
 
-def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:
+def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:
     """Return what speaks against the family."""
     out = []
     data, wider = problem.data, problem.model.wider
@@ -352,13 +389,3 @@ def _doubts(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free:
             f"expected): {other}, or the noise is not white."
         )
     return out
-
-
-def _rivals(problem: Problem, tried: list[tuple[float, Any]], free: float) -> list[Rival]:
-    """Return the other minima, each once."""
-    out: list[Rival] = []
-    for chi, x in tried[1:]:
-        known = [tried[0][0] / free, *(rival.redchi for rival in out)]
-        if all(abs(chi / free - other) > 1e-3 * other for other in known):
-            out.append(Rival(chi / free, problem.values(x)))
-    return out[:4]

@@ -7,6 +7,7 @@ from scipy.linalg import qr
 
 from atlas.core.inputs import FloatArray
 from atlas.study.fit.models import units_of, unseen
+from atlas.study.fit.parameters import Parameters
 from atlas.study.fit.problem import Problem
 
 UNSEEN = 0.5
@@ -66,24 +67,26 @@ class Seen:
         by = abs(scaled @ self.free)
         return (by * UNSEEN > errors[:, None]) & (by > NULL * np.linalg.norm(scaled, axis=1)[:, None])
 
-    def mark(self, result: Any) -> None:
-        """Set standard errors and correlations in lmfit's result, None where there are none."""
-        problem, params = self.problem, result.params
+    def parameters(self) -> Parameters:
+        """Return the parameters with values, standard errors and correlations, None where there are none."""
+        problem, names = self.problem, self.problem.names
         lost, errors = self.moved.any(1), self.errors
-        result.covar, result.errorbars = self.covariance, not lost.any()
-        names = problem.names
+        marked: dict[str, dict[str, Any]] = {
+            name: {"value": value} for name, value in problem.values(self.x).items() if name in problem.params
+        }
         for i, name in enumerate(names):
-            params[name].stderr = None if lost[i] else float(errors[i])
-            params[name].correl = None if lost[i] else {
+            marked[name] |= {"stderr": None if lost[i] else float(errors[i])}
+            marked[name] |= {"correl": None if lost[i] else {
                 other: float(self.covariance[i, j] / (errors[i] * errors[j]))
                 for j, other in enumerate(names) if j != i and not lost[j] and errors[i] * errors[j] > 0
-            }  # fmt: skip
-        derived = [name for name, p in params.items() if p.expr]
+            }}  # fmt: skip
+        derived = [name for name, p in problem.params.items() if p.expr]
         by = problem.chain(list(self.x), derived)
         for name, row in zip(derived, by, strict=True):
             error = np.sqrt(max(row @ self.covariance @ row, 0.0))
             moved = self._moves((row * self.units)[None], error[None]).any()
-            params[name].stderr = None if moved else float(error)
+            marked[name]["stderr"] = None if moved else float(error)
+        return problem.params.changed(**marked)
 
     def words(self) -> list[str]:
         """Return a sentence for each combination that the data do not determine."""
