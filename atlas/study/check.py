@@ -121,8 +121,15 @@ class Check:
         )
 
 
+SINGULAR = {"rotations": "rotation", "quaternions": "quaternion", "angular_velocities": "angular_velocity"}
+"""Arguments of `check` by their plurals."""
+
+
 class _Options(TypedDict, total=False):
     motion: Required[Any]
+    quaternion: Any
+    angular_velocity: Any
+    rotations: Any
     quaternions: Any
     angular_velocities: Any
     scalar_first: bool
@@ -132,37 +139,65 @@ class _Options(TypedDict, total=False):
 
 @overload
 def check(
-    t: Sequence[NDArray[Any] | Sequence[float]], rotations: Any = None, **how: Unpack[_Options]
+    t: Sequence[NDArray[Any] | Sequence[float]], rotation: Any = None, **how: Unpack[_Options]
 ) -> Convergence: ...
 @overload
-def check(t: Any, rotations: Any = None, **how: Unpack[_Options]) -> Check: ...
+def check(t: Any, rotation: Any = None, **how: Unpack[_Options]) -> Check: ...
 def check(
     t: Any,
-    rotations: Any = None,
+    rotation: Any = None,
     *,
     motion: Any,
-    quaternions: Any = None,
-    angular_velocities: Any = None,
+    quaternion: Any = None,
+    angular_velocity: Any = None,
     scalar_first: bool = False,
     step: Any = None,
     threshold: float = 6.0,
+    **plural: Any,
 ) -> Check | Convergence:
     """Grade a trajectory that was computed elsewhere against a motion: what `atlas check` prints, and its numbers.
 
-    `t` (N,) are times, `rotations` (N, 3, 3) matrices R that take the body to the laboratory, `quaternions` (N, 4)
-    such of either sign, as SciPy's `Rotation.as_quat` gives them or with `scalar_first`, `angular_velocities` (N, 3)
-    the vectors Omega in the body; at least one of these. `motion` is one motion of ElementaryMotion, FreeMotion,
-    GeneralMotion, TopMotion or AsymmetricMotion, or of `atlas.motion`, in any axes and from any attitude: of these
-    errors below 4e-14 + 9e-16 f t, f the largest rate, count as that. A column fails from the first row on at which it
-    has fewer than `threshold` correct digits.
+    Parameters
+    ----------
+    t : array_like, shape (N,), or list of such arrays
+        Times. A list of arrays holds runs of one integrator with several steps.
+    rotation : array_like, shape (N, 3, 3)
+        Matrices R(t) that take the body to the laboratory; of several runs a list of arrays, as of the next two. At
+        least one of the three is needed. The names are those of `atlas.fit`; the plurals `rotations`, `quaternions`
+        and `angular_velocities` are taken as well.
+    quaternion : array_like, shape (N, 4)
+        Unit quaternions of either sign, scalar last as `scipy.spatial.transform.Rotation.as_quat` gives them.
+    angular_velocity : array_like, shape (N, 3)
+        Omega along the axes of the body.
+    motion : ElementaryMotion, FreeMotion, GeneralMotion, TopMotion or AsymmetricMotion
+        One motion, or one of `atlas.motion` in any axes and from any attitude; errors of the latter below
+        4e-14 + 9e-16 f t, f the largest rate, are its own rounding and count as that.
+    scalar_first : bool
+        Whether the scalar is the first component of a quaternion.
+    step : float or list of float, optional
+        Steps of the integrator; without them the mean distances of the times.
+    threshold : float
+        Correct digits below which a column fails, from the first such row on.
 
-    Lists of arrays are runs of one integrator with several steps, which are `step` or the mean distances of their
-    times: they give the order of convergence, a `Convergence`.
+    Returns
+    -------
+    Check or Convergence
+        Errors and digits by column; of several runs the order of convergence. Both have `str`, `record()` for JSON and
+        `scene()` for a figure.
 
-    Both results have `str`, tables in a notebook, `record()` for JSON and `scene()` for a figure. Raises AtlasError for
-    arrays of other shapes, for what is no number, and for a motion that is none of these.
+    Raises
+    ------
+    AtlasError
+        For arrays of another shape, for an entry that is no number, and for a motion of another class.
     """
-    columns = {"rotations": rotations, "quaternions": quaternions, "angular_velocities": angular_velocities}
+    columns = {"rotation": rotation, "quaternion": quaternion, "angular_velocity": angular_velocity}
+    for name, values in plural.items():
+        singular = SINGULAR.get(name)
+        if singular is None:
+            raise TypeError(f"check() got an unexpected keyword argument {name!r}")
+        if columns[singular] is not None:
+            raise AtlasError(f"{singular} and {name} are the same data: give one of them.")
+        columns[singular] = values
     if isinstance(t, list | tuple) and t and np.ndim(t[0]):
         runs = columns | {"step": step}
         for name, values in runs.items():

@@ -108,13 +108,13 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
 def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> Trajectory:
     """Return the trajectory of times (N,) and arrays, None where one is left out.
 
-    They are rotations (N, 3, 3), quaternions (N, 4) and angular_velocities (N, 3). Raises AtlasError for another shape,
+    They are rotation (N, 3, 3), quaternion (N, 4) and angular_velocity (N, 3). Raises AtlasError for another shape,
     and for what is no number.
     """
     times = real(t, "t")
     if times.ndim != 1 or not times.size:
         raise AtlasError(f"The times are one array (N,) of one number or more, not {times.shape}.")
-    shapes = {"rotations": (3, 3), "quaternions": (4,), "angular_velocities": (3,)}
+    shapes = {"rotation": (3, 3), "quaternion": (4,), "angular_velocity": (3,)}
     order = QUATERNION if scalar_first else (*QUATERNION[1:], QUATERNION[0])
     columns = {"t": times}
     for (what, shape), names in zip(shapes.items(), (MATRIX, order, OMEGA), strict=True):
@@ -122,7 +122,7 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> T
             continue
         values, wanted = real(quantities[what], what), (*times.shape, *shape)
         if values.shape != wanted:
-            raise AtlasError(f"The {what} of {times.size} times are an array {wanted}, not {values.shape}.")
+            raise AtlasError(f"The {what} at {times.size} times is an array {wanted}, not {values.shape}.")
         columns |= dict(zip(names, values.reshape(times.size, -1).T, strict=True))
     if len(columns) == 1:
         raise AtlasError(f"There is nothing to grade: give {', '.join(shapes)}, at least one of them.")

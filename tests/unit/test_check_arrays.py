@@ -55,7 +55,7 @@ def test_arrays_are_graded_as_files_are(tmp_path: Path, options: str) -> None:
     motion = MOTIONS[options]
     R, Omega = motion.rotation(TIMES), motion.angular_velocity(TIMES)
     R[3, 1, 1] += 1e-4
-    found = atlas.check(TIMES, R, motion=motion, angular_velocities=Omega)
+    found = atlas.check(TIMES, R, motion=motion, angular_velocity=Omega)
     assert {column.name: column.fails_at for column in found.columns if column.fails_at is not None} == {"R22": 3.0}
     words = ["check", str(written(tmp_path / "mine.csv", TIMES, R, Omega)), *options.split()]
     shown = CliRunner().invoke(command, words)
@@ -69,8 +69,8 @@ def test_quaternions_are_graded_in_either_order_and_sign() -> None:
     """As SciPy gives them, scalar last, or scalar first."""
     motion = MOTIONS["--ratio 1.5 --field 1 2 --omega2 0.7"]
     q = Rotation.from_matrix(motion.rotation(TIMES)).as_quat() * np.where(TIMES % 2, -1, 1)[:, None]
-    last = atlas.check(TIMES, quaternions=q, motion=motion)
-    first = atlas.check(TIMES, quaternions=np.roll(q, 1, axis=1), motion=motion, scalar_first=True)
+    last = atlas.check(TIMES, quaternion=q, motion=motion)
+    first = atlas.check(TIMES, quaternion=np.roll(q, 1, axis=1), motion=motion, scalar_first=True)
     assert sorted(last.columns, key=str) == sorted(first.columns, key=str)
     assert [column.name for column in first.columns] == ["w", "x", "y", "z"]
     assert min(column.worst for column in first.columns) > 15
@@ -115,18 +115,19 @@ R = GENERAL.rotation(TIMES)
     ("t", "given", "words"),
     [
         (TIMES, {}, "nothing to grade"),
-        (TIMES, {"rotations": R[:5]}, r"\(9, 3, 3\), not \(5, 3, 3\)"),
-        (TIMES, {"rotations": R * np.nan}, "finite"),
-        (TIMES, {"quaternions": R[:, 0]}, r"\(9, 4\)"),
-        (TIMES[:, None], {"rotations": R}, r"one array \(N,\)"),
-        ([], {"rotations": R[:0]}, r"one array \(N,\)"),
-        (TIMES, {"rotations": R, "motion": None}, "one of ElementaryMotion"),
-        (TIMES, {"rotations": R, "motion": atlas.GeneralMotion([1.5, 1.2], (1, 2), (0.3, 0.7, 0.2))}, "one motion"),
-        (TIMES, {"rotations": R, "step": "a"}, "step"),
-        ([TIMES, TIMES], {"rotations": [R]}, "a list of 2"),
-        ([TIMES, TIMES], {"rotations": [R, R]}, "each with another step"),
-        ([TIMES], {"rotations": [R]}, "two runs or more"),
-        ([TIMES, TIMES[:5]], {"rotations": [R, R[:5]], "step": [1, 0.5]}, "over the same time"),
+        (TIMES, {"rotation": R[:5]}, r"\(9, 3, 3\), not \(5, 3, 3\)"),
+        (TIMES, {"rotation": R * np.nan}, "finite"),
+        (TIMES, {"quaternion": R[:, 0]}, r"\(9, 4\)"),
+        (TIMES, {"rotation": R, "rotations": R}, "give one of them"),
+        (TIMES[:, None], {"rotation": R}, r"one array \(N,\)"),
+        ([], {"rotation": R[:0]}, r"one array \(N,\)"),
+        (TIMES, {"rotation": R, "motion": None}, "one of ElementaryMotion"),
+        (TIMES, {"rotation": R, "motion": atlas.GeneralMotion([1.5, 1.2], (1, 2), (0.3, 0.7, 0.2))}, "one motion"),
+        (TIMES, {"rotation": R, "step": "a"}, "step"),
+        ([TIMES, TIMES], {"rotation": [R]}, "a list of 2"),
+        ([TIMES, TIMES], {"rotation": [R, R]}, "each with another step"),
+        ([TIMES], {"rotation": [R]}, "two runs or more"),
+        ([TIMES, TIMES[:5]], {"rotation": [R, R[:5]], "step": [1, 0.5]}, "over the same time"),
     ],
 )
 def test_what_cannot_be_graded_is_one_sentence(t: Any, given: dict[str, Any], words: str) -> None:
@@ -134,6 +135,14 @@ def test_what_cannot_be_graded_is_one_sentence(t: Any, given: dict[str, Any], wo
     with pytest.raises(AtlasError, match=words) as caught:
         atlas.check(t, **({"motion": GENERAL} | given))
     assert "\n" not in str(caught.value)
+
+
+def test_the_names_of_a_fit_are_those_of_a_check() -> None:
+    """The plurals are taken as well; another name is none."""
+    graded = [atlas.check(TIMES, **{name: R}, motion=GENERAL).record() for name in ("rotation", "rotations")]
+    assert graded[0] == graded[1]
+    with pytest.raises(TypeError, match="rotatoins"):
+        atlas.check(TIMES, rotatoins=R, motion=GENERAL)
 
 
 def test_a_motion_that_starts_turned_is_refused() -> None:
@@ -162,7 +171,7 @@ def test_a_motion_in_any_axes_and_from_any_attitude_is_graded(tmp_path: Path) ->
     times = np.linspace(0.0, 20.0, 41)
     R, Omega = TURNED.rotation(times), TURNED.angular_velocity(times)
     R[7:, 0, 2] += 1e-7
-    found = atlas.check(times, R, angular_velocities=Omega, motion=TURNED)
+    found = atlas.check(times, R, angular_velocity=Omega, motion=TURNED)
     worst = {column.name: column.worst for column in found.columns}
     assert worst.pop("R13") == pytest.approx(7.0, abs=0.01)
     assert min(worst.values()) > 12
