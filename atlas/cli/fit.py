@@ -54,9 +54,9 @@ def command(file: Path, **options: Any) -> int:
     about the motion tells sigma. No start is needed.
 
     What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
-    residuals that are correlated, or a few that are far larger than the rest. The exit status is 1 if something does, 2
-    if the file or an option is wrong. In JSON the horizon is null if a prediction is that good nowhere, or at any time;
-    "missing" says which.
+    residuals that are correlated, a few that are far larger than the rest, or other parameters that give the same data
+    by symmetry. The exit status is 1 if there is such a warning, 2 if the file or an option is wrong. In JSON the
+    horizon is null if a prediction is that good nowhere, or at any time; "missing" says which.
     """
     result = fitted(file, options)
     record, lines = ahead(result, options)

@@ -14,11 +14,11 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray
 
-ORDER = 18
-"""Of the series."""
+ORDERS = 10, 18
+"""Orders of the series for the first and the second of these errors."""
 
 ERROR, FINE = 1e-5, 1e-11
-"""Of a step, while a motion is sought and where it is found."""
+"""Error of a step, while a motion is sought and where it is found."""
 
 SLOWEST = 0.05
 """Share of the motions that are too fast for the common step, and wrong then."""
@@ -44,12 +44,17 @@ class Flow:
     omega: FloatArray
     error: float = ERROR
 
+    @property
+    def order(self) -> int:
+        """Order of the series, by the error of a step: lower orders are cheaper where that is large."""
+        return round(float(np.interp(-np.log(self.error), -np.log([ERROR, FINE]), ORDERS)))
+
     def at(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return R (S, N, 3, 3) and Omega (S, N, 3) at times (N,) in any order, nan where there are too many steps.
 
         What comes before t = 0 is made together with what comes after, as motions whose time runs backwards.
         """
-        signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], ORDER, abs(t).max(initial=0.0)
+        signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], self.order, abs(t).max(initial=0.0)
         S, both = len(self.omega), len(signs)
         out = np.full((S, t.size, 4, 3), np.nan)
         g = self.coupling.sum(-1, keepdims=True) - 2 * self.coupling

@@ -33,6 +33,9 @@ GROWTH, KEPT, ROUNDS, FAR = 1.5, 0.4, 4, 15.0
 LOST, SEVERAL = 0.35, 6
 """Part of the spread by which a prediction of so many data may be off while its phases are still right."""
 
+MANY = 24
+"""Motions that are kept after the first step at least."""
+
 LAST = 60
 """Steps on all the data at most."""
 
@@ -200,7 +203,9 @@ def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bo
     several |= {name: value * ones for name, value in problem.given.items()}
     X = np.stack([several.get(name, problem.params[name].value * ones) for name in problem.names], -1)
     crowd, count = Crowd(problem, X), min(first, len(order))
-    crowd.refine(order[:count], 2 * ROUNDS)
+    crowd.refine(order[:count], 1)
+    crowd.drop(max(MANY, int(len(crowd.X) * KEPT)))
+    crowd.refine(order[:count], 2 * ROUNDS - 1)
     while count < len(order) and away[count] < FAR:
         crowd.drop(max(BEST, int(len(crowd.X) * KEPT)))
         further = max(int((away < away[count - 1] * GROWTH).sum()), int(count * 1.3))
