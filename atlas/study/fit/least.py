@@ -102,7 +102,7 @@ class Crowd:
             costs = self._cost(new_slopes[0])
             better = costs < self.costs
             self.X = np.where(better[:, None], new, self.X)
-            fallen = (self.costs - costs) / self.costs * r.shape[-1]
+            fallen = (self.costs - costs) / np.maximum(self.costs, 1e-300) * r.shape[-1]
             r, J = np.where(better[:, None], new_slopes[0], r), np.where(better[:, None, None], new_slopes[1], J)
             self.damping = np.clip(np.where(better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
             self.costs = np.where(better, costs, self.costs)
