@@ -16,7 +16,7 @@ FUZZ_EXAMPLES ?= 10000
 
 help:
 	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
-	@echo 'make test      lint, types, floors and tests'
+	@echo 'make test      lint, types, imports and tests'
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure;   make picture   the picture of the README'
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
@@ -129,7 +129,7 @@ quietly = said=$$({ $(1); } 2>&1) || { echo "atlas: $(strip $(2)):"; printf '%s\
 
 # Installs the GL libraries that are missing, where we may; what can't be had is told by the first report.
 gl:
-	@said=$$($(BIN)/python -P -m atlas.draw.gl) || exit 2; case "$$ATLAS_GL$$said" in "no GL"*apt-get*) \
+	@said=$$($(BIN)/python -P -m atlas.gl) || exit 2; case "$$ATLAS_GL$$said" in "no GL"*apt-get*) \
 	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then export DEBIAN_FRONTEND=noninteractive; \
 	    ($(call quietly,apt-get update -qq && apt-get install -y -qq --no-install-recommends libegl1 libgl1-mesa-dri,apt-get could not install libegl1 libgl1-mesa-dri)) && \
 	    echo 'installed libegl1 libgl1-mesa-dri for the shaded figures' || true; fi;; esac

@@ -1,42 +1,42 @@
 # The public names with their types, for type checkers; atlas/__init__.py loads each when it is first used.
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.bodies.charge import ChargeMoments
-from atlas.core.bodies.field import (
+from atlas.bodies.body import SymmetricBody
+from atlas.bodies.charge import ChargeMoments
+from atlas.bodies.clebsch_integrals import clebsch
+from atlas.bodies.field import (
     Field,
     LaboratoryFrame,
 )
-from atlas.core.maps.monodromy import monodromy
-from atlas.core.motions.asymmetric import AsymmetricMotion
-from atlas.core.motions.ball import BallMotion
-from atlas.core.motions.chosen import motion
-from atlas.core.motions.clebsch import clebsch
-from atlas.core.motions.elementary import (
-    ElementaryMotion,
-    FreeMotion,
-)
-from atlas.core.motions.elliptic import EllipticMotion
-from atlas.core.motions.flight import Flight
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.motions.particle import ParticleMotion
-from atlas.core.motions.top import TopMotion
-from atlas.core.surfaces.hyperbola import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
-from atlas.draw import (
-    figure,
-    plotter,
-)
-from atlas.draw.animation import animate
+from atlas.checking.check import check
+from atlas.checking.simulate import simulate
 from atlas.errors import (
     AtlasError,
     DomainError,
     NotCertifiedError,
 )
-from atlas.study.check import check
-from atlas.study.drift import drift
-from atlas.study.fit import fit
-from atlas.study.simulate import simulate
-from atlas.study.sweep.run import sweep
+from atlas.fitting import fit
+from atlas.maps.monodromy import monodromy
+from atlas.motions.any_body import motion
+from atlas.motions.elementary.kernel import (
+    ElementaryMotion,
+    FreeMotion,
+)
+from atlas.motions.elementary.kernel_ball import BallMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.nutation.drift import drift
+from atlas.motions.nutation.kernel_elliptic import EllipticMotion
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.motions.particle.flight import Flight
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.motions.torus.kernel import AsymmetricMotion
+from atlas.pictures.drawing import (
+    figure,
+    plotter,
+)
+from atlas.pictures.drawing.animation import animate
+from atlas.surfaces.kernel import Quadric
+from atlas.sweeps.run import sweep
 
 __version__: str
 _HOMES: dict[str, str]

@@ -14,7 +14,7 @@ SAFE = "PYTHONSAFEPATH"
 """As the option -P of Python, which a process inherits."""
 ENDING = (SIGINT, SIGTERM, SIGHUP)
 """Signals that end a command in order."""
-DRAWING = "atlas.build.loaded"
+DRAWING = "atlas.book.building.loaded"
 """The module that loads what figures are drawn with."""
 
 

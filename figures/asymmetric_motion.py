@@ -10,12 +10,12 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from atlas.core.inputs import FloatArray, positive
-from atlas.core.motions.asymmetric import AsymmetricMotion
-from atlas.scene import Scene, any_motion
-from atlas.scene.any_motion import Upright
-from atlas.scene.captions import plain_vector, tex_vector
-from atlas.study.simulate import simulate
+from atlas.arithmetic.inputs import FloatArray, positive
+from atlas.checking.simulate import simulate
+from atlas.motions.torus.kernel import AsymmetricMotion
+from atlas.pictures import Scene, any_motion
+from atlas.pictures.any_motion import Upright
+from atlas.pictures.captions import plain_vector, tex_vector
 
 RANGES = {"turns": (1e-3, 50.0)}
 STEPS = 120

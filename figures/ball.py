@@ -6,11 +6,11 @@ B with the Larmor frequency alpha, (26), while the ball turns about the axis k, 
 
 import numpy as np
 
-from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain, tex
-from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
+from atlas.motions.elementary.kernel_ball import BallMotion
+from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.pictures.captions import plain, tex
+from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 
 
 def scene(

@@ -6,9 +6,9 @@ Larmor's. A point of the ball draws a trochoid on the sphere.
 
 from math import pi
 
-from atlas.core.motions.ball import BallMotion
-from atlas.scene import Scene, any_motion
-from atlas.scene.captions import tex
+from atlas.motions.elementary.kernel_ball import BallMotion
+from atlas.pictures import Scene, any_motion
+from atlas.pictures.captions import tex
 
 
 def scene(

@@ -7,14 +7,14 @@ point of the ball; if not, both come as near as one likes to where they have bee
 
 import numpy as np
 
-from atlas.core.inputs import positive
-from atlas.core.motions.ball import BallMotion
+from atlas.arithmetic.inputs import positive
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, solids
-from atlas.scene.captions import listed, plain, tex
-from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
-from atlas.scene.sample import curve
-from atlas.scene.torus import VIEW, net, on_torus, seen
+from atlas.motions.elementary.kernel_ball import BallMotion
+from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space, solids
+from atlas.pictures.captions import listed, plain, tex
+from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
+from atlas.pictures.sample import curve
+from atlas.pictures.torus import VIEW, net, on_torus, seen
 
 WIDTH, HEIGHT = 150.0, 128.0
 MOST = 400.0

@@ -7,12 +7,12 @@ the walls inside, which are unstable, but for a swallowtail at small p.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.bifurcation import Bifurcation, Stretch
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import listed, plain, tex, tex_vector
-from atlas.scene.sample import curve, quarter_pixel, room
+from atlas.maps.bifurcation import Bifurcation, Stretch
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.pictures.captions import listed, plain, tex, tex_vector
+from atlas.pictures.sample import curve, quarter_pixel, room
 
 WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
 NEAR = 1e-4

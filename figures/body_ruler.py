@@ -7,13 +7,13 @@ initial angular velocities with constant Omega_3.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadrics, solids
-from atlas.scene.bodies import proportions, row, solenoid
-from atlas.scene.captions import body_role, tex_vector
-from atlas.scene.layers import frame
-from atlas.scene.quadric_panel import E3, in_plane, tolerance
+from atlas.pictures import Curve, Label, Layer, Points, Scene, Space, quadrics, solids
+from atlas.pictures.bodies import proportions, row, solenoid
+from atlas.pictures.captions import body_role, tex_vector
+from atlas.pictures.layers import frame
+from atlas.pictures.quadric_panel import E3, in_plane, tolerance
 
 WIDTH, HEIGHT = 178.0, 92.0
 BODIES = (

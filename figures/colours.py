@@ -5,9 +5,9 @@ One colour means one thing in the whole atlas; this is the key to all of its fig
 
 import numpy as np
 
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, solids
-from atlas.scene.arrange import stacked
-from atlas.scene.quadric_panel import E2, E3, in_plane
+from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, solids
+from atlas.pictures.arrange import stacked
+from atlas.pictures.quadric_panel import E2, E3, in_plane
 
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
 NARROWEST = 139.0

@@ -3,10 +3,10 @@
 The quadric (51) for I = 1, (56): both sheets of the hyperboloid have met in its centre -B'.
 """
 
-from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, quadric_panel
-from atlas.scene.captions import plain_setting, tex_setting
+from atlas.pictures import Scene, quadric_panel
+from atlas.pictures.captions import plain_setting, tex_setting
+from atlas.surfaces.kernel import Quadric
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:

@@ -5,9 +5,9 @@ Drawn from the stored record of the benchmark, which `make bench` renews.
 
 from dataclasses import replace
 
-from atlas.scene.captions import listed
-from atlas.scene.layers import Layer, Plane, Scene
-from atlas.study import benchmark
+from atlas.checking import benchmark
+from atlas.pictures.captions import listed
+from atlas.pictures.layers import Layer, Plane, Scene
 
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")

@@ -7,13 +7,13 @@ where the energy is that of rest at the cosine nu = p/M3.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.wells import Wells
-from atlas.core.motions.top import TopMotion
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
-from atlas.scene.captions import listed, plain, tex
-from atlas.scene.sample import room
+from atlas.maps.wells import Wells
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene, axis_trace
+from atlas.pictures.captions import listed, plain, tex
+from atlas.pictures.sample import room
 
 SIZE, LEAST = 62.0, 5.0
 """A panel in mm, and the least swing of the axis in degrees that is seen in it."""

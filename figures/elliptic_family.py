@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.bodies.inertia import inertia_tensor
-from atlas.core.inputs import FloatArray
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies.inertia import inertia_tensor
 from atlas.errors import AtlasError, DomainError
-from atlas.formulas.elliptic import splitting
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector
-from atlas.scene.hyperbola_plane import Window, branches, components, seen, window
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.motions.nutation.formula_elliptic import splitting
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
+from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
+from atlas.pictures.hyperbola_plane import Window, branches, components, seen, window
+from atlas.pictures.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
 NAMES = {"main": "unbounded", "third": "bounded", "unstable_line": "unstable"}

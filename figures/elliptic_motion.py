@@ -4,9 +4,9 @@ The paper's family for three different moments of inertia: the field in the body
 velocity is a constant matrix times it.
 """
 
-from atlas.core.motions.elliptic import EllipticMotion
-from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector
+from atlas.motions.nutation.kernel_elliptic import EllipticMotion
+from atlas.pictures import Scene, any_motion
+from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 
 
 def scene(

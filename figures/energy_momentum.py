@@ -9,11 +9,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.wells import Branch, Wells
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import listed, plain, tex
+from atlas.maps.wells import Branch, Wells
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.pictures.captions import listed, plain, tex
 
 WIDTH, HEIGHT = 88.0, 62.0
 

@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from atlas.scene import Image, Label, Plane, Scene
-from atlas.scene.captions import tex, tex_setting
-from atlas.study.maps import ErrorMap, over_omega2, over_ratio
+from atlas.checking.error_maps import ErrorMap, over_omega2, over_ratio
+from atlas.pictures import Image, Label, Plane, Scene
+from atlas.pictures.captions import tex, tex_setting
 
 LIMITS = (1e-17, 1.0)
 NARROWEST, LOW = 139.0, 1e-2

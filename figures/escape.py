@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting
-from atlas.scene.movement import along
-from atlas.scene.sample import flat, room
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Curve, Layer, Plane, Points, Scene
+from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
+from atlas.pictures.movement import along
+from atlas.pictures.sample import flat, room
 
 WIDTH, COURSE, LAW, MARGIN = 120.0, 30.0, 62.0, 12.0
 """Width, heights of a course and of the law."""

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, solids
-from atlas.scene.arrange import stacked
-from atlas.scene.bodies import drawn_body, row
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting
-from atlas.scene.movement import about, riding
-from atlas.scene.quadric_panel import E3, in_plane, tolerance
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Scene, solids
+from atlas.pictures.arrange import stacked
+from atlas.pictures.bodies import drawn_body, row
+from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_setting
+from atlas.pictures.movement import about, riding
+from atlas.pictures.quadric_panel import E3, in_plane, tolerance
 
 WIDTH, HEIGHT = 178.0, 50.0
 STEP = 2.3

@@ -7,11 +7,11 @@ about the field to the other; then a second period comes in, and no two loops ar
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
+from atlas.arithmetic.inputs import FloatArray
+from atlas.checking.simulate import simulate
 from atlas.errors import DomainError
-from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector
-from atlas.study.simulate import simulate
+from atlas.pictures import Scene, axis_trace
+from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
 
 SIZE, COLUMNS = 56.0, 3
 STEPS = 40

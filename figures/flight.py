@@ -6,15 +6,15 @@ body turns about it by the elementary motion (84). Both feel one magnetic field,
 
 import numpy as np
 
-from atlas.core.inputs import number, vector
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.flight import Flight
-from atlas.core.motions.particle import ParticleMotion
+from atlas.arithmetic.inputs import number, vector
 from atlas.errors import DomainError
-from atlas.scene import Scene
-from atlas.scene.captions import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
-from atlas.scene.flight import picture
-from atlas.scene.hyperbola_plane import components
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.particle.flight import Flight
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.pictures import Scene
+from atlas.pictures.captions import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
+from atlas.pictures.flight import picture
+from atlas.pictures.hyperbola_plane import components
 
 
 def scene(

@@ -6,16 +6,16 @@ point charge, (4), (99), and about the centre it turns by the elementary motion 
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, number, positive, vector, whole
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.particle import ParticleMotion
+from atlas.arithmetic.inputs import FloatArray, number, positive, vector, whole
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space
-from atlas.scene.bodies import proportions, solenoid
-from atlas.scene.captions import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector
-from atlas.scene.layers import frame
-from atlas.scene.quadric_panel import E3, in_plane
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Scene, Space
+from atlas.pictures.bodies import proportions, solenoid
+from atlas.pictures.captions import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector
+from atlas.pictures.layers import frame
+from atlas.pictures.quadric_panel import E3, in_plane
+from atlas.pictures.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 150.0, 200.0
 AXIS, CORNER = 1.7, 0.22

@@ -7,9 +7,9 @@ goes round the axis, (87).
 from math import pi
 from typing import Any
 
-from atlas.core.motions.elementary import FreeMotion
-from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain, quotient, tex, tex_equals
+from atlas.motions.elementary.kernel import FreeMotion
+from atlas.pictures import Scene, any_motion
+from atlas.pictures.captions import plain, quotient, tex, tex_equals
 
 
 def scene(

@@ -8,14 +8,14 @@ from fractions import Fraction
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, whole
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.integrals import shape_factors
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.arithmetic.inputs import FloatArray, whole
+from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex, tex_equals, tex_setting
-from atlas.scene.hyperbola_plane import Window, components, graph
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
+from atlas.pictures.captions import plain, plain_setting, tex, tex_equals, tex_setting
+from atlas.pictures.hyperbola_plane import Window, components, graph
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
 TOP = 4.0

@@ -6,9 +6,9 @@ components of Omega(t) are elliptic functions of time.
 
 from typing import Any
 
-from atlas.core.motions.general import GeneralMotion
-from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain_setting, tex_setting
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Scene, any_motion
+from atlas.pictures.captions import plain_setting, tex_setting
 
 
 def scene(

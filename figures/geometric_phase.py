@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, vector
-from atlas.core.motions.elliptic import EllipticMotion
+from atlas.arithmetic.inputs import FloatArray, vector
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, solids
-from atlas.scene.captions import plain, tex, tex_vector
-from atlas.scene.quadric_panel import O, tolerance
+from atlas.motions.nutation.kernel_elliptic import EllipticMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, solids
+from atlas.pictures.captions import plain, tex, tex_vector
+from atlas.pictures.quadric_panel import O, tolerance
 
 WIDTH, HEIGHT = 178.0, 76.0
 POINTS = 256

@@ -7,9 +7,9 @@ tolerance that came through in time.
 from collections.abc import Iterator
 from dataclasses import replace
 
-from atlas.scene.captions import listed, tex
-from atlas.scene.layers import Curve, Layer, Plane, Scene
-from atlas.study import benchmark
+from atlas.checking import benchmark
+from atlas.pictures.captions import listed, tex
+from atlas.pictures.layers import Curve, Layer, Plane, Scene
 
 RECORDS = ("bench.json",)
 LIMIT = 4 * 2.0**-52

@@ -5,10 +5,10 @@ The paper's Figure Hyp (a): the sheet of the quadric (51) through the origin for
 
 from typing import Any
 
-from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, quadric_panel
-from atlas.scene.captions import plain_setting, quotient, tex_setting
+from atlas.pictures import Scene, quadric_panel
+from atlas.pictures.captions import plain_setting, quotient, tex_setting
+from atlas.surfaces.kernel import Quadric
 
 
 def scene(

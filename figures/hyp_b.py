@@ -5,10 +5,10 @@ The paper's Figure Hyp (b): the quadric (51) for 0 < I < 1, where it has one she
 
 from typing import Any
 
-from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, quadric_panel
-from atlas.scene.captions import plain_setting, quotient, tex_setting
+from atlas.pictures import Scene, quadric_panel
+from atlas.pictures.captions import plain_setting, quotient, tex_setting
+from atlas.surfaces.kernel import Quadric
 
 
 def scene(

@@ -6,11 +6,11 @@ omega3). Where the family is unstable against nutation (which is not in the pape
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.integrals import shape_factors
-from atlas.scene import Curve, Label, Layer, Region, Scene
-from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting
-from atlas.scene.hyperbola_plane import asymptote, branches, components, marked, places, unstable, window
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies.integrals import shape_factors
+from atlas.pictures import Curve, Label, Layer, Region, Scene
+from atlas.pictures.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting
+from atlas.pictures.hyperbola_plane import asymptote, branches, components, marked, places, unstable, window
 
 WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
 

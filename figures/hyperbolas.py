@@ -7,10 +7,10 @@ and the asymptote omega2 = -B2, and all pass through rest and through -2 B'.
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.scene import Curve, Layer, Points, Scene
-from atlas.scene.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector
-from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, marked, places, window
-from atlas.scene.style import LINES
+from atlas.pictures import Curve, Layer, Points, Scene
+from atlas.pictures.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector
+from atlas.pictures.hyperbola_plane import Window, asymptote, branches, components, marked, places, window
+from atlas.pictures.style import LINES
 
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
 

@@ -8,11 +8,11 @@ kinds; the lines are levels of the semi-axes C1, C2, C3 of (55) and (57) in unit
 import numpy as np
 from contourpy import contour_generator
 
-from atlas.core.inputs import FloatArray, whole
-from atlas.core.surfaces.quadric import Quadric
+from atlas.arithmetic.inputs import FloatArray, whole
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
-from atlas.scene.captions import listed
+from atlas.pictures import Curve, Label, Layer, Plane, Region, Scene
+from atlas.pictures.captions import listed
+from atlas.surfaces.kernel import Quadric
 
 WIDTH, HEIGHT = 178.0, 72.0
 LEAST, MOST = 60, 2000

@@ -9,14 +9,14 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.general import GeneralMotion
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, axis_trace, solids
-from atlas.scene.any_motion import slow_turn
-from atlas.scene.captions import plain_setting, spelt, tex_setting, tex_vector
-from atlas.scene.quadric_panel import E3, O, tolerance
-from atlas.scene.sample import curve
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space, axis_trace, solids
+from atlas.pictures.any_motion import slow_turn
+from atlas.pictures.captions import plain_setting, spelt, tex_setting, tex_vector
+from atlas.pictures.quadric_panel import E3, O, tolerance
+from atlas.pictures.sample import curve
 
 SIZE = 76.0
 HEAD = 0.36, 0.48

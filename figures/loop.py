@@ -3,11 +3,11 @@
 For I = 2 the sheets of the quadric (51) touch the planes omega_3 = 0, at the origin, and omega_3 = -2 B'_3, at -2 B'.
 """
 
-from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Points, Scene, quadric_panel, solids
-from atlas.scene.captions import plain_setting, tex_setting
-from atlas.scene.quadric_panel import E1, E2, O, in_plane
+from atlas.pictures import Points, Scene, quadric_panel, solids
+from atlas.pictures.captions import plain_setting, tex_setting
+from atlas.pictures.quadric_panel import E1, E2, O, in_plane
+from atlas.surfaces.kernel import Quadric
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
-from atlas.scene.bodies import proportions
-from atlas.scene.captions import plain_setting, quotient, tex_setting
-from atlas.scene.quadric_panel import E1, E2, E3, O, in_plane, tolerance
+from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
+from atlas.pictures.bodies import proportions
+from atlas.pictures.captions import plain_setting, quotient, tex_setting
+from atlas.pictures.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 
 SIZE, WINDINGS = 1.5, 7.0
 """How far the farthest point of the body is from its centre, and windings on a piece as high as that."""

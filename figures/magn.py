@@ -6,12 +6,12 @@ the particle, (93) and (98), drifts along [E, B] while it goes round B and is dr
 
 import numpy as np
 
-from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector
-from atlas.scene.quadric_panel import E1, E2, E3, O, in_plane, tolerance
-from atlas.scene.sample import curve
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, Space
+from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
+from atlas.pictures.quadric_panel import E1, E2, E3, O, in_plane, tolerance
+from atlas.pictures.sample import curve
 
 LEAN = 0.55
 """Radians from the axis y at which a field nearer to it is drawn."""

@@ -1,6 +1,6 @@
 """Monodromy of a heavy top and of a charged disk.
 
-A motion with given momenta p, M3 and energy g comes back after a lattice of turns and times, atlas.core.maps.monodromy.
+A motion with given momenta p, M3 and energy g comes back after a lattice of turns and times, atlas.maps.monodromy.
 Followed once round the value of an unstable spin about the field or the vertical, the lattice comes back, but its basis
 does not, theorem-residue.
 """
@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.monodromy import Monodromy, around, on_loop
-from atlas.core.maps.wells import Wells
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, tex
-from atlas.scene.sample import room
+from atlas.maps.monodromy import Monodromy, around, on_loop
+from atlas.maps.wells import Wells
+from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene
+from atlas.pictures.captions import plain, tex
+from atlas.pictures.sample import room
 
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}

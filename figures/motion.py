@@ -6,14 +6,14 @@ phi, (72): the body at the start with the way of that axis, (84); Omega(t), (73)
 
 import numpy as np
 
-from atlas.core.inputs import positive
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
-from atlas.scene.any_motion import course
-from atlas.scene.bodies import drawn_body
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting
-from atlas.scene.quadric_panel import E3, O
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.arithmetic.inputs import positive
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.pictures import Arrow, Curve, Layer, Plane, Points, Scene, Space
+from atlas.pictures.any_motion import course
+from atlas.pictures.bodies import drawn_body
+from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting
+from atlas.pictures.quadric_panel import E3, O
+from atlas.pictures.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 178.0, 62.0
 COLUMNS = 3

@@ -12,13 +12,13 @@ from contourpy import contour_generator
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.trace_map import trace_map
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import body_name, listed, tex, tex_vector
-from atlas.scene.hyperbola_plane import Window, branches, places
-from atlas.study.sweep.plan import Range, Tabulation
+from atlas.maps.trace_map import trace_map
+from atlas.pictures import Curve, Image, Label, Layer, Plane, Points, Scene
+from atlas.pictures.captions import body_name, listed, tex, tex_vector
+from atlas.pictures.hyperbola_plane import Window, branches, places
+from atlas.sweeps.plan import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 152.0, 144.0, 60.0
 NARROWEST = 139.0

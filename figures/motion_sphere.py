@@ -9,13 +9,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain, plain_setting, spelt, tex, tex_setting
-from atlas.scene.layers import frame
-from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
-from atlas.scene.sample import curve
+from atlas.arithmetic.inputs import FloatArray
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.pictures.captions import plain, plain_setting, spelt, tex, tex_setting
+from atlas.pictures.layers import frame
+from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
+from atlas.pictures.sample import curve
 
 MANY = 400.0
 """A first axis that turns by more radians than these would cover the sphere, and is not drawn."""

@@ -6,11 +6,11 @@ precession, its trace waves; if it moves against it, the trace loops; if it stan
 
 from typing import Any
 
-from atlas.core.maps.trace_map import trace_map
-from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
-from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting
+from atlas.maps.trace_map import trace_map
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Scene, axis_trace
+from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setting
 
 SIZE = 58.0
 

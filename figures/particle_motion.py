@@ -6,13 +6,13 @@ acceleration, and adrift across both fields.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, positive
-from atlas.core.motions.particle import ParticleMotion
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
-from atlas.scene.any_motion import course
-from atlas.scene.captions import plain, plain_vector, tex, tex_equals, tex_vector
-from atlas.scene.quadric_panel import tolerance
-from atlas.scene.sample import curve
+from atlas.arithmetic.inputs import FloatArray, positive
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space
+from atlas.pictures.any_motion import course
+from atlas.pictures.captions import plain, plain_vector, tex, tex_equals, tex_vector
+from atlas.pictures.quadric_panel import tolerance
+from atlas.pictures.sample import curve
 
 SIZE = (124.0, 66.0)
 Vector = tuple[float, float, float]

@@ -11,14 +11,14 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.bifurcation import momentum_map, potential
-from atlas.core.motions.integrals import shape_factors
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting
-from atlas.scene.sample import flat, room
+from atlas.maps.bifurcation import momentum_map, potential
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
+from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
+from atlas.pictures.sample import flat, room
 
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 

@@ -9,13 +9,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
-from atlas.scene.sample import flat
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
+from atlas.pictures import Curve, Layer, Plane, Points, Region, Scene
+from atlas.pictures.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
+from atlas.pictures.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)

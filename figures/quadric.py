@@ -6,9 +6,9 @@ canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on 
 
 from typing import Any
 
-from atlas.core.surfaces.quadric import Quadric
-from atlas.scene import Scene, quadric_panel
-from atlas.scene.captions import plain_setting, tex_setting
+from atlas.pictures import Scene, quadric_panel
+from atlas.pictures.captions import plain_setting, tex_setting
+from atlas.surfaces.kernel import Quadric
 
 
 def scene(

@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.bodies.body import moments
-from atlas.core.inputs import FloatArray, number
-from atlas.core.motions.integrals import shape_factors
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
-from atlas.core.motions.top import TopMotion
+from atlas.arithmetic.inputs import FloatArray, number
+from atlas.bodies.body import moments
+from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Curve, Layer, Plane, Points, Scene
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting
-from atlas.scene.sample import curve, flat, quarter_pixel, room
-from atlas.scene.style import LINES
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
+from atlas.pictures import Curve, Layer, Plane, Points, Scene
+from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting
+from atlas.pictures.sample import curve, flat, quarter_pixel, room
+from atlas.pictures.style import LINES
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
 DEEP = 0.02

@@ -7,13 +7,13 @@ plane below holds all tops of one ratio I, by their potential and by how far out
 
 import numpy as np
 
-from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, Space, Surface, quadrics, solids
-from atlas.scene.arrange import stacked
-from atlas.scene.captions import tex
-from atlas.scene.layers import frame
-from atlas.scene.quadric_panel import E3, tolerance
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene, Space, Surface, quadrics, solids
+from atlas.pictures.arrange import stacked
+from atlas.pictures.captions import tex
+from atlas.pictures.layers import frame
+from atlas.pictures.quadric_panel import E3, tolerance
+from atlas.surfaces.kernel import TopQuadric
 
 WIDTH, HEIGHT = 178.0, 134.0
 NARROWEST = 150.0

@@ -9,16 +9,16 @@ from itertools import pairwise
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.surfaces.hyperbola import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics, solids
-from atlas.scene.bodies import drawn_body
-from atlas.scene.captions import plain_setting, tex_setting
-from atlas.scene.hyperbola_plane import places
-from atlas.scene.layers import frame
-from atlas.scene.quadric_panel import in_plane, tolerance
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics, solids
+from atlas.pictures.bodies import drawn_body
+from atlas.pictures.captions import plain_setting, tex_setting
+from atlas.pictures.hyperbola_plane import places
+from atlas.pictures.layers import frame
+from atlas.pictures.quadric_panel import in_plane, tolerance
+from atlas.surfaces.kernel import Quadric
 
 WIDTH, HEIGHT = 120.0, 118.0
 BANDS = 5

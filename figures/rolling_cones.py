@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting
-from atlas.scene.layers import frame
-from atlas.scene.movement import about, riding
-from atlas.scene.quadric_panel import E3, O, in_plane, tolerance
+from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, Space, solids
+from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
+from atlas.pictures.layers import frame
+from atlas.pictures.movement import about, riding
+from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 
 
 def scene(

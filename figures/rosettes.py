@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.integrals import shape_factors
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Curve, Layer, Points, Scene, Space, solids
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting
-from atlas.scene.quadric_panel import O, tolerance
-from atlas.scene.sample import curve
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.pictures import Curve, Layer, Points, Scene, Space, solids
+from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setting
+from atlas.pictures.quadric_panel import O, tolerance
+from atlas.pictures.sample import curve
 
 SIZE = 44.0
 DENSE = 12.0

@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, solids
-from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting
-from atlas.scene.quadric_panel import E3, O, tolerance
-from atlas.scene.sample import curve, flat, room
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, axis_trace, solids
+from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_setting
+from atlas.pictures.quadric_panel import E3, O, tolerance
+from atlas.pictures.sample import curve, flat, room
 
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
 RANGES = {"decay": (0.1, 30.0)}

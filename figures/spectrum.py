@@ -6,12 +6,12 @@ m M + l p, or m M + j s, M the frequency of nutation, p and s the mean rates of 
 
 import numpy as np
 
-from atlas.core.inputs import number, whole
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.motions.spectrum import Spectrum
+from atlas.arithmetic.inputs import number, whole
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.motions.spectrum import Spectrum
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
+from atlas.pictures.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
 
 WIDTH, HEIGHT = 120.0, 110.0
 BESIDE = 0.02

@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.integrals import shape_factors
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting
-from atlas.scene.hyperbola_plane import Window, components, graph, seen, unstable
-from atlas.scene.sample import flat
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setting
+from atlas.pictures.hyperbola_plane import Window, components, graph, seen, unstable
+from atlas.pictures.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
 HIGH, WIDE, FAR, NAMED = 1.6, 1.0, 2.0, 0.93

@@ -10,11 +10,11 @@ pixel is a row of a table.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Image, Label, Layer, Plane, Scene
-from atlas.scene.sample import flat
-from atlas.study.sweep.plan import Range, Tabulation
+from atlas.pictures import Curve, Image, Label, Layer, Plane, Scene
+from atlas.pictures.sample import flat
+from atlas.sweeps.plan import Range, Tabulation
 
 WIDTH, HEIGHT, MARGIN = 120.0, 70.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))

@@ -13,17 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.motions.integrals import shape_factors
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.arrange import stacked
-from atlas.scene.bodies import drawn_body, row
-from atlas.scene.captions import plain, quotient, tex
-from atlas.scene.movement import about, along, riding
-from atlas.scene.quadric_panel import E3, tolerance
-from atlas.scene.sample import flat
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene
+from atlas.pictures.arrange import stacked
+from atlas.pictures.bodies import drawn_body, row
+from atlas.pictures.captions import plain, quotient, tex
+from atlas.pictures.movement import about, along, riding
+from atlas.pictures.quadric_panel import E3, tolerance
+from atlas.pictures.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
 STEP = 2.5

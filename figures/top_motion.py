@@ -4,9 +4,9 @@ The axis of a symmetric top nods between two parallels about the field or the ve
 the components of Omega(t) are elliptic functions of time.
 """
 
-from atlas.core.motions.top import TopMotion
-from atlas.scene import Scene, any_motion
-from atlas.scene.captions import plain, tex
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.pictures import Scene, any_motion
+from atlas.pictures.captions import plain, tex
 
 
 def scene(

@@ -6,10 +6,10 @@ of its axis under its weight, and turned by what a field induces in it.
 
 from typing import Any
 
-from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
-from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import plain, spelt, tex, tex_vector
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.pictures import Scene, axis_trace
+from atlas.pictures.captions import plain, spelt, tex, tex_vector
 
 SIZE = 44.0
 

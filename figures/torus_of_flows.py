@@ -7,13 +7,13 @@ the flow of H for a time T_H, and then that of F/2 for T_F, lead back.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, positive, vector
+from atlas.arithmetic.inputs import FloatArray, positive, vector
+from atlas.checking.simulate import flow
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, solids
-from atlas.scene.captions import plain, plain_vector, tex, tex_vector
-from atlas.scene.quadric_panel import O, tolerance
-from atlas.scene.torus import VIEW, net, on_torus, seen
-from atlas.study.simulate import flow
+from atlas.pictures import Arrow, Curve, Label, Points, Scene, Space, solids
+from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
+from atlas.pictures.quadric_panel import O, tolerance
+from atlas.pictures.torus import VIEW, net, on_torus, seen
 
 WIDTH, HEIGHT = 178.0, 80.0
 FINE = 150
@@ -75,8 +75,8 @@ def periods(
     inertia: tuple[float, ...], field: tuple[float, ...], omega: tuple[float, ...]
 ) -> list[tuple[float, float]]:
     """Return two pairs (T_H, T_F) that generate all times after which M and K are back, the least T_H first."""
-    from atlas.exact.motions.asymmetric import AsymmetricMotion
-    from atlas.exact.motions.torus import Torus
+    from atlas.motions.torus.certified import AsymmetricMotion
+    from atlas.motions.torus.certified_torus import Torus
 
     motion = AsymmetricMotion(inertia, field, omega)
     if motion.kind != "on a torus":

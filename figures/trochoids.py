@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import positive
-from atlas.core.motions.particle import ParticleMotion
+from atlas.arithmetic.inputs import positive
 from atlas.errors import DomainError
-from atlas.scene import Curve, Plane, Points, Scene
-from atlas.scene.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector
-from atlas.scene.sample import curve, quarter_pixel, room
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.pictures import Curve, Plane, Points, Scene
+from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector
+from atlas.pictures.sample import curve, quarter_pixel, room
 
 WIDTH, MARGIN = 86.0, 15.0
 

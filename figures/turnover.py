@@ -7,11 +7,11 @@ the push times the time, the curves of all small pushes are one.
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.asymmetric import AsymmetricMotion
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Plane, Scene
-from atlas.scene.captions import plain, tex, tex_vector
+from atlas.motions.torus.kernel import AsymmetricMotion
+from atlas.pictures import Curve, Label, Plane, Scene
+from atlas.pictures.captions import plain, tex, tex_vector
 
 WIDTH, HEIGHT = 88.0, 62.0
 POINTS = 600

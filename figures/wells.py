@@ -7,11 +7,11 @@ on a straight line, theorem-top-precession; the envelope of these lines borders 
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.wells import border, rest
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
-from atlas.scene.captions import listed, plain, tex
+from atlas.maps.wells import border, rest
+from atlas.pictures import Curve, Label, Layer, Plane, Region, Scene
+from atlas.pictures.captions import listed, plain, tex
 
 WIDTH, HEIGHT = 178.0, 78.0
 RANGES = {"reach": (0.5, 50.0)}

@@ -6,10 +6,10 @@ the lower left. An integrator is a line with one dot a tolerance, from 1e-3 to 1
 
 from collections.abc import Iterator
 
+from atlas.checking import benchmark
 from atlas.errors import AtlasError
-from atlas.scene.captions import listed, plain
-from atlas.scene.layers import Layer, Plane, Points, Scene
-from atlas.study import benchmark
+from atlas.pictures.captions import listed, plain
+from atlas.pictures.layers import Layer, Plane, Points, Scene
 
 RECORDS = ("bench.json",)
 ROOM = (1.6, 0.5), (0.9, 0.5)

@@ -1,5 +1,6 @@
-"""Ties between the floors: what `atlas.core` and `atlas.exact` compute, and the proved form of a ledger entry.
+"""Ties of what kernels and balls compute to the proved form of a ledger entry.
 
+A floor is all that computes in doubles, or all in balls.
 A tie names one quantity, reads it from a floor at seeded random points, and says by `proof.formula.value` what the
 ledger makes it. `agree` compares: a double within a few ulp, a ball that contains the value.
 """
@@ -22,14 +23,14 @@ import pytest
 import sympy
 from flint import arb, fmpq
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.exact.digits import enclosed, numbers
-from atlas.proof.formula import value
+from atlas.arithmetic.certified_digits import enclosed, numbers
+from atlas.bodies.body import SymmetricBody
+from atlas.trial.proofs.formula import value
 
 DIGITS = 50
 """Decimal digits of the ledger's value where it isn't rational; a ball has a few more."""
 
-FLOORS = ("core", "exact")
+FLOORS = ("kernel", "certified")
 
 
 class Floor:
@@ -40,7 +41,7 @@ class Floor:
 
     def __getattr__(self, name: str) -> Any:
         """Return the class or the module of that name."""
-        return getattr(self.module(name), name) if name[0].isupper() else import_module(modules(self.name)[name])
+        return getattr(self.module(name), name) if name[0].isupper() else import_module(dict(modules(self.name))[name])
 
     def module(self, cls: str) -> Any:
         """Return the module in which a class is defined."""
@@ -57,22 +58,30 @@ def _homes(floor: str) -> dict[str, str]:
     """Return the module of each class of a floor."""
     return {
         node.name: module
-        for module in modules(floor).values()
+        for _, module in modules(floor)
         for node in ast.parse(source(module)).body
         if isinstance(node, ast.ClassDef)
     }
 
 
-MACHINERY = "core.arithmetic", "core.nutation", "exact.arithmetic"
-"""Folders of what computes and holds no quantity of its own."""
+HOMES = ("bodies", "surfaces", "motions", "maps")
+"""Folders of what holds quantities."""
+NEITHER = ("approximate", "family", "formula", "register")
+"""How files are named that hold neither kernels nor balls."""
 
 
-def modules(floor: str) -> dict[str, str]:
-    """Return the modules of a floor by their last names."""
-    folder = import_module(f"atlas.{floor}").__path__
-    found = [module.name for module in pkgutil.walk_packages(folder, f"atlas.{floor}.") if not module.ispkg]
-    ours = [name for name in found if not name.removeprefix("atlas.").startswith(MACHINERY)]
-    return {name.rpartition(".")[2]: name for name in ours}
+def modules(floor: str) -> list[tuple[str, str]]:
+    """Return the modules of a floor, each with the name of its file, without the floor's own prefix."""
+    paths = [*(path for home in HOMES for path in import_module(f"atlas.{home}").__path__)]
+    found = [
+        (module.name.rpartition(".")[2], module.name)
+        for home, path in zip(HOMES, paths, strict=True)
+        for module in pkgutil.walk_packages([path], f"atlas.{home}.")
+        if not module.ispkg
+    ]
+    if floor == "certified":
+        return [(stem.removeprefix("certified_"), name) for stem, name in found if stem.startswith("certified")]
+    return [(stem, name) for stem, name in found if not stem.startswith((*NEITHER, "certified"))]
 
 
 def source(module: str) -> str:
@@ -163,7 +172,7 @@ GRID = (0.7, 0.31, 3)
 
 def matrices(
     motion: str, names: str, read: Callable[[Any, Any], Any], truth: Callable[[Ledger, Any, Any], Any],
-    points: Sequence[Any], floors: tuple[str, ...] = ("core",),
+    points: Sequence[Any], floors: tuple[str, ...] = ("kernel",),
 ) -> tuple[Tie, ...]:  # fmt: skip
     """Return the ties of R(t): at a time and on a grid, and of its columns, these on some floors.
 
@@ -183,7 +192,7 @@ def matrices(
             f"{motion}.rotation_grid",
             read=lambda f, p: read(f, p).rotation_grid(*GRID),
             truth=lambda say, p: [truth(say, p, t) for t in times],
-            floors=("core",),
+            floors=("kernel",),
         ),
         tie(
             f"{motion}.column",
@@ -212,13 +221,13 @@ def agree(tie: Tie, floor: str, points: Sequence[Any] | None = None) -> None:
         ledger = Ledger()
         true = [_fraction(x) for x in _flat(tie.truth(ledger, point))]
         assert ledger.names == set(tie.names.split())
-        if floor == "core":
+        if floor == "kernel":
             _compare_doubles(tie, point, true)
         else:
             _compare_balls(tie, point, true)
 
 
-def disagree(ties: Iterable[Tie], *quantities: str, floor: str = "core") -> None:
+def disagree(ties: Iterable[Tie], *quantities: str, floor: str = "kernel") -> None:
     """Check that the agreement of these quantities, of all their ties, is gone."""
     found = [tie for tie in ties if tie.quantity in quantities and floor in tie.floors]
     assert {tie.quantity for tie in found} == set(quantities)
@@ -228,7 +237,7 @@ def disagree(ties: Iterable[Tie], *quantities: str, floor: str = "core") -> None
 
 
 def _compare_doubles(tie: Tie, point: Any, true: list[Fraction]) -> None:
-    found = [Fraction(x) for x in _flat(tie.read(Floor("core"), point))]
+    found = [Fraction(x) for x in _flat(tie.read(Floor("kernel"), point))]
     assert len(found) == len(true), tie
     size = tie.size(true, point)
     for x, y in zip(found, true, strict=True):
@@ -237,7 +246,7 @@ def _compare_doubles(tie: Tie, point: Any, true: list[Fraction]) -> None:
 
 
 def _compare_balls(tie: Tie, point: Any, true: list[Fraction]) -> None:
-    found = list(numbers(enclosed(lambda: tie.read(Floor("exact"), point), 200)))
+    found = list(numbers(enclosed(lambda: tie.read(Floor("certified"), point), 200)))
     assert len(found) == len(true), tie
     for ball, y in zip(found, true, strict=True):
         middle, radius = (_dyadic(ball.mid()), _dyadic(ball.rad())) if isinstance(ball, arb) else (_dyadic(ball), 0)

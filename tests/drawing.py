@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.draw import save
-from atlas.scene import Scene, recipes
+from atlas.pictures import Scene, recipes
+from atlas.pictures.drawing import save
 
 FloatArray = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from syrupy.extensions.single_file import SingleFileSnapshotExtension, WriteMode
 
-from atlas.scene import Curve, Image, Layer, Panel, Region, Scene, Space, Surface
+from atlas.pictures import Curve, Image, Layer, Panel, Region, Scene, Space, Surface
 
 FloatArray = NDArray[np.float64]
 NUMBERS = re.compile(r"(\[[-+.\de ]+\]|<[-+.\de ]+>|~[-+.\de ]+~)")

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from matplotlib.transforms import Bbox
 
-from atlas.draw.meeting import Texts
+from atlas.pictures.drawing.meeting import Texts
 from atlas.targets import Target
 
 _INCH, _POINTS = 25.4, 72.0

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from atlas.families import FAMILIES
 from atlas.files import WRITTEN
-from atlas.paper import EQUATIONS
-from atlas.proof import recorded
-from atlas.proof.verdict import Verdict
+from atlas.motions.register import FAMILIES
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs import recorded
+from atlas.trial.proofs.verdict import Verdict
 
 
 def names(folder: Path) -> list[str]:

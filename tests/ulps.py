@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from flint import arb, fmpq
 
-from atlas.core.inputs import FloatArray
-from atlas.exact.inputs import Real
+from atlas.arithmetic.certified_inputs import Real
+from atlas.arithmetic.inputs import FloatArray
 
 ONE = 2.0**-52
 """A unit in the last place of 1."""

@@ -59,7 +59,7 @@ def command(
     you edited, or put there, it is NAME.new.FORMAT, and then the exit status is 2. With a NAME, --help tells its
     parameters.
     """
-    from atlas.draw import animation
+    from atlas.pictures.drawing import animation
     from atlas.places import settle_matplotlib
 
     settle_matplotlib()
@@ -81,7 +81,7 @@ def through(text: str) -> tuple[str, list[Any]]:
     """
     import numpy as np
 
-    from atlas.draw.animation import MOST
+    from atlas.pictures.drawing.animation import MOST
 
     key, _, values = text.partition("=")
     parts = values.split(":")

@@ -14,7 +14,7 @@ import click
 
 from atlas import __version__
 from atlas.errors import AtlasError, RelativisticWarning
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
 
 LONG = 400
 """Characters of a word that an error repeats whole."""
@@ -192,7 +192,7 @@ def show_warning(otherwise: Callable[..., None], message: Any, category: type[Wa
 def complain(sentence: str, status: int) -> int:
     """Print one line on standard error, without what a terminal would obey, and return the exit status."""
     words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
-    from atlas.paper.plain import printable
+    from atlas.trial.ledger.plain import printable
 
     click.echo(f"atlas: {printable(' '.join(words))}", err=True)
     return status

@@ -114,7 +114,7 @@ def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
 
 def shapes() -> dict[str, list[str]]:
     """Return the shapes that --shape takes, each with the options of its dimensions."""
-    from atlas.core.bodies.body import SHAPES
+    from atlas.bodies.body import SHAPES
 
     named = {name.replace("_", "-"): names for name, (_, names) in SHAPES.items()}
     return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
@@ -135,14 +135,14 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
         return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options))
     if options["points"] is not None:
         return points(options["points"])
-    from atlas.core.bodies.body import SymmetricBody
+    from atlas.bodies.body import SymmetricBody
 
     return SymmetricBody(*options["inertia"])
 
 
 def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any:
     """Return the body of a shape with the dimensions that were typed; its mass is 1 where none was."""
-    from atlas.core.bodies.body import from_shape
+    from atlas.bodies.body import from_shape
 
     known = shapes()
     if shape == ROD:
@@ -186,7 +186,7 @@ def given_attitude(options: Mapping[str, Any]) -> Any:
     """Return the matrix R(0) of --attitude, None where it is not given. Raises AtlasError for no unit length."""
     if options.get("attitude") is None:
         return None
-    from atlas.core.arithmetic.quaternions import rotation_of
+    from atlas.arithmetic.quaternions import rotation_of
 
     return rotation_of(options["attitude"], "--attitude")
 
@@ -213,7 +213,7 @@ def exact_moments(options: dict[str, Any]) -> Any:
 
 def exact_body(options: dict[str, Any]) -> Any:
     """Return the body of `chosen_body` for the certified floor: what was typed, nothing rounded."""
-    from atlas.exact.bodies.body import Moments, shape_moments
+    from atlas.bodies.certified_body import Moments, shape_moments
 
     body = chosen_body(options)
     if options["points"] is not None and options["decimal"]:
@@ -253,7 +253,7 @@ def system_of(options: Mapping[str, Any]) -> str:
 
 def speed_of_light(options: Mapping[str, Any]) -> float:
     """Return the factor c of (32) and (93) in the system of units."""
-    from atlas.core.bodies.units import GAUSSIAN
+    from atlas.bodies.units import GAUSSIAN
 
     return GAUSSIAN.c if system_of(options) == "gaussian" else 1.0
 
@@ -277,14 +277,14 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
 
     Raises click.UsageError where none of them or several are given.
     """
-    from atlas.core.bodies.units import charge_to_mass
+    from atlas.bodies.units import charge_to_mass
 
     return charge_to_mass(*_charge_and_mass(options, needs))
 
 
 def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> Any:
     """Return the ratio of `charge_to_mass_of` for the certified floor: what was typed, nothing rounded."""
-    from atlas.exact.inputs import rational
+    from atlas.arithmetic.certified_inputs import rational
 
     charge_to_mass_of(options, needs)  # says what is wrong with it
     charge, mass = exactly(_charge_and_mass(options, needs), options)
@@ -326,7 +326,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
             if options[name] is not None:
                 raise click.UsageError(f"--{name} goes with --magnetic only: --field holds B', in 1/time.")
         return tuple(options["field"])
-    from atlas.core.bodies.field import Field
+    from atlas.bodies.field import Field
 
     typed, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
     charge_to_mass_of(options)  # says what is wrong with it
@@ -341,7 +341,7 @@ def exact_field(options: dict[str, Any]) -> Any:
     field = chosen_field(options)
     if options["magnetic"] is None:
         return exactly(field, options)
-    from atlas.exact.inputs import rational
+    from atlas.arithmetic.certified_inputs import rational
 
     factor = exact_charge_to_mass(options) / (2 * rational(speed_of_light(options), "c"))
     return [factor * rational(B, "B") for B in options["magnetic"]]
@@ -352,8 +352,8 @@ def check_speeds(options: Mapping[str, Any]) -> None:
 
     Raises DomainError where the drift in crossed fields is not below the speed of light.
     """
-    from atlas.core.bodies.speeds import check_drift, fastest_point, speed_of_light, warn_of
-    from atlas.core.bodies.units import system
+    from atlas.bodies.speeds import check_drift, fastest_point, speed_of_light, warn_of
+    from atlas.bodies.units import system
 
     known = options.get("magnetic") is not None and system_of(options) != "natural"
     units = system(system_of(options)) if known else system("SI")

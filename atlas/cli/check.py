@@ -100,8 +100,8 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
 
 def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[str, Any]) -> int:
     """Grade trajectories against what has these parameters, field and start; show the grades, and return the status."""
-    from atlas.study.check import check_file
-    from atlas.study.order import convergence
+    from atlas.checking.check import check_file
+    from atlas.checking.order import convergence
 
     parameters["omega"] = body.start_of(options, needed=False)
     if given(options, ("field", "magnetic")):

@@ -10,7 +10,7 @@ import click
 
 from atlas.cli.body import check_speeds
 from atlas.cli.options import examples
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
 
 
 @click.command(
@@ -37,8 +37,8 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
 
     With the options of atlas motion in the place of NAME the sliders start at that motion, in principal axes.
     """
-    from atlas.live.server import OPENS, Explorer
-    from atlas.live.subjects import subject_or_file
+    from atlas.cli.explorer.server import OPENS, Explorer
+    from atlas.cli.explorer.subjects import subject_or_file
     from atlas.places import settle_matplotlib
 
     settle_matplotlib()

@@ -43,9 +43,9 @@ from atlas.cli.present import (
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.cli.uncertain import mapped, spread, uncertain
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
-from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
-from atlas.families import Command as Described
 from atlas.families.family import RATE, TIME
+from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
+from atlas.motions.register import Command as Described
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
@@ -234,7 +234,7 @@ def _later(
     spare: int,
 ) -> Iterator[dict[str, Any]]:
     """Yield the records of later times, some at a time: a table prints them while the next are computed."""
-    from atlas.exact.digits import certified
+    from atlas.arithmetic.certified_digits import certified
 
     for start in range(0, len(times), AT_ONCE):
         some = partial(balls, times[start : start + AT_ONCE], replace(family, quantities=()))
@@ -267,7 +267,7 @@ def _shown_otherwise(
 
 def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, Any]) -> None:
     """Print the spectral curve of a motion on a torus."""
-    from atlas.exact.motions.spectral_curve import SpectralCurve
+    from atlas.motions.torus.certified_spectral_curve import SpectralCurve
 
     if uncertain(options) or body.given_tensor(options) is not None or options["attitude"] is not None:
         raise click.UsageError("--curve is proven: it goes with numbers without an uncertainty, along principal axes.")
@@ -337,7 +337,7 @@ def motion_in_given_axes(options: dict[str, Any]) -> Any:
     J = body.chosen_moments(options) if tensor is None else tensor
     if tensor is None and attitude is None and len({*map(float, J)}) == len(J):
         return None
-    from atlas.core.motions.chosen import motion
+    from atlas.motions.any_body import motion
 
     return motion(J, body.chosen_field(options), body.start_of(options), attitude)
 
@@ -358,7 +358,7 @@ class Principal(NamedTuple):
 
 def in_principal_axes(motion: Any, unit: str = "") -> Principal:
     """Return what asks for a motion in given axes in those of its class, rates in a unit."""
-    from atlas.core.bodies.body import moments
+    from atlas.bodies.body import moments
 
     family, arguments = FAMILIES["asymmetric" if motion.family == "free" else motion.family], dict(motion.own.arguments)
     if motion.family == "free":
@@ -398,7 +398,7 @@ def _in_doubles(
     motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float], worth: str
 ) -> None:
     """Print a motion in given axes, which is certified in no twin but that of any body."""
-    from atlas.core.motions.chosen import body_of
+    from atlas.motions.any_body import body_of
 
     if options["digits"] is not None or options["decimal"]:
         own = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
@@ -590,7 +590,7 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
         best[s.name, t] = s.method_of(motion)(t)
     except NotCertifiedError as reason:
         best.reason = str(reason)
-        from atlas.exact.digits import NOT_CERTIFIED
+        from atlas.arithmetic.certified_digits import NOT_CERTIFIED
 
         none = [NOT_CERTIFIED] * 3
         return best.get((s.name, t), [none] * 3 if s.matrix else none)
@@ -599,8 +599,8 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
 
 def _quaternion(R: Any, near: Any) -> Any:
     """Return the quaternion of a matrix of balls, near to doubles; not certified where the matrix is not."""
-    from atlas.exact.digits import NOT_CERTIFIED
-    from atlas.exact.nutation.cayley_klein import quaternion
+    from atlas.arithmetic.certified_digits import NOT_CERTIFIED
+    from atlas.motions.nutation.certified_cayley_klein import quaternion
 
     return [NOT_CERTIFIED] * 4 if near is None or isinstance(R[0][0], str) else quaternion(R, near)
 
@@ -639,7 +639,7 @@ def _printout(
     beside: Iterable[Line],
 ) -> Printout:
     """Lay the certified texts out, with lines that stand beside the quantities, and three rows a time."""
-    from atlas.exact.digits import NOT_CERTIFIED
+    from atlas.arithmetic.certified_digits import NOT_CERTIFIED
 
     uncertain_rows = False
 

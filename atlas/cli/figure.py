@@ -12,7 +12,7 @@ from atlas.errors import AtlasError
 from atlas.targets import TARGETS, find
 
 if TYPE_CHECKING:
-    from atlas.build.figures import Files
+    from atlas.book.building.figures import Files
 
 
 class FigureCommand(Command):
@@ -31,8 +31,8 @@ class FigureCommand(Command):
 
     @staticmethod
     def _parameters(name: str, formatter: click.HelpFormatter) -> None:
-        from atlas.scene import recipes
-        from atlas.scene.parameters import MEANINGS, described, typed
+        from atlas.pictures import recipes
+        from atlas.pictures.parameters import MEANINGS, described, typed
 
         recipe = recipes.load(name)
         at_least = f"; it needs a page of {recipe.narrowest:g} mm" if recipe.narrowest else ""
@@ -112,8 +112,8 @@ def command(
     others; then the exit status is 1. Beside a file that you edited, or put there, the new one is written, as
     NAME.new.svg, and then the exit status is 2.
     """
-    from atlas.build.figures import build_figures
-    from atlas.scene import recipes
+    from atlas.book.building.figures import build_figures
+    from atlas.pictures import recipes
 
     if everything == bool(names):
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")

@@ -70,7 +70,7 @@ def command(file: Path, **options: Any) -> int:
 
 def fitted(file: Path, options: dict[str, Any]) -> Any:
     """Return the fit that the options ask for."""
-    from atlas.study.fit import fit_file
+    from atlas.fitting import fit_file
 
     return fit_file(file, **arguments(options))
 

@@ -46,7 +46,7 @@ def command(**options: Any) -> None:
         return described(curve, points, along(curve.omega3, points), k, phi, along(curve.stability, points))
 
     def balls() -> dict[str, Any]:
-        from atlas.exact.surfaces.hyperbola import Hyperbola
+        from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
         curve = Hyperbola(exact_body(options), exact_field(options))
         abscissas = [exactly(x, options) for x in points]
@@ -61,7 +61,7 @@ def command(**options: Any) -> None:
 
 def curve_of(options: dict[str, Any]) -> Any:
     """Return the curve in floats."""
-    from atlas.core.surfaces.hyperbola import Hyperbola
+    from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 
     return Hyperbola(chosen_body(options), chosen_field(options))
 

@@ -12,7 +12,7 @@ from atlas.cli.present import Printout, dump, show
 from atlas.errors import AtlasError
 
 if TYPE_CHECKING:
-    from atlas.scene.recipes import Recipe
+    from atlas.pictures.recipes import Recipe
 
 T = TypeVar("T")
 
@@ -35,8 +35,8 @@ def command(which: str | None, as_json: bool) -> int:
     says what it takes. A figure that is too wide for a journal's column says how much it needs. A recipe or a report
     that cannot be read does not hide the others; then the exit status is 1.
     """
-    from atlas.report import files
-    from atlas.scene import recipes
+    from atlas.book import files
+    from atlas.pictures import recipes
 
     broken = list[str]()
     figures = {name: title for name in recipes.names() if (title := _read(recipes.title, name, broken)) is not None}
@@ -90,7 +90,7 @@ def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
 
 def _shown(name: str, record: dict[str, Any]) -> str:
     """Write a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
-    from atlas.scene.parameters import typed
+    from atlas.pictures.parameters import typed
 
     word = name if record["default"] is None else f"{name}={typed(record['default'])}"
     ends = "[{:g},{:g}]".format(*record["range"]) if "range" in record else ""
@@ -108,6 +108,6 @@ def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
 
 def report_title(name: str) -> str:
     """Return the title of a report in reports/."""
-    from atlas.report import files
+    from atlas.book import files
 
     return str(files.head(files.find(name)).get("title", ""))

@@ -287,7 +287,7 @@ def _components(size: float, angle: float) -> list[float]:
     """Return the components of a field across and along the axis, each rounded once."""
     from flint import arb
 
-    from atlas.formulas.numbers import rounded
+    from atlas.arithmetic.numbers import rounded
 
     across, along = rounded(lambda: [arb(size) * x for x in arb(angle).sin_cos()])
     return [across, along]

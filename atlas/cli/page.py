@@ -28,7 +28,7 @@ from atlas.cli.present import bar
 from atlas.cli.report import status_of
 from atlas.cli.top import top_units
 from atlas.errors import AtlasError
-from atlas.families import FAMILIES, Family
+from atlas.motions.register import FAMILIES, Family
 
 OWN = {"out", "digits", "title", "name", "jobs", "note"}
 """Options of a page, not of its object."""
@@ -71,8 +71,8 @@ COMMANDS = {
 @page_options
 def of_fit(file: Path, **options: Any) -> int:
     """Fit a file, and make the page of what is found; the status is that of `atlas fit`."""
-    from atlas.report.fitted import Fitted
-    from atlas.study.fit import fit_file
+    from atlas.book.fit_report import Fitted
+    from atlas.fitting import fit_file
 
     typed = _typed((options.keys() - OWN) | {"file"}, {"file": file, **options})
     called, given = _called(options), dict(arguments(options))
@@ -197,7 +197,7 @@ def command() -> None:
 
 def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
-    from atlas.report.page import Asked
+    from atlas.book.page import Asked
 
     body.check_speeds(options)
     typed = _typed(options.keys() - OWN, options)
@@ -300,8 +300,8 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
     file, recipe = (out / f"{wanted.name}{suffix}" for suffix in (".md", ".py"))
     if not file.exists():  # its figures are to be drawn: what they need is loaded meanwhile
         processes.prepare(processes.DRAWING)
-    from atlas.build.report import build_report
-    from atlas.report.page import edited
+    from atlas.book.building.report import build_report
+    from atlas.book.page import edited
 
     for path in (file, recipe):
         if path.exists() and edited(path.read_text(encoding="utf-8")):

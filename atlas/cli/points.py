@@ -32,7 +32,7 @@ class Masses(NamedTuple):
     @property
     def inertia(self) -> Any:
         """The inertia tensor (3, 3)."""
-        from atlas.core.bodies.inertia import inertia_from_mass_matrix
+        from atlas.bodies.inertia import inertia_from_mass_matrix
 
         return inertia_from_mass_matrix(self.matrix)
 
@@ -41,7 +41,7 @@ def point_masses(path: Path) -> Masses:
     """Read point masses, and charges if there are any. Raises click.UsageError for a file that has no such columns."""
     import numpy as np
 
-    from atlas.core.bodies.inertia import mass_matrix_of_points
+    from atlas.bodies.inertia import mass_matrix_of_points
 
     columns = columns_of(path)
     if not {"x", "y", "z", "mass"} <= set(columns) <= {"x", "y", "z", "mass", "charge"}:
@@ -56,7 +56,7 @@ def points(path: Path) -> Any:
     """Return the body of point masses that are symmetric about the axis z. Raises click.UsageError for others."""
     import numpy as np
 
-    from atlas.core.bodies.body import SymmetricBody
+    from atlas.bodies.body import SymmetricBody
 
     read = point_masses(path)
     g, inertia = read.matrix, read.inertia
@@ -111,7 +111,7 @@ def ratio_of_points(path: Path) -> float:
 
 def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
     """Return the charge-to-mass ratio of all points. Raises click.UsageError where they have different ones."""
-    from atlas.core.bodies.units import charge_to_mass
+    from atlas.bodies.units import charge_to_mass
 
     ratios = charges / masses
     if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():

@@ -53,7 +53,7 @@ def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
     """Draw what was found into the file that was asked for, if one was, and say where it is."""
     if file is None:
         return
-    from atlas.draw.files import save
+    from atlas.pictures.drawing.files import save
 
     save(graded.scene(), {file: file.suffix.lstrip(".")}, kept=True)
     if not silent:
@@ -189,7 +189,7 @@ def answer(
             raise click.UsageError("--decimal needs --digits: floats in JSON are made from doubles.")
         dump({"parameters": parameters, **floats()})
         return None
-    from atlas.exact.digits import certified
+    from atlas.arithmetic.certified_digits import certified
 
     texts: dict[str, Any] = certified(balls, options["digits"] or TABLE_DIGITS, spare=spare)
     if not options["as_json"]:

@@ -11,7 +11,7 @@ from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
 
 if TYPE_CHECKING:
-    from atlas.build.report import Built
+    from atlas.book.building.report import Built
 
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
 
@@ -53,7 +53,7 @@ def command(
     What you put into the folder of the pages stays. Beside a page or PDF that you edited the new one is written, as
     NAME.new.html, and then the exit status is 2.
     """
-    from atlas.build.report import FORMATS, build_report
+    from atlas.book.building.report import FORMATS, build_report
 
     status = 0
     for name in names or ("atlas",):
@@ -81,7 +81,7 @@ def _explain(built: "Built") -> None:
     """Show why each part was made or taken, and what the figures cost."""
     show(explained(built.reasons))
     if built.costs is not None:
-        from atlas.build.figures import HEADING, rows_of_costs
+        from atlas.book.building.figures import HEADING, rows_of_costs
 
         note = "A figure from the cache shows what it cost when it was drawn."
         show(Printout("what the figures cost", heading=HEADING, rows=rows_of_costs(built.costs), notes=[note]))
@@ -103,7 +103,7 @@ def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     written whole, with the same bytes each time; what you put there stays. Beside a file that you edited the new one
     is written, as NAME.new.csv, and then the exit status is 2.
     """
-    from atlas.build.composed import build_data
+    from atlas.book.building.composed import build_data
 
     try:
         parquet = bool(of_sweeps("pyarrow", "Parquet"))
@@ -133,7 +133,7 @@ def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     What you put into the folder stays. Beside a file that you edited the new one is written, as paper.new.tex, and
     then the exit status is 2.
     """
-    from atlas.build.composed import build_tex
+    from atlas.book.building.composed import build_tex
 
     with bar(f"{Path(name).stem} as LaTeX", every=10) as tell:
         place = build_tex(name, out, tell, jobs=jobs, style=style)

@@ -13,9 +13,9 @@ from atlas.cli.family import in_principal_axes, motion_in_given_axes
 from atlas.cli.options import REAL, Command, Place, are_of_any_body, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
-from atlas.families import FAMILIES
 from atlas.families.family import TIME
 from atlas.measured import split
+from atlas.motions.register import FAMILIES
 
 NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
@@ -41,7 +41,7 @@ class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since c
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the place as it was written, if something can be written there."""
-        from atlas.study.sweep.store import MEMORY
+        from atlas.sweeps.store import MEMORY
 
         text = str(value)
         if MEMORY in text:
@@ -101,7 +101,7 @@ def swept(
     **options: Any,
 ) -> None:
     """Compute quantities of a family over parameters, and write the table."""
-    from atlas.study.sweep.run import sweep
+    from atlas.sweeps.run import sweep
 
     if toml is None:
         if family is None:
@@ -280,7 +280,7 @@ def _listed(family: str, path: Path) -> tuple[dict[str, list[float]], set[str]]:
 
 def _values(family: str, name: str, value: Any) -> Any:
     """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
-    from atlas.study.sweep.plan import Range
+    from atlas.sweeps.plan import Range
 
     if not isinstance(value, str):
         return value

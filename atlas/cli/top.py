@@ -95,7 +95,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
     """Return the top under its weight, with upwards as a direction."""
-    from atlas.core.motions.top import TopMotion
+    from atlas.motions.nutation.kernel_top import TopMotion
 
     if options["points"] is None:
         _needs(options, "mass", "--heavy")
@@ -106,8 +106,8 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
 
 def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
     """Return the charged top, which may be held at a point and have a weight along the field."""
-    from atlas.core.bodies.body import SymmetricBody
-    from atlas.core.motions.top import TopMotion
+    from atlas.bodies.body import SymmetricBody
+    from atlas.motions.nutation.kernel_top import TopMotion
 
     in_one_system(options)
     field, body, length, weight = options["magnetic"], _body(options), None, (0.0, 0.0)
@@ -125,7 +125,7 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
 
 def _body(options: Mapping[str, Any]) -> Any:
     """Return the body of --inertia, --shape or --points."""
-    from atlas.core.bodies.body import SymmetricBody, from_shape
+    from atlas.bodies.body import SymmetricBody, from_shape
 
     one_of(options, "body", BODY)
     _goes_with(options, SIZES, ("shape", "coat"))
@@ -143,7 +143,7 @@ def _body(options: Mapping[str, Any]) -> Any:
 
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     """Return the moments of the charges of --charged, --coat or --points, of a body held so far from its centre."""
-    from atlas.core.bodies.charge import ChargeMoments
+    from atlas.bodies.charge import ChargeMoments
 
     one_of(options, "charge", CHARGES)
     _goes_with(options, ("charge",), ("coat",))

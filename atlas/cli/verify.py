@@ -7,7 +7,7 @@ import click
 
 from atlas.cli.options import Command, examples, json_option
 from atlas.cli.present import Printout, bar, dump, show
-from atlas.paper.plain import plain
+from atlas.trial.ledger.plain import plain
 
 COLUMNS = (
     "name",
@@ -50,11 +50,11 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
     """
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
-    from atlas import proof
-    from atlas.build.cache import Cache
-    from atlas.paper import find
+    from atlas.book.building.cache import Cache
     from atlas.places import cache_folder
-    from atlas.proof.run import CACHE
+    from atlas.trial import proofs as proof
+    from atlas.trial.ledger import find
+    from atlas.trial.proofs.run import CACHE
 
     if script and (as_json or len({entry.name for name in names for entry in find(name)}) != 1):
         raise click.UsageError("--script prints one script: name one equation, without --json.")
@@ -73,7 +73,7 @@ def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, script:
 
 def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int:
     """Show verdicts, more of those asked for by name, and what differs from the record; return the exit status."""
-    from atlas.proof.recorded import differs
+    from atlas.trial.proofs.recorded import differs
 
     different = differs(verdicts)
     if as_json:
@@ -94,8 +94,8 @@ def _verdicts(verdicts: Any, as_json: bool, record: bool, *, named: bool) -> int
 
 def _script(verdict: Any) -> int:
     """Print the script of one entry, with the exit status 1 if its verdict differs from the recorded one."""
-    from atlas import proof
     from atlas.errors import AtlasError
+    from atlas.trial import proofs as proof
 
     text = proof.script_of(verdict)
     if not text.startswith("#"):
@@ -123,7 +123,7 @@ def _table(verdicts: Any) -> None:
 
 def _details(verdict: Any, *, named: bool) -> str:
     """Return what one verdict says, a line for each part; more if it was asked for by name."""
-    from atlas.paper import EQUATIONS
+    from atlas.trial.ledger import EQUATIONS
 
     says = {"says": EQUATIONS[verdict.name].says, "tried from": verdict.follows} if named else {}
     words = [(name, plain(text)) for name, text in says.items()]
@@ -142,7 +142,7 @@ def _reading(phrase: str, line: str) -> str:
 
 def _proof(verdict: Any) -> list[str]:
     """Return what the sides of a proved form are, each on a line, and how its script is had."""
-    from atlas import proof
+    from atlas.trial import proofs as proof
 
     lines = [f"    {line}" for line in proof.sides_of(verdict.name)]
     return [
@@ -153,7 +153,7 @@ def _proof(verdict: Any) -> list[str]:
 
 def _totals(verdicts: Any) -> None:
     """Show how many verdicts and slips of each kind there are."""
-    from atlas.proof.verdict import slips
+    from atlas.trial.proofs.verdict import slips
 
     totals = Counter(verdict.verdict for verdict in verdicts)
     seconds = sum(verdict.seconds for verdict in verdicts)

@@ -154,10 +154,10 @@ class Command:
 class Family:
     """A family: parameters in the order that both classes take them in, quantities, and what it has at a time.
 
-    `source` is where both `atlas.core` and `atlas.exact` have its class. `promises` holds the largest errors, in ulps,
-    by the names of a stress run: of quantities and of what else is checked. Tables make so many motions `at_once`.
-    `figures` are recipes that draw one, from parameters by the same names. `typed` is what asks for one at the command
-    line, before its parameters, where the family has no `command` of its own.
+    `source` is the class with its module, where "{}" stands for "kernel" or "certified". `promises` holds the largest
+    errors, in ulps, by the names of a stress run: of quantities and of what else is checked. Tables make so many
+    motions `at_once`. `figures` are recipes that draw one, from parameters by the same names. `typed` is what asks for
+    one at the command line, before its parameters, where the family has no `command` of its own.
     """
 
     name: str
@@ -182,13 +182,13 @@ class Family:
         return str(getattr(thing, self.command.named)) if self.command and self.command.named else ""
 
     def kernels(self) -> Any:
-        """Import and return the class of `atlas.core`."""
-        return self._class("core")
+        """Import and return the class that computes in doubles."""
+        return self._class("kernel")
 
     def balls(self) -> Any:
-        """Import and return the class of `atlas.exact`."""
-        return self._class("exact")
+        """Import and return the class that computes in balls."""
+        return self._class("certified")
 
-    def _class(self, floor: str) -> Any:
+    def _class(self, kind: str) -> Any:
         module, _, name = self.source.rpartition(".")
-        return getattr(import_module(f"atlas.{floor}.{module}"), name)
+        return getattr(import_module(f"atlas.{module.format(kind)}"), name)

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, positive, real
-from atlas.core.quantities import TIME
-from atlas.core.shown import Shown
+from atlas.arithmetic.dimensions import TIME
+from atlas.arithmetic.inputs import FloatArray, positive, real
+from atlas.display import Shown
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.libraries import of_sweeps
-from atlas.scene.any_motion import axis_period, pieces, turns
-from atlas.scene.sample import knots
-from atlas.study.sweep.families import FAMILIES, Swept
+from atlas.pictures.any_motion import axis_period, pieces, turns
+from atlas.pictures.sample import knots
+from atlas.sweeps.families import FAMILIES, Swept
 
 
 def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from atlas.core.motions.flight import Flight
-from atlas.core.shown import Shown
-from atlas.draw.panels import draw_panel, to_figure
+from atlas.display import Shown
 from atlas.errors import AtlasError, unknown
-from atlas.families import FAMILIES, Family
-from atlas.scene import flight, recipes
-from atlas.scene.layers import Scene
+from atlas.motions.particle.flight import Flight
+from atlas.motions.register import FAMILIES, Family
+from atlas.pictures import flight, recipes
+from atlas.pictures.drawing.panels import draw_panel, to_figure
+from atlas.pictures.layers import Scene
 from atlas.targets import find
 
 
@@ -43,7 +43,7 @@ def plot(
 
 def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
     """Return a motion as an animation, see `Motion.animate`."""
-    from atlas.draw.animation import of_motion
+    from atlas.pictures.drawing.animation import of_motion
 
     return of_motion(motion, times, fps=fps, style=style)
 

@@ -8,16 +8,16 @@ from html import escape
 from io import BytesIO
 from typing import Any
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.shown import Shown
-from atlas.draw import figure
+from atlas.bodies.body import SymmetricBody
+from atlas.book.digits import Number
+from atlas.book.tables.elementary import NONE
+from atlas.book.tables.properties import SPACE, Row, Thing, rows_of
+from atlas.display import Shown
 from atlas.errors import AtlasError
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
 from atlas.notebook.pictures import plot
-from atlas.paper.plain import plain
-from atlas.report.digits import Number
-from atlas.report.tables.elementary import NONE
-from atlas.report.tables.properties import SPACE, Row, Thing, rows_of
+from atlas.pictures.drawing import figure
+from atlas.trial.ledger.plain import plain
 
 DIGITS = 10
 WIDTH, COLOURS = 300, 40

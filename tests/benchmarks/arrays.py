@@ -18,14 +18,16 @@ from typing import Any
 import numpy as np
 from ulps import absolute, own
 
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.surfaces.hyperbola import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
-from atlas.exact.digits import enclosed
-from atlas.exact.motions import elementary, general
-from atlas.exact.surfaces import hyperbola, quadric
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.numbers import workprec
+from atlas.motions.elementary import certified as elementary
+from atlas.motions.elementary import certified_hyperbola as hyperbola
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.nutation import certified_general as general
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.surfaces import certified as quadric
+from atlas.surfaces.kernel import Quadric
 from benchmarks.case import FloatArray
 from benchmarks.clock import interleave, one_core, ratio
 from benchmarks.results import MATRIX, NUTATION, SCALARS, SURFACE, TURNED, Rows, spread

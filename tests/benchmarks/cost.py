@@ -26,10 +26,10 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.exact.motions.elementary import ElementaryMotion as Exact
-from atlas.formulas.numbers import workprec
-from atlas.study.benchmark import Cost
+from atlas.arithmetic.numbers import workprec
+from atlas.checking.benchmark import Cost
+from atlas.motions.elementary.certified import ElementaryMotion as Exact
+from atlas.motions.elementary.kernel import ElementaryMotion
 from benchmarks.case import FloatArray
 from benchmarks.clock import Job, interleave, one_core, ratio
 from benchmarks.oracle import BITS, nearest

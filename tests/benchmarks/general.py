@@ -26,10 +26,10 @@ from flint import fmpq
 from ulps import absolute
 
 import atlas
-from atlas.core.motions.general import GeneralMotion
-from atlas.exact.digits import enclosed
-from atlas.exact.motions.general import GeneralMotion as Exact
-from atlas.formulas.numbers import nearest, workprec
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.numbers import nearest, workprec
+from atlas.motions.nutation.certified_general import GeneralMotion as Exact
+from atlas.motions.nutation.kernel_general import GeneralMotion
 from benchmarks.case import FloatArray, Solve
 from benchmarks.clock import interleave, one_core, ratio
 from benchmarks.integrators import integrators

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.numbers import workprec
 from benchmarks.case import Case, FloatArray, Solve, in_quaternions
 from benchmarks.oracle import BITS, nearest
 

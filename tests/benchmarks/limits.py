@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from atlas.study.benchmark import OURS, Cost, Limit, Machine, Verdict
+from atlas.checking.benchmark import OURS, Cost, Limit, Machine, Verdict
 from benchmarks.results import ANY, EVEN, FRESH, MATRIX, SCALARS, SLOPES, SURFACE, Rows, Setup
 
 LIMIT = 4 * 2.0**-52

@@ -2,8 +2,8 @@
 
 The question: is the reference right, and far beyond what it has to measure?
 
-The values are those of `atlas.exact`, which shares no code with the kernels, rounded to two words each (32 digits), so
-that errors far below one ulp can be measured. `check` integrates the equations of motion themselves.
+The values are balls of `certified` modules, which share no code with the kernels, rounded to two words each (32
+digits), so that errors far below one ulp can be measured. `check` integrates the equations of motion themselves.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from flint import arb, arb_poly, arb_series, ctx
 
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.numbers import workprec
 from benchmarks.case import Case, FloatArray
 
 BITS = 256

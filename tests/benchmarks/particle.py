@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.motions.particle import ParticleMotion
-from atlas.exact.motions.particle import ParticleMotion as Exact
+from atlas.motions.particle.certified import ParticleMotion as Exact
+from atlas.motions.particle.kernel import ParticleMotion
 from benchmarks.case import Case, FloatArray, Method, Parameters, Solve, cross
 
 PARAMETERS: Parameters = {
@@ -95,7 +95,7 @@ def scale(values: FloatArray) -> FloatArray:
 
 
 def case() -> Case:
-    """Return the case; its true values are those of `atlas.exact`."""
+    """Return the case; its true values are balls."""
     exact = Exact(*PARAMETERS.values())
     return Case(
         name="particle",

@@ -8,7 +8,7 @@ from statistics import median
 
 from msgspec.structs import replace
 
-from atlas.study.benchmark import Run, Status
+from atlas.checking.benchmark import Run, Status
 from benchmarks.case import Case, FloatArray, Solve, even
 from benchmarks.clock import interleave, once
 from benchmarks.integrators import Integrator, TimedOutError

@@ -9,9 +9,9 @@ import msgspec
 import numpy as np
 
 from atlas import __version__, files
-from atlas.core.arithmetic.machine import processors
+from atlas.arithmetic.machine import processors
+from atlas.checking.benchmark import Item, Machine, Results, Status
 from atlas.libraries import release
-from atlas.study.benchmark import Item, Machine, Results, Status
 
 PEERS = ("numpy", "scipy", "sympy", "python-flint", "heyoka")
 

@@ -13,7 +13,7 @@ within 7e-7 rad. The unit of time is 1/64 s, so that the frequencies are like th
 two it rounds nothing.
 
 Only the first two have a plain formula and peers in closed form. With the others the plain formula of the elementary
-motion, timed beside, stands for a second of work. True values are those of `atlas.exact`; those of three moments take a
+motion, timed beside, stands for a second of work. True values are balls; those of three moments take a
 while: there are few of them.
 """
 
@@ -23,17 +23,22 @@ from typing import Any
 
 from flint import arb
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.motions import asymmetric as kernels
-from atlas.core.motions.asymmetric import AsymmetricMotion
-from atlas.core.motions.ball import BallMotion
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.elliptic import EllipticMotion
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.motions.top import TopMotion
-from atlas.exact.motions import asymmetric, ball, elementary, elliptic, general, top
-from atlas.formulas.numbers import nearest, workprec
-from atlas.study.sweep.rotation_errors import constants, formula
+from atlas.arithmetic.numbers import nearest, workprec
+from atlas.bodies.body import SymmetricBody
+from atlas.motions.elementary import certified as elementary
+from atlas.motions.elementary import certified_ball as ball
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_ball import BallMotion
+from atlas.motions.nutation import certified_elliptic as elliptic
+from atlas.motions.nutation import certified_general as general
+from atlas.motions.nutation import certified_top as top
+from atlas.motions.nutation.kernel_elliptic import EllipticMotion
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.motions.torus import certified as asymmetric
+from atlas.motions.torus import kernel as kernels
+from atlas.motions.torus.kernel import AsymmetricMotion
+from atlas.sweeps.rotation_errors import constants, formula
 from benchmarks.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from benchmarks.oracle import BITS
 from benchmarks.peers import Turn, compiled, composed, lambdified

@@ -9,8 +9,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from atlas import files
+from atlas.checking.benchmark import FORMAT, Cost, Results, Run, case_title, measured, stored
 from atlas.errors import AtlasError
-from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, measured, stored
 from benchmarks import arrays, cost, general, particle, rotations
 from benchmarks.integrators import integrators
 from benchmarks.limits import targets

@@ -9,10 +9,9 @@ from hypothesis import strategies as st
 from values import answered, arrays, no_numbers, numbers, ratios, share
 
 import atlas
-from atlas.core.bodies import units
-from atlas.core.motions import integrals
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
-from atlas.families import FAMILIES
+from atlas.bodies import integrals, units
+from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
+from atlas.motions.register import FAMILIES
 
 pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, of a float that overflows to inf
 

@@ -8,7 +8,7 @@ from stress.asymmetric import ASYMMETRIC, size_of
 from values import EXAMPLES
 
 import atlas
-from atlas.exact.motions import asymmetric
+from atlas.motions.torus import certified as asymmetric
 
 
 @pytest.mark.skipif(not EXAMPLES, reason="a minute for each: in make stress")

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from test_commands import BASES, BUILDERS, EXAMPLES, bad, number, ran
 from values import share
 
-from atlas.live.server import Explorer
+from atlas.cli.explorer.server import Explorer
 
 RANGES = ["turns=1:3:2", "turns=1:3:3", "t=0:1:2", "turns=1:1e13:9" + "9" * 12, "turns=1:3:\u0663", "turns=1,2:3:2"]
 LINES = {

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from values import share, watched
 
 from atlas.cli.app import atlas, main
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
 
 BUILDERS = {"animate", "data", "explore", "page", "report", "sweep", "tex"}
 """Commands that write files or run for long: they have tests of their own."""

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from values import answered, share
 
 from atlas.cli.figure import setting
-from atlas.scene import recipes
-from atlas.scene.layers import Curve, Points
+from atlas.pictures import recipes
+from atlas.pictures.layers import Curve, Points
 
 pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")
 

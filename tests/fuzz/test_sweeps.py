@@ -11,7 +11,7 @@ from test_reports import written
 from values import share
 
 from atlas.files import WRITTEN
-from atlas.study.sweep.families import FAMILIES as KNOWN
+from atlas.sweeps.families import FAMILIES as KNOWN
 
 FAMILIES = {
     name: {

@@ -5,8 +5,8 @@ from marks import faults
 from values import EXAMPLES
 
 from atlas import AtlasError
-from atlas.draw import to_figure
-from atlas.scene import recipes
+from atlas.pictures import recipes
+from atlas.pictures.drawing import to_figure
 from atlas.targets import TARGETS
 
 ALL = recipes.names() if EXAMPLES else []

@@ -16,8 +16,8 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from atlas.exact.bodies.body import ratio_of
-from atlas.exact.inputs import rational, rationals
+from atlas.arithmetic.certified_inputs import rational, rationals
+from atlas.bodies.certified_body import ratio_of
 
 PART = 4
 """A step is this part of 1/(3 s), to which the bounds hold: each term is at most a quarter of the one before."""

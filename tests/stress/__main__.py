@@ -15,8 +15,8 @@ from pathlib import Path
 import click
 
 from atlas import files
+from atlas.arithmetic.machine import processors
 from atlas.cli.present import bar
-from atlas.core.arithmetic.machine import processors
 from stress.arrays import stress_arrays
 from stress.run import PROMISES, Result, stress
 

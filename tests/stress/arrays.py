@@ -16,14 +16,14 @@ from flint import arb, fmpq
 from ulps import BITS, ONE, absolute, error, own, rigidity
 
 from atlas import processes
-from atlas.core.inputs import FloatArray
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.general import GeneralMotion
-from atlas.exact.digits import enclosed
-from atlas.exact.inputs import Real
-from atlas.exact.motions import elementary as exact_elementary
-from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.certified_inputs import Real
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.motions.elementary import certified as exact_elementary
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.nutation.kernel_general import GeneralMotion
 from stress.nutating import narrow
 from stress.regimes import GENERAL
 from stress.run import Progress, Result, finished

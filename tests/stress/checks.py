@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from ulps import BITS, ONE, absolute, approximate, error, of_length, own, rigidity
 
-from atlas.exact.digits import enclosed
-from atlas.families import FAMILIES
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.motions.register import FAMILIES
 from stress import extreme
 from stress.extreme import described
 from stress.worst import WorstErrors, with_more

@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import fmpq
 
-from atlas.core.bodies.body import SymmetricBody
+from atlas.bodies.body import SymmetricBody
 from atlas.errors import AtlasError
 from stress.regimes import REGIMES, near, ratio, sign, size
 

@@ -25,7 +25,7 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas import files
-from atlas.core.arithmetic.machine import processors
+from atlas.arithmetic.machine import processors
 
 ATTITUDE = ("a1", "a2", "a3")
 RECORD = Path(__file__).parents[2] / "reports" / "data" / "fits.json"

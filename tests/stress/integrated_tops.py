@@ -20,7 +20,7 @@ import heyoka
 import numpy as np
 
 import atlas
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
 from stress.tops import TOPS, Top, rate_of
 
 Long = np.longdouble

@@ -10,11 +10,11 @@ import numpy as np
 from flint import arb
 from ulps import ONE
 
-from atlas.core.inputs import FloatArray
-from atlas.exact.digits import numbers
-from atlas.exact.inputs import Real
-from atlas.families import FAMILIES
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.certified_digits import numbers
+from atlas.arithmetic.certified_inputs import Real
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.motions.register import FAMILIES
 from stress.asymmetric import Asymmetric, size_of
 from stress.checks import Inputs, Where, check, on_grid
 from stress.elliptic import Elliptic, rates_of

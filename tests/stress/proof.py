@@ -18,9 +18,9 @@ import click
 from changes import changes
 from rewritings import rewritings
 
-from atlas.paper import EQUATIONS
-from atlas.proof import recorded, run
-from atlas.proof.run import trial, within_time
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs import recorded, run
+from atlas.trial.proofs.run import trial, within_time
 
 SURE = {"proved", "definition"}
 Change = Callable[..., list[tuple[str, str]]]

@@ -14,7 +14,7 @@ from random import Random
 from typing import Any
 
 from atlas import processes
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
 from stress import extreme
 from stress.asymmetric import ASYMMETRIC
 from stress.checks import check_ball, check_free, check_hyperbola, check_motion, check_particle, check_quadric

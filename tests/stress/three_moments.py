@@ -21,9 +21,9 @@ from typing import NamedTuple
 import click
 import numpy as np
 
-from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.errors import AtlasError
-from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.kernel import SingleAsymmetric
 from stress.asymmetric import ASYMMETRIC, Asymmetric
 
 EPS = 2.0**-52

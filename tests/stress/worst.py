@@ -7,8 +7,8 @@ from typing import Any
 
 from ulps import BITS
 
+from atlas.arithmetic.numbers import workprec
 from atlas.errors import AtlasError
-from atlas.formulas.numbers import workprec
 
 
 @dataclass(frozen=True)

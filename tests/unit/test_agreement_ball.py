@@ -7,7 +7,7 @@ import numpy as np
 import sympy
 from agreement import Floor, Ledger, Tie, agree, each, length, letters, matrices, of, signed, unit
 
-from atlas.proof.model import rodrigues
+from atlas.trial.proofs.model import rodrigues
 
 
 def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
@@ -95,7 +95,7 @@ TIES = (
         lambda say, p: say("(32)", "K", Bp=[0, 0, p.alpha], R=rotation(say, p, p.t)),
         size=length,
         ulps=8,
-        floors=("core",),
+        floors=("kernel",),
     ),
     of_motion("BallMotion.angular_velocity", f"{MATRIX} (26)", spin, size=length, ulps=8),
 )

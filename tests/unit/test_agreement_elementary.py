@@ -21,7 +21,7 @@ from agreement import (
     unit_field,
 )
 
-from atlas.proof.model import rodrigues
+from atlas.trial.proofs.model import rodrigues
 
 POINTS = bodies(76, 8)
 REST = bodies(90, 1, omega=(0.0, 0.0, 0.0))
@@ -129,7 +129,7 @@ def free_spin(say: Ledger, p: Any) -> Any:
 
 def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
     """Return the matrix of the unit quaternion, which has its scalar first in balls and is 1 at t = 0."""
-    order = {} if f.name == "exact" else {"scalar_first": True}
+    order = {} if f.name == "certified" else {"scalar_first": True}
     (one, *_), (w, x, y, z) = (motion(f, p).quaternion(t, **order) for t in (0.0, p.t))
     w, x, y, z = (one * part for part in (w, x, y, z)) if one > 0 else (one, one, one, one)
     return [
@@ -149,7 +149,8 @@ def axis(say: Ledger, p: Any) -> Any:
 def strongest(_true: list[Any], p: Any) -> float:
     """Return the square of the largest frequency at t = 0, that of which the invariants are made."""
     return (
-        float(max(abs(x) for x in (*p.field, p.omega2, Floor("core").Hyperbola(p.body, p.field).omega3(p.omega2)))) ** 2
+        float(max(abs(x) for x in (*p.field, p.omega2, Floor("kernel").Hyperbola(p.body, p.field).omega3(p.omega2))))
+        ** 2
     )
 
 
@@ -168,7 +169,7 @@ PRECESSION = (
         for name in ("omega3", "k", "phi")
     ),
     of_motion("ElementaryMotion.period", CONSTANTS, lambda say, p: 2 * sympy.pi / abs(elementary(say, p)["k"])),
-    *matrices("ElementaryMotion", MATRIX, motion, rotation, [*POINTS, *REST], ("core", "exact")),
+    *matrices("ElementaryMotion", MATRIX, motion, rotation, [*POINTS, *REST], ("kernel", "certified")),
     Tie(
         "ElementaryMotion.quaternion",
         MATRIX,
@@ -177,7 +178,7 @@ PRECESSION = (
         POINTS,
         size=unit,
     ),
-    of_motion("ElementaryMotion.axis", "(77)", axis, floors=("exact",)),
+    of_motion("ElementaryMotion.axis", "(77)", axis, floors=("certified",)),
     of_motion("ElementaryMotion.angular_velocity", f"{CONSTANTS} (73)", lambda say, p: spin(say, p, p.t), size=length),
     of_motion("ElementaryMotion.field_in_body", f"{CONSTANTS} (73) (62) (60)", field, size=length),
     of_motion("ElementaryMotion.field_in_body", f"{MATRIX} (32)", field_seen, size=length),
@@ -201,7 +202,7 @@ PRECESSION = (
         lambda say, p: say("text-affirmation-free", "at0(Omega)", **letters(p, "omega2 I2 I3 B2 B3")),
         POINTS,
         size=length,
-        floors=("core",),
+        floors=("kernel",),
     ),
 )
 

@@ -28,8 +28,8 @@ def states(seed: int, count: int) -> list[Any]:
 
 POINTS = states(27, 6)
 at_points = partial(Tie, points=POINTS)
-in_core = partial(Tie, points=POINTS, floors=("core",))
-of_symmetric = partial(Tie, points=bodies(46, 8), floors=("core",))
+in_core = partial(Tie, points=POINTS, floors=("kernel",))
+of_symmetric = partial(Tie, points=bodies(46, 8), floors=("kernel",))
 
 
 def exact(values: Any) -> Any:
@@ -271,7 +271,7 @@ MATTER = (
         "text-short-cylinder",
         shell_ratio,
         lambda say, p: say("text-short-cylinder", "I", r=p.c, h=abs(p.mu)),
-        floors=("exact",),
+        floors=("certified",),
     ),
     in_core(
         "Field.prime",

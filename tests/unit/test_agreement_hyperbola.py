@@ -7,9 +7,9 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters, of
 
-from atlas.paper import EQUATIONS
-from atlas.proof import formula
-from atlas.proof.run import trial
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs import formula
+from atlas.trial.proofs.run import trial
 
 POINTS = bodies(72, 8)
 BAND = [*bodies(8, 3, body=0.3, B3=lambda p: p.B2 / 4), *bodies(9, 3, body=0.85, B3=lambda p: -p.B2 / 9)]
@@ -93,23 +93,23 @@ TIES = (
     of_curve("Hyperbola.special", "(71) (72)", special),
     of_curve("Hyperbola.asymptotes", "(67)", asymptotes),
     of_curve("Hyperbola.stability", "theorem-stability", stability, [*POINTS, *BAND]),
-    of_curve("Hyperbola.least_stability", "theorem-stability", least, FOLDED, floors=("core",)),
+    of_curve("Hyperbola.least_stability", "theorem-stability", least, FOLDED, floors=("kernel",)),
     of_curve("Hyperbola.unstable_band", "theorem-band", band, BAND),
     Tie(
         "Hyperbola.sample",
         "(71)",
         lambda f, p: curve(f, p).sample(7)[1],
-        lambda say, p: [ordinate(say, p, x) for x in curve(Floor("core"), p).sample(7)[0]],
+        lambda say, p: [ordinate(say, p, x) for x in curve(Floor("kernel"), p).sample(7)[0]],
         POINTS[:4],
-        floors=("core",),
+        floors=("kernel",),
     ),
     Tie(
         "Hyperbola.branches",
         "(71)",
         lambda f, p: [omega3 for _, omega3 in curve(f, p).branches(6)],
-        lambda say, p: [ordinate(say, p, x) for omega2, _ in curve(Floor("core"), p).branches(6) for x in omega2],
+        lambda say, p: [ordinate(say, p, x) for omega2, _ in curve(Floor("kernel"), p).branches(6) for x in omega2],
         POINTS[:4],
-        floors=("core",),
+        floors=("kernel",),
     ),
 )
 
@@ -127,4 +127,4 @@ def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytes
     assert wrong.printed != right.printed
     monkeypatch.setattr(formula, "trial", lambda name: wrong if name == "(72)" else trial(name))
     disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special")
-    disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special", floor="exact")
+    disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special", floor="certified")

@@ -7,10 +7,10 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, of, power
 
-from atlas.core.motions import pseudo_oscillator
+from atlas.motions.nutation import pseudo_oscillator
 
 POINTS = bodies(55, 8)
-in_core = partial(Tie, points=POINTS, floors=("core",))
+in_core = partial(Tie, points=POINTS, floors=("kernel",))
 
 
 def oscillator(f: Floor, p: Any) -> Any:
@@ -68,7 +68,7 @@ def powers(Q: Any, u: Any) -> list[Any]:
 
 INTEGRALS = "(36) (37) (40) (41)"
 
-of_oscillator = partial(of(oscillator, POINTS, at="u"), floors=("core",))
+of_oscillator = partial(of(oscillator, POINTS, at="u"), floors=("kernel",))
 
 TIES = (
     in_core(

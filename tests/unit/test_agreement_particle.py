@@ -23,7 +23,7 @@ from agreement import (
     vector,
 )
 
-from atlas.core.motions import particle_rows as charge
+from atlas.motions.particle import rows as charge
 
 
 def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
@@ -185,7 +185,7 @@ def quick(_true: list[Any], p: Any) -> float:
 def swinging(true: list[Any], p: Any) -> float:
     """Return the same with the velocity of the point about the centre."""
     return quick(true, p) + 3 * float(max(map(abs, p.point))) * float(
-        max(abs(x) for x in (*p.field, p.omega2, Floor("core").Hyperbola(p.body, p.field).omega3(p.omega2)))
+        max(abs(x) for x in (*p.field, p.omega2, Floor("kernel").Hyperbola(p.body, p.field).omega3(p.omega2)))
     )
 
 
@@ -199,11 +199,11 @@ TIES = (
     of_motion("ParticleMotion.cyclotron_frequency", "(97)", frequency),
     of_motion("ParticleMotion.period", "(97)", lambda say, p: 2 * sympy.pi / abs(frequency(say, p))),
     of_motion(
-        "ParticleMotion.prime", "(32)", lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B), floors=("core",)
+        "ParticleMotion.prime", "(32)", lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B), floors=("kernel",)
     ),
     of_motion("ParticleMotion.drift", "text-drift", drift, size=length),
     of_motion("ParticleMotion.radius", ACROSS, lambda say, p: circle(say, p)[0]),
-    of_motion("ParticleMotion.axes", "text-drift-direction", frame, size=unit, floors=("core",)),
+    of_motion("ParticleMotion.axes", "text-drift-direction", frame, size=unit, floors=("kernel",)),
     of_motion("ParticleMotion.position", PATH, place, size=travelled),
     of_motion("ParticleMotion.position", "text-no-magnetic-field", fall, DARK, size=travelled),
     of_motion("ParticleMotion.velocity", PATH, velocity, size=quick, ulps=8),
@@ -215,9 +215,9 @@ TIES = (
         trochoid,
         POINTS,
         size=travelled,
-        floors=("core",),
+        floors=("kernel",),
     ),
-    of_flight("Flight.arm", MATRIX, turned, size=length, floors=("core",)),
+    of_flight("Flight.arm", MATRIX, turned, size=length, floors=("kernel",)),
     of_flight("Flight.position", f"{PATH} {MATRIX}", lambda say, p: place(say, p) + turned(say, p), size=travelled),
     of_flight(
         "Flight.velocity",
@@ -225,7 +225,7 @@ TIES = (
         lambda say, p: velocity(say, p) + swept(say, p),
         size=swinging,
         ulps=8,
-        floors=("core",),
+        floors=("kernel",),
     ),
 )
 

@@ -14,14 +14,14 @@ from tests_support import names
 import atlas
 from atlas import AtlasError, ElementaryMotion
 from atlas.cli.app import atlas as command_line
-from atlas.draw import animation
-from atlas.scene import Arrow, Curve, Plane, Points, Surface, movement, recipes
-from atlas.scene.any_motion import Upright
+from atlas.pictures import Arrow, Curve, Plane, Points, Surface, movement, recipes
+from atlas.pictures.any_motion import Upright
+from atlas.pictures.drawing import animation
 
 MOVING = ["escape", "film_strip", "flight", "rolling_cones", "tipping_disk"]
 
 
-def layers(scene: atlas.scene.Scene, kind: type[Any]) -> list[Any]:
+def layers(scene: atlas.pictures.Scene, kind: type[Any]) -> list[Any]:
     """Return the layers of a kind in all panels of a scene."""
     return [one for panel in scene.panels for one in panel.layers if isinstance(one, kind)]
 

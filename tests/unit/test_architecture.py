@@ -1,9 +1,15 @@
-"""ARCHITECTURE.md speaks of files and names that are there."""
+"""ARCHITECTURE.md speaks of files and names that are there, and no folder hides a public name."""
 
+import pkgutil
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from contracts import imported_by_string
+
+import atlas
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
@@ -25,3 +31,27 @@ def test_a_name_is_one_of_the_code() -> None:
     assert len(CLASSES) > 10
     assert not missing
     assert all(re.search(rf"^ *def {name}\(", code, re.MULTILINE) for name in ("load", "closed_form", "distances"))
+
+
+def test_no_module_has_a_public_name() -> None:
+    """A module `atlas.fit` would stand in the place of the function as soon as it is imported."""
+    modules = {module.name for module in pkgutil.iter_modules(atlas.__path__)}
+    assert modules & set(atlas.__all__) == set()
+
+
+@pytest.mark.parametrize(
+    "first", ["atlas.fitting", "atlas.checking.check", "atlas.sweeps.run", "atlas.pictures.drawing"]
+)
+def test_a_public_function_is_one_whatever_is_imported_first(first: str) -> None:
+    """The functions of the package, after the modules that hold them, and these after the functions."""
+    names = "fit, check, sweep, figure, plotter, animate, motion, simulate, drift, monodromy, clebsch"
+    code = f"import {first}, atlas; from atlas import {names}; import {first}\n" + "".join(
+        f"assert callable(atlas.{name}) and atlas.{name} is {name}\n" for name in names.split(", ")
+    )
+    subprocess.run([sys.executable, "-P", "-c", code], check=True)
+
+
+def test_an_import_written_as_a_string_is_seen() -> None:
+    """The contract against circles counts these: in full, and in front of a brace."""
+    assert set(imported_by_string("atlas.motions.spectrum")) == {"atlas.motions.any_body"}
+    assert set(imported_by_string("atlas.trial.ledger")) == {"atlas.trial.ledger"}

@@ -15,11 +15,13 @@ from oracles.taylor import taylor
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.core.motions import asymmetric as kernels
-from atlas.exact.motions import asymmetric, clebsch_flow, torus
-from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.general import GeneralMotion
+from atlas.motions.nutation.certified_elliptic import EllipticMotion
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.torus import certified as asymmetric
+from atlas.motions.torus import certified_flow as clebsch_flow
+from atlas.motions.torus import certified_torus as torus
+from atlas.motions.torus import kernel as kernels
+from atlas.motions.torus.certified import AsymmetricMotion as Balls
 
 EPS = 2.0**-52
 BODY, FIELD, OMEGA = ("0.8", "1", "1.3"), ("0.2", "1", "0.6"), ("0.3", "0.7", "0.2")

@@ -8,8 +8,8 @@ from mpmath import mp, mpf
 from oracles import closed_form
 from oracles.taylor import taylor
 
-from atlas.core.motions.ball import BallMotion
 from atlas.errors import AtlasError
+from atlas.motions.elementary.kernel_ball import BallMotion
 
 ULP1 = 2.0**-52
 

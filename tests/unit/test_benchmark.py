@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from atlas.scene import recipes
-from atlas.scene.captions import tex
-from atlas.scene.layers import Curve, Plane, Points, Scene
-from atlas.study import benchmark as results
-from atlas.study.benchmark import BESIDE, METHODS, OURS, title
+from atlas.checking import benchmark as results
+from atlas.checking.benchmark import BESIDE, METHODS, OURS, title
+from atlas.pictures import recipes
+from atlas.pictures.captions import tex
+from atlas.pictures.layers import Curve, Plane, Points, Scene
 
 NAMES = ("work_precision", "horizon", "cost")
 

@@ -10,15 +10,15 @@ from matplotlib.path import Path
 from stress.elliptic import ELLIPTIC
 
 from atlas import AsymmetricMotion, DomainError, EllipticMotion
-from atlas.core.inputs import FloatArray
-from atlas.core.maps.bifurcation import Bifurcation
-from atlas.core.maps.monodromy import carried
-from atlas.core.motions.clebsch import clebsch
-from atlas.exact.motions.elliptic import EllipticMotion as ExactElliptic
-from atlas.exact.motions.torus import Torus
-from atlas.formulas.numbers import workprec
-from atlas.scene import Curve, Points, Region, recipes
-from atlas.study.simulate import flow
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.bodies.clebsch_integrals import clebsch
+from atlas.checking.simulate import flow
+from atlas.maps.bifurcation import Bifurcation
+from atlas.maps.monodromy import carried
+from atlas.motions.nutation.certified_elliptic import EllipticMotion as ExactElliptic
+from atlas.motions.torus.certified_torus import Torus
+from atlas.pictures import Curve, Points, Region, recipes
 
 EPS = float(np.finfo(float).eps)
 BODY = np.array([0.5, 1.0, 1.4])

@@ -19,7 +19,7 @@ from atlas import (
     clebsch,
     motion,
 )
-from atlas.core.bodies.body import (
+from atlas.bodies.body import (
     SHAPES,
     SymmetricBody,
     from_shape,
@@ -27,7 +27,7 @@ from atlas.core.bodies.body import (
     mass_matrix_from_inertia,
     moments,
 )
-from atlas.core.bodies.inertia import inertia_tensor, mass_matrix_of_points
+from atlas.bodies.inertia import inertia_tensor, mass_matrix_of_points
 from atlas.errors import AtlasError, DomainError
 
 EPS = float(np.finfo(float).eps)

@@ -11,9 +11,9 @@ from stress.regimes import GENERAL, REGIMES
 from stress.tops import TOPS, Top, rate_of
 
 import atlas
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.exact.motions.general import GeneralMotion
-from atlas.exact.motions.top import TopMotion
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
 
 EACH = 14
 """Motions of a regime."""

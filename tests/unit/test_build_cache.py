@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.cache import Cache
+from atlas.book.building.cache import Cache
 from atlas.sources import digest
 
 KEY, OTHER, RECENT = digest("key"), digest("other"), digest("recent")

@@ -13,15 +13,15 @@ from typing import Any
 
 import pytest
 
-import atlas.build.figures as figures_module
-import atlas.build.report as report_module
+import atlas.book.building.figures as figures_module
+import atlas.book.building.report as report_module
 import atlas.sources as sources_module
 from atlas import AtlasError, places, processes
-from atlas.build import worker
-from atlas.build.cache import Cache
-from atlas.build.figures import FigureBuild, build_figures, draw, find, parts_of
-from atlas.build.report import describe, key_of
-from atlas.report.blocks.figure import Picture
+from atlas.book.blocks.figure import Picture
+from atlas.book.building import worker
+from atlas.book.building.cache import Cache
+from atlas.book.building.figures import FigureBuild, build_figures, draw, find, parts_of
+from atlas.book.building.report import describe, key_of
 from atlas.sources import PACKAGE, Sources, digest
 
 ROOT = PACKAGE.parent
@@ -101,31 +101,37 @@ def edit(path: Path, old: str, new: str) -> None:
 
 EVERY = set(WANTED)
 CHANGES = [
-    ("a comment in a kernel", "atlas/core/surfaces/hyperbola.py", "\nclass", "\n# said again\nclass", set()),
+    (
+        "a comment in a kernel",
+        "atlas/motions/elementary/kernel_hyperbola.py",
+        "\nclass",
+        "\n# said again\nclass",
+        set(),
+    ),
     ("a line break in a recipe", "figures/hyperbola.py", "def scene(", "def scene(\n ", set()),
     ("the code of a recipe", "figures/hyperbola.py", "def scene(", "NEW = 1\n\n\ndef scene(", {"hyperbola"}),
     ("the title of a recipe", "figures/trochoids.py", '"""', '"""New: ', {"trochoids"}),
     (
         "a kernel that two reach",
-        "atlas/core/surfaces/hyperbola.py",
+        "atlas/motions/elementary/kernel_hyperbola.py",
         "\nclass",
         "\nNEW = 1\n\n\nclass",
         {"hyperbola", "frequencies"},
     ),
     (
         "a kernel that one reaches",
-        "atlas/core/motions/particle_rows.py",
+        "atlas/motions/particle/rows.py",
         "\nclass",
         "\nNEW = 1\n\n\nclass",
         {"trochoids"},
     ),
-    ("the style", "atlas/scene/style.py", '"""', '"""New: ', EVERY),
-    ("the vector renderer", "atlas/draw/plane.py", '"""', '"""New: ', EVERY),
-    ("the shaded renderer", "atlas/draw/shaded.py", '"""', '"""New: ', EVERY),
+    ("the style", "atlas/pictures/style.py", '"""', '"""New: ', EVERY),
+    ("the vector renderer", "atlas/pictures/drawing/plane.py", '"""', '"""New: ', EVERY),
+    ("the shaded renderer", "atlas/pictures/drawing/shaded.py", '"""', '"""New: ', EVERY),
     ("a stored record", "reports/data/bench.json", '"date"', '"date" ', {"horizon"}),
     ("the prose", "reports/atlas.md", "title", "title ", set()),
     ("a template", "templates/html/page.html", "<", " <", set()),
-    ("code that no figure reaches", "atlas/report/html.py", "\ndef pages", "\nNEW = 1\n\n\ndef pages", set()),
+    ("code that no figure reaches", "atlas/book/html.py", "\ndef pages", "\nNEW = 1\n\n\ndef pages", set()),
 ]
 
 
@@ -315,7 +321,7 @@ def test_a_script_without_a_guard_builds(tmp_path: Path) -> None:
     """Workers do not run the script that started them: one that builds at its top level is run once."""
     script = tmp_path / "script.py"
     script.write_text(
-        "from pathlib import Path; from atlas.build.figures import build_figures\n"
+        "from pathlib import Path; from atlas.book.building.figures import build_figures\n"
         "print([one.failure for one in build_figures(['magn', 'lssc'], ['svg'], Path('out'), jobs=2)])\n"
     )
     done = subprocess.run(
@@ -348,7 +354,7 @@ def test_the_costs_of_a_figure_are_noted(tmp_path: Path) -> None:
 
 MISBEHAVING = '''"""A recipe that does what it should not."""
 
-from atlas.scene import recipes
+from atlas.pictures import recipes
 
 
 def scene(*, wrong: str = ""):

@@ -13,7 +13,7 @@ from fontTools.ttLib import TTFont
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas.build.report import Built, build_report
+from atlas.book.building.report import Built, build_report
 from atlas.errors import AtlasError
 
 PLANCK = "\N{PLANCK CONSTANT}"

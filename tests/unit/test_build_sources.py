@@ -10,20 +10,20 @@ from typing import Any
 import pytest
 
 from atlas import sources as sources_module
-from atlas.build.cache import Cache
+from atlas.book.building.cache import Cache
+from atlas.pictures import recipes
 from atlas.places import folder
-from atlas.scene import recipes
 from atlas.sources import PACKAGE, Sources
 
 RECIPE = '''"""A title."""
 
 import numpy as np
 
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 
 
 def scene():
-    from atlas.core.arithmetic import rotation
+    from atlas.arithmetic import rotation
 
     return Hyperbola, np, rotation
 '''
@@ -55,7 +55,7 @@ def write(path: Path, text: str) -> Path:
         ("return Hyperbola, np, rotation", "return (\n        Hyperbola,\n        np,\n        rotation,\n    )", True),
         ("return Hyperbola, np, rotation", "return Hyperbola, np, 1", False),
         ("A title.", "Another title.", False),
-        ("core.surfaces.hyperbola import Hyperbola", "core.surfaces.quadric import Quadric as Hyperbola", False),
+        ("motions.elementary.kernel_hyperbola import Hyperbola", "surfaces.kernel import Quadric as Hyperbola", False),
     ],
 )
 def test_comments_and_formatting_change_no_digest(
@@ -94,13 +94,16 @@ def test_a_file_that_is_no_python_has_a_digest(tmp_path: Path, text: str) -> Non
 @pytest.mark.parametrize(
     ("statement", "module"),
     [
-        ("from atlas import Hyperbola", "core/surfaces/hyperbola.py"),
-        ("from atlas import *", "core/surfaces/quadric.py"),
-        ("import atlas", "core/motions/flight.py"),
-        ("import atlas.core.arithmetic.phase", "core/motions/flight.py"),
-        ("import atlas as a", "core/motions/particle.py"),
-        ("from atlas import simulate", "study/simulate.py"),
-        ("def scene():\n    from atlas.core.surfaces.hyperbola import Hyperbola", "core/surfaces/hyperbola.py"),
+        ("from atlas import Hyperbola", "motions/elementary/kernel_hyperbola.py"),
+        ("from atlas import *", "surfaces/kernel.py"),
+        ("import atlas", "motions/particle/flight.py"),
+        ("import atlas.arithmetic.phase", "motions/particle/flight.py"),
+        ("import atlas as a", "motions/particle/kernel.py"),
+        ("from atlas import simulate", "checking/simulate.py"),
+        (
+            "def scene():\n    from atlas.motions.elementary.kernel_hyperbola import Hyperbola",
+            "motions/elementary/kernel_hyperbola.py",
+        ),
     ],
 )
 def test_public_names_reach_the_modules_that_they_come_from(
@@ -115,8 +118,8 @@ def test_one_public_name_reaches_no_other(tmp_path: Path, memory: Cache) -> None
     """A recipe that uses one public name does not depend on the kernels of the others."""
     recipe = write(tmp_path / "recipe.py", "from atlas import ParticleMotion, __version__\n")
     reached = {path.relative_to(PACKAGE).as_posix() for path in Sources(memory).reached([recipe]) if path != recipe}
-    assert "core/motions/particle.py" in reached
-    assert "core/surfaces/hyperbola.py" not in reached
+    assert "motions/particle/kernel.py" in reached
+    assert "motions/elementary/kernel_hyperbola.py" not in reached
 
 
 def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path, memory: Cache) -> None:
@@ -128,17 +131,17 @@ def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path, memory: Cache)
 def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What an import leads to is looked up anew, even if the file with the import is remembered."""
     package, cache = tmp_path / "atlas", Cache(tmp_path / "cache")
-    (package / "core").mkdir(parents=True)
-    for name in ("__init__.py", "core/__init__.py", "core/ball.py"):
+    (package / "motions").mkdir(parents=True)
+    for name in ("__init__.py", "motions/__init__.py", "motions/ball.py"):
         (package / name).write_text("")
     monkeypatch.setattr(sources_module, "PACKAGE", package)
-    recipe = write(tmp_path / "recipe.py", "from atlas.core import ball\n")
+    recipe = write(tmp_path / "recipe.py", "from atlas.motions import ball\n")
     sources = Sources(cache)
-    assert package / "core/ball.py" in sources.reached([recipe])
+    assert package / "motions/ball.py" in sources.reached([recipe])
     sources.save()
-    (package / "core/ball").mkdir()
-    (package / "core/ball.py").rename(package / "core/ball/__init__.py")
-    assert package / "core/ball/__init__.py" in Sources(cache).reached([recipe])
+    (package / "motions/ball").mkdir()
+    (package / "motions/ball.py").rename(package / "motions/ball/__init__.py")
+    assert package / "motions/ball/__init__.py" in Sources(cache).reached([recipe])
 
 
 def test_one_thread_parses_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

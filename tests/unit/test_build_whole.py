@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from atlas.build import publish as publishing
-from atlas.build.formats import MANIFEST
-from atlas.build.publish import WRITTEN, publish, replace
-from atlas.build.report import build_report
+from atlas.book import pdf
+from atlas.book.building import publish as publishing
+from atlas.book.building.formats import MANIFEST
+from atlas.book.building.publish import WRITTEN, publish, replace
+from atlas.book.building.report import build_report
 from atlas.errors import AtlasError
-from atlas.report import pdf
 
 PLAIN = """
 name = "plain"
@@ -28,7 +28,7 @@ text = "x"
 """
 KILLED = """
 import os, signal, sys
-from atlas.build.report import build_report
+from atlas.book.building.report import build_report
 def tell(done, total, what):
     if what == "pages":
         os.kill(os.getpid(), signal.SIGKILL)

@@ -18,17 +18,17 @@ from oracles import closed_form
 from stress import extreme
 from stress.regimes import REGIMES
 
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.checking import grades, trajectory, truth
+from atlas.checking.check import Check
+from atlas.checking.check import check_file as check
+from atlas.checking.trajectory import MATRIX, OMEGA
 from atlas.cli.app import atlas as program
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.general import GeneralMotion
 from atlas.errors import AtlasError
-from atlas.exact.digits import enclosed
-from atlas.exact.motions import elementary as exact
-from atlas.scene import Curve, Plane
-from atlas.study import grades, trajectory, truth
-from atlas.study.check import Check
-from atlas.study.check import check_file as check
-from atlas.study.trajectory import MATRIX, OMEGA
+from atlas.motions.elementary import certified as exact
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.pictures import Curve, Plane
 
 SETTING = "# ratio = 1.5\n# field = 1 2\n# omega2 = 0.7\n"
 HEAD = "# ratio = 1.5; field = 1 2; omega2 = 0.7\n"

@@ -10,11 +10,11 @@ from click.testing import CliRunner
 from scipy.spatial.transform import Rotation
 
 import atlas
+from atlas.checking.check import Check
+from atlas.checking.order import Convergence
+from atlas.checking.trajectory import MATRIX, OMEGA
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
-from atlas.study.check import Check
-from atlas.study.order import Convergence
-from atlas.study.trajectory import MATRIX, OMEGA
 
 MOTIONS = {
     "--ratio 1.5 --field 1 2 --omega2 0.7": atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7),

@@ -10,11 +10,11 @@ from click.testing import CliRunner
 from oracles import taylor, top
 from scipy.spatial.transform import Rotation
 
+from atlas.checking.check import Check
+from atlas.checking.check import check_file as check
+from atlas.checking.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
-from atlas.study.check import Check
-from atlas.study.check import check_file as check
-from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 
 BODY = {"inertia": (0.8, 1.0, 1.3), "field": (0.2, 1.0, 0.6), "omega": (0.3, 0.7, 0.2)}
 TOP = {"inertia": (1.0, 0.5), "coupling": (0.3, 0.4), "direction": (0.6, 0.8), "omega": (0.1, 0.2, 5.0)}

@@ -9,13 +9,13 @@ from flint import ctx, fmpq
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core.arithmetic.rotation import DoubleRotation
-from atlas.core.arithmetic.words import exact
-from atlas.core.motions.clebsch_rounding import D, quotients
-from atlas.core.motions.integrals import integrals
+from atlas.arithmetic.rotation import DoubleRotation
+from atlas.arithmetic.words import exact
+from atlas.bodies.integrals import integrals
 from atlas.errors import NotCertifiedError
-from atlas.exact.motions import clebsch_flow
-from atlas.exact.motions.clebsch_flow import Flow
+from atlas.motions.torus import certified_flow as clebsch_flow
+from atlas.motions.torus.certified_flow import Flow
+from atlas.motions.torus.theta_rounding import D, quotients
 
 BODIES = {
     "quick": ((1.0, 0.6875, 0.625), (1.75, -0.4375, 1.0625), (1.25, -0.75, 0.875)),

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.motions.asymmetric import SingleAsymmetric
-from atlas.exact.motions import clebsch_periods
-from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.motions.torus import approximate_periods as clebsch_periods
+from atlas.motions.torus.approximate_periods import complex_of
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.kernel import SingleAsymmetric
 
 EPS = 2.0**-52
 

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from flint import acb, arb, fmpq
 
+from atlas.arithmetic.numbers import cross, dot, workprec
 from atlas.errors import NotCertifiedError
-from atlas.exact.motions import clebsch_proof
-from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.motions.clebsch_proof import Cell, distances
-from atlas.exact.motions.clebsch_theta import ThetaMotion
-from atlas.exact.motions.torus import Torus
-from atlas.formulas.numbers import cross, dot, workprec
+from atlas.motions.torus import certified_distances as clebsch_proof
+from atlas.motions.torus.approximate_theta import ThetaMotion
+from atlas.motions.torus.certified import AsymmetricMotion as Balls
+from atlas.motions.torus.certified_distances import Cell, distances
+from atlas.motions.torus.certified_torus import Torus
 
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 """A motion whose periods are short beside its rates."""

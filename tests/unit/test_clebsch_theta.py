@@ -15,21 +15,24 @@ from flint import acb, arb, ctx, fmpq
 from ulps import turn
 
 import atlas
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.book.tables import compute
+from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
-from atlas.core.motions import asymmetric as kernels
-from atlas.core.motions import certified, clebsch_rounding
-from atlas.core.motions import clebsch_theta as core
-from atlas.core.motions.asymmetric import SingleAsymmetric
-from atlas.core.motions.clebsch_theta import ThetaKernel, closed_form
 from atlas.errors import DomainError
-from atlas.exact.digits import enclosed
-from atlas.exact.motions import clebsch_proof, clebsch_theta, theta_sums
-from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.motions.clebsch_lattice import Lattice
-from atlas.exact.motions.theta_sums import inverse
-from atlas.exact.motions.torus import Torus
-from atlas.report.tables import compute
-from atlas.report.tables.table import Request
+from atlas.motions.torus import approximate_theta as clebsch_theta
+from atlas.motions.torus import approximate_theta_sums as theta_sums
+from atlas.motions.torus import certified_distances as clebsch_proof
+from atlas.motions.torus import kernel as kernels
+from atlas.motions.torus import rounded as certified
+from atlas.motions.torus import theta as core
+from atlas.motions.torus import theta_rounding as clebsch_rounding
+from atlas.motions.torus.approximate_lattice import Lattice
+from atlas.motions.torus.approximate_theta_sums import inverse
+from atlas.motions.torus.certified import AsymmetricMotion as Balls
+from atlas.motions.torus.certified_torus import Torus
+from atlas.motions.torus.kernel import SingleAsymmetric
+from atlas.motions.torus.theta import ThetaKernel, closed_form
 
 EPS = 2.0**-52
 ALL = slice(None)

@@ -267,8 +267,8 @@ def test_a_reason_is_told_once() -> None:
 @pytest.fixture
 def bad_recipe(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Put a recipe that is no Python beside one that draws."""
-    from atlas.build import figures
-    from atlas.scene import recipes
+    from atlas.book.building import figures
+    from atlas.pictures import recipes
 
     folder = tmp_path / "figures"
     folder.mkdir()
@@ -296,7 +296,7 @@ def test_a_broken_recipe_hides_no_other(bad_recipe: Path) -> None:
 
 def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A line drawing in place of a shaded figure is told in one line, with the command that brings the rest."""
-    from atlas.draw import gl
+    from atlas import gl
 
     monkeypatch.setenv(gl.CHOICE, gl.NONE)
     gl.library.cache_clear()

@@ -10,12 +10,12 @@ import pytest
 from click.testing import CliRunner
 
 import atlas
+from atlas.book.body_and_field import body_and_field
+from atlas.book.files import find
+from atlas.book.load import load
 from atlas.cli import family
 from atlas.cli.app import atlas as command
-from atlas.families import FAMILIES, Command
-from atlas.report.body_and_field import body_and_field
-from atlas.report.files import find
-from atlas.report.load import load
+from atlas.motions.register import FAMILIES, Command
 
 SHELL = "--shape cylindrical-shell --radius 1e-6 --height 1.2e-6 --mass 1.5e-15 --charge 2e-15 --magnetic 0.75 1.3"
 TETRAGON = "x [m],y,z,mass [kg],charge\n1e-6,0,0,1,-2\n0,1e-6,0,1,-2\n-1e-6,0,0,1,-2\n0,-1e-6,0,1,-2\n"
@@ -42,8 +42,8 @@ def test_the_shell_of_a_report_is_the_same_in_a_command() -> None:
     """Shape, mass, charge and B of short_solenoid in options give its quadric, of B' not rounded, rates in 1/s."""
     known = load(find("short_solenoid")).parameters
     case = body_and_field(known.bodies["shell"], known.fields["magnet"])
-    from atlas.exact.digits import certified
-    from atlas.exact.surfaces.quadric import Quadric
+    from atlas.arithmetic.certified_digits import certified
+    from atlas.surfaces.certified import Quadric
 
     field = [Fraction(2e-15) / Fraction(1.5e-15) * Fraction(B) / 2 for B in (0.75, 1.3)]
     assert [float(x) for x in field] == pytest.approx(case.components, rel=1e-15)

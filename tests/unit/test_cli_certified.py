@@ -14,7 +14,7 @@ from tests_support import ulps_apart
 from atlas.cli.app import atlas as command
 from atlas.cli.family import Best, sample
 from atlas.errors import NotCertifiedError
-from atlas.families import Sampled
+from atlas.motions.register import Sampled
 
 COMMANDS = [
     "classify --ratio 1.5 --field 1 2",

@@ -15,7 +15,7 @@ from atlas.cli import points
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.errors import AtlasError
-from atlas.study.fit import data
+from atlas.fitting import data
 
 BODY = "--ratio 1.5 --field 1 2"
 SQUARE = [(1, 0), (-1, 0), (0, 1), (0, -1)]

@@ -11,10 +11,10 @@ import pytest
 from drawing import distance
 from numpy.typing import NDArray
 
-from atlas.draw import to_figure
-from atlas.draw.space import window
-from atlas.draw.view import fit
-from atlas.scene import Curve, Plane, Region, Scene, Surface, recipes
+from atlas.pictures import Curve, Plane, Region, Scene, Surface, recipes
+from atlas.pictures.drawing import to_figure
+from atlas.pictures.drawing.space import window
+from atlas.pictures.drawing.view import fit
 
 FloatArray = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ def true_scene(name: str, parameters: dict[str, Any]) -> Scene:
     """Return the scene of a recipe with all its curves sampled densely."""
     recipe = recipes.load(name)
     make, *_ = recipes._function(recipe.source)
-    names = [make.__globals__, *(vars(m) for key, m in sys.modules.items() if key.startswith("atlas.scene."))]
+    names = [make.__globals__, *(vars(m) for key, m in sys.modules.items() if key.startswith("atlas.pictures."))]
     with ExitStack() as stack:
         for space in names:
             if "curve" in space:

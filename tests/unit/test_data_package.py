@@ -13,17 +13,17 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from atlas.build.composed import build_data, composed
-from atlas.build.publish import WRITTEN
+from atlas.arithmetic.certified_digits import certified
+from atlas.book.building.composed import build_data, composed
+from atlas.book.building.publish import WRITTEN
+from atlas.book.data_package import ascii_name, package
 from atlas.cli.app import atlas as program
-from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
-from atlas.exact.digits import certified
-from atlas.exact.motions.elementary import ElementaryMotion as Balls
-from atlas.paper.plain import words
-from atlas.report.data_package import ascii_name, package
-from atlas.scene import recipes
-from atlas.scene.data import table
+from atlas.motions.elementary.certified import ElementaryMotion as Balls
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.pictures import recipes
+from atlas.pictures.data import table
+from atlas.trial.ledger.plain import words
 
 REPORT = r"""
 name = "small"

@@ -18,14 +18,14 @@ from agreement import Floor, Tie
 from packaging.version import Version
 
 import atlas
+from atlas.book.blocks import KINDS, Block
+from atlas.book.files import files
+from atlas.book.texts import citations
 from atlas.cli.app import atlas as command_line
-from atlas.draw import animation
-from atlas.paper import EQUATIONS, topic
-from atlas.paper.citation import cited, marked
+from atlas.pictures.drawing import animation
 from atlas.places import folder
-from atlas.report.blocks import KINDS, Block
-from atlas.report.files import files
-from atlas.report.texts import citations
+from atlas.trial.ledger import EQUATIONS, topic
+from atlas.trial.ledger.citation import cited, marked
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 README = (CHECKOUT / "README.md").read_text("utf-8")
@@ -96,7 +96,7 @@ def test_the_readme_quotes_the_benchmark(line: str, method: str, tolerance: floa
 def test_every_kind_of_block_has_its_name() -> None:
     """CONTRIBUTING lists the kinds of blocks that stand in fences, and no other."""
     text = (CHECKOUT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    listed = text[text.index("The word in braces is") : text.index("`atlas/report/blocks`")]
+    listed = text[text.index("The word in braces is") : text.index("`atlas/book/blocks`")]
     assert set(re.findall(r"`(\w+)`", listed)) == set(KINDS) - {"prose"}
 
 
@@ -190,7 +190,7 @@ def test_every_equation_that_a_report_cites_is_in_the_ledger(path: Path) -> None
 
 
 def test_no_label_of_the_source_stands_outside_the_ledger() -> None:
-    """The aliases in `atlas/paper` and the test of these are the only places."""
+    """The aliases in `atlas/trial/ledger` and the test of these are the only places."""
     places = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "Makefile"]
     files = [path for place in ("atlas", "figures", "reports", "templates") for path in (ROOT / place).rglob("*.*")]
     files += [ROOT / name for name in places]
@@ -222,5 +222,5 @@ def test_the_number_leads_to_kernel_ball_entry_and_proof(name: str) -> None:
     for floor in {floor for found, floor, _ in CASES if found == name}:
         homes = {home(floor, quantity) for found, at, quantity in CASES if (found, at) == (name, floor)}
         assert any(name in path.read_text("utf-8") for path in homes), (floor, homes)
-    for floor in ("paper", "proof"):
-        assert f'    "{name}": ' in (ROOT / "atlas" / floor / f"{topic(name)}.py").read_text("utf-8")
+    for floor in ("ledger", "proofs"):
+        assert f'    "{name}": ' in (ROOT / "atlas" / "trial" / floor / f"{topic(name)}.py").read_text("utf-8")

@@ -8,9 +8,9 @@ from flint import arb
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from atlas.core.arithmetic.double_double import DoubleDouble, over
-from atlas.core.arithmetic.words import TURN, turn_of, words
-from atlas.formulas.numbers import length, nearest, rational, workprec
+from atlas.arithmetic.double_double import DoubleDouble, over
+from atlas.arithmetic.numbers import length, nearest, rational, workprec
+from atlas.arithmetic.words import TURN, turn_of, words
 
 floats = st.floats(-1e30, 1e30, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
 OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas.draw import gl
+from atlas import gl
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_a_child_that_dies_means_no(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it() -> None:
     """The command ends well: the first report says it, too."""
     done = subprocess.run(
-        [sys.executable, "-m", "atlas.draw.gl"],
+        [sys.executable, "-m", "atlas.gl"],
         env=dict(os.environ, **{gl.CHOICE: "none"}),
         capture_output=True,
         text=True,
@@ -86,7 +86,7 @@ def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it() -> None:
     assert "libegl1 libgl1-mesa-dri" in done.stdout
 
 
-@pytest.mark.parametrize("module", ["atlas.draw.gl", "atlas"])
+@pytest.mark.parametrize("module", ["atlas.gl", "atlas"])
 def test_a_choice_that_is_no_library_is_told(module: str, tmp_path: Path) -> None:
     """A misspelt ATLAS_GL is one sentence that names the known values, and exit status 2; nothing is drawn."""
     words = ["figure", "ball", "--renderer", "shaded", "--out", str(tmp_path)] if module == "atlas" else []

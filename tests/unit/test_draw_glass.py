@@ -10,11 +10,12 @@ import pytest
 from drawing import draw
 from numpy.typing import NDArray
 
-from atlas.draw import gl, space
-from atlas.draw.glass import cut, distinct_forms, places
-from atlas.draw.view import View, fit
-from atlas.scene import Scene, Space, Surface, recipes, solids
-from atlas.scene.style import style
+from atlas import gl
+from atlas.pictures import Scene, Space, Surface, recipes, solids
+from atlas.pictures.drawing import space
+from atlas.pictures.drawing.glass import cut, distinct_forms, places
+from atlas.pictures.drawing.view import View, fit
+from atlas.pictures.style import style
 
 FloatArray = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ import pytest
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from atlas.draw.hidden import Edge, areas, hidden, split
-from atlas.scene import solids
-from atlas.scene.layers import Surface
+from atlas.pictures import solids
+from atlas.pictures.drawing.hidden import Edge, areas, hidden, split
+from atlas.pictures.layers import Surface
 
 FloatArray = NDArray[np.float64]
 

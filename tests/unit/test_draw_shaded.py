@@ -10,9 +10,9 @@ import pytest
 from drawing import draw
 from numpy.typing import NDArray
 
-from atlas.draw import gl
+from atlas import gl
+from atlas.pictures import Arrow, Curve, Points, Scene, Space, recipes, solids
 from atlas.places import folder
-from atlas.scene import Arrow, Curve, Points, Scene, Space, recipes, solids
 
 pytestmark = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
 
@@ -58,7 +58,7 @@ def test_what_is_inside_a_translucent_ball_shines_through(tmp_path: Path) -> Non
 
 def test_the_light_falls_on_the_pages_as_in_the_pictures() -> None:
     """The lamps of the program that turns a scene are those of its still picture."""
-    from atlas.draw.shaded import _LIGHTS
+    from atlas.pictures.drawing.shaded import _LIGHTS
 
     text = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
     (lamps,) = re.findall(r"LAMPS = (\[\[[-\d., \[\]]*\]\])", text)

@@ -14,12 +14,12 @@ from matplotlib.figure import Figure
 from pypdf import PdfReader
 
 import atlas
-from atlas import AtlasError
-from atlas.draw import context, gl, save, to_figure
-from atlas.draw.style import style_of
-from atlas.draw.text import typeset
-from atlas.scene import Curve, Image, Plane, Scene, recipes
-from atlas.scene.style import LINES, STYLES, Style, contrast, readable
+from atlas import AtlasError, gl
+from atlas.pictures import Curve, Image, Plane, Scene, recipes
+from atlas.pictures.drawing import context, save, to_figure
+from atlas.pictures.drawing.style import style_of
+from atlas.pictures.drawing.text import typeset
+from atlas.pictures.style import LINES, STYLES, Style, contrast, readable
 
 
 def lines(count: int = 1) -> Scene:
@@ -184,7 +184,7 @@ def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
 def test_a_plotter_needs_a_panel_in_space() -> None:
     """The error says what draws the scene."""
     with pytest.raises(AtlasError, match="to_figure"):
-        atlas.draw.to_plotter(lines())
+        atlas.pictures.drawing.to_plotter(lines())
 
 
 @pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")

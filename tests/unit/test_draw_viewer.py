@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 from drawing import distance
 
-from atlas.draw import labels, moves
-from atlas.draw.style import style_of
-from atlas.draw.view import fit
-from atlas.draw.viewer import GRID, STEPS, data, script
+from atlas.pictures import Scene, recipes, solids
+from atlas.pictures.drawing import labels, moves
+from atlas.pictures.drawing.style import style_of
+from atlas.pictures.drawing.view import fit
+from atlas.pictures.drawing.viewer import GRID, STEPS, data, script
+from atlas.pictures.layers import Curve, FloatArray, Label, Points, Space, Surface, frame
 from atlas.places import folder
-from atlas.scene import Scene, recipes, solids
-from atlas.scene.layers import Curve, FloatArray, Label, Points, Space, Surface, frame
 
 HTML = folder("templates") / "html"
 

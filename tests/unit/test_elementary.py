@@ -10,10 +10,10 @@ from oracles import closed_form
 from oracles.taylor import taylor
 from ulps import approximate
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.bodies.body import SymmetricBody
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.motions import elementary as exact
+from atlas.motions.elementary import certified as exact
+from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
 
 ULP1 = 2.0**-52
 

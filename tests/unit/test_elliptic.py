@@ -16,9 +16,9 @@ from stress.elliptic import ELLIPTIC, Elliptic, rates_of
 from ulps import middle, turn
 
 import atlas
-from atlas.exact.digits import certified
-from atlas.exact.motions.elementary import ElementaryMotion as ElementaryBalls
-from atlas.exact.motions.elliptic import EllipticMotion as Balls
+from atlas.arithmetic.certified_digits import certified
+from atlas.motions.elementary.certified import ElementaryMotion as ElementaryBalls
+from atlas.motions.nutation.certified_elliptic import EllipticMotion as Balls
 
 EPS = 2.0**-52
 BODY, FIELD = (0.8, 1.0, 1.3), (0.2, 1.0, 0.6)

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from atlas.core.bodies.inertia import mass_matrix, mass_matrix_of_points
-from atlas.core.motions import euler_poisson as equations
+from atlas.bodies.inertia import mass_matrix, mass_matrix_of_points
+from atlas.motions import euler_poisson as equations
 
 EPS = float(np.finfo(float).eps)
 seeds = st.integers(0, 2**32 - 1)

@@ -5,11 +5,11 @@ from fractions import Fraction
 import pytest
 from flint import fmpq
 
-from atlas.core.bodies.body import SHAPES as CORE_SHAPES
-from atlas.core.bodies.body import SymmetricBody, from_shape, moments
+from atlas.arithmetic.certified_inputs import rational, rationals
+from atlas.bodies.body import SHAPES as CORE_SHAPES
+from atlas.bodies.body import SymmetricBody, from_shape, moments
+from atlas.bodies.certified_body import SHAPES, ratio_of, shape_moments
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.bodies.body import SHAPES, ratio_of, shape_moments
-from atlas.exact.inputs import rational, rationals
 
 
 @pytest.mark.parametrize("name", SHAPES)

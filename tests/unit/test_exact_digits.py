@@ -9,9 +9,9 @@ from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, Layout, certified, enclosed, printed
+from atlas.arithmetic.certified_inputs import rational
 from atlas.errors import AtlasError
-from atlas.exact.digits import MARK, NOT_CERTIFIED, Layout, certified, enclosed, printed
-from atlas.exact.inputs import rational
 
 balls = st.builds(
     lambda middle, power: (middle, abs(middle) * Fraction(10) ** power + Fraction(1, 10**400)),

@@ -10,12 +10,12 @@ from flint import acb, acb_poly, arb, ctx, fmpq
 from oracles.balls import taylor
 from oracles.taylor import taylor as integrated
 
+from atlas.arithmetic.certified_digits import certified
 from atlas.errors import DomainError
-from atlas.exact.digits import certified
-from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
-from atlas.exact.motions.general import GeneralMotion
-from atlas.exact.motions.top import TopMotion
-from atlas.exact.nutation.cayley_klein import matrix
+from atlas.motions.elementary.certified import ElementaryMotion, FreeMotion
+from atlas.motions.nutation.certified_cayley_klein import matrix
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
 
 KINDS: dict[str, tuple[float, tuple[float, float], tuple[float, float, float]]] = {
     "at rest": (1.5, (1, 2), (0, 0, 0)),

@@ -11,15 +11,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import closed_form, taylor
 
+from atlas.arithmetic.certified_digits import certified, enclosed, numbers
+from atlas.arithmetic.certified_inputs import Real, rational
+from atlas.bodies import formula_integrals as integrals
 from atlas.errors import DomainError
-from atlas.exact.digits import certified, enclosed, numbers
-from atlas.exact.inputs import Real, rational
-from atlas.exact.motions.ball import BallMotion
-from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
-from atlas.exact.motions.particle import Flight, ParticleMotion
-from atlas.exact.surfaces.hyperbola import Hyperbola
-from atlas.exact.surfaces.quadric import Quadric
-from atlas.formulas import integrals
+from atlas.motions.elementary.certified import ElementaryMotion, FreeMotion
+from atlas.motions.elementary.certified_ball import BallMotion
+from atlas.motions.elementary.certified_hyperbola import Hyperbola
+from atlas.motions.particle.certified import Flight, ParticleMotion
+from atlas.surfaces.certified import Quadric
 
 DIGITS = 60
 

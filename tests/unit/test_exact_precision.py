@@ -1,7 +1,7 @@
 """How many digits motions lose as balls, of every kind and next to the borders of kinds: no more than is stated.
 
-Wider balls would hold the truth as well, and `atlas.exact.digits` would raise the precision: a loss of time that no
-other test would notice.
+Wider balls would hold the truth as well, and `atlas.arithmetic.certified_digits` would raise the precision: a loss of
+time that no other test would notice.
 """
 
 import threading
@@ -15,12 +15,12 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from mpmath import mp
 
+from atlas.arithmetic.numbers import alone, direction, length, nearest, rational, root, unit, workprec
 from atlas.errors import DomainError
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.general import GeneralMotion
-from atlas.exact.motions.top import TopMotion
-from atlas.exact.nutation.cayley_klein import infinite
-from atlas.formulas.numbers import alone, direction, length, nearest, rational, root, unit, workprec
+from atlas.motions.nutation.certified_cayley_klein import infinite
+from atlas.motions.nutation.certified_elliptic import EllipticMotion
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
 
 BITS = 128
 SCALARS = "period", "precession_per_period", "spin_per_period", "nome", "modulus", "complementary_modulus"

@@ -12,11 +12,11 @@ from click.testing import CliRunner
 from scipy.spatial.transform import Rotation
 
 import atlas
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.numbers import nearest
 from atlas.cli.app import atlas as command
-from atlas.core.motions.placement import turned_by
-from atlas.exact.digits import enclosed
-from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.formulas.numbers import nearest
+from atlas.motions.frames import turned_by
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
 
 EPS = 2.0**-52
 RATIO = 0.7157322617930502

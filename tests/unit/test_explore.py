@@ -25,14 +25,14 @@ from click.testing import CliRunner
 from atlas import AtlasError, GeneralMotion
 from atlas.cli.app import atlas as command_line
 from atlas.cli.explore import started
-from atlas.core.motions import asymmetric
-from atlas.families import FAMILIES
+from atlas.cli.explorer import answers
+from atlas.cli.explorer.server import HEADERS, PAGES, Explorer, Handler
+from atlas.cli.explorer.subjects import OfFamily, OfRecipe, everything, subject
 from atlas.families.sliders import letters
-from atlas.live import answers
-from atlas.live.server import HEADERS, PAGES, Explorer, Handler
-from atlas.live.subjects import OfFamily, OfRecipe, everything, subject
+from atlas.motions.register import FAMILIES
+from atlas.motions.torus import kernel as asymmetric
+from atlas.pictures import recipes
 from atlas.places import folder
-from atlas.scene import recipes
 
 
 @pytest.fixture(scope="module")

@@ -12,18 +12,18 @@ import pytest
 from PIL import Image
 
 from atlas import ElementaryMotion, GeneralMotion, Hyperbola, Quadric
-from atlas.draw.style import context, style_of
+from atlas.book.blocks.explorer import Explorer, view
+from atlas.book.compose import compose
+from atlas.book.definition import Thumbnail
+from atlas.book.html import CARD, cards, pages, thumbnail
+from atlas.book.load import load
+from atlas.book.pictures import pictures
+from atlas.book.scripts import script, written
 from atlas.errors import AtlasError
-from atlas.families import FAMILIES
+from atlas.motions.register import FAMILIES
+from atlas.pictures.drawing.style import context, style_of
+from atlas.pictures.style import LINES
 from atlas.places import folder
-from atlas.report.blocks.explorer import Explorer, view
-from atlas.report.compose import compose
-from atlas.report.definition import Thumbnail
-from atlas.report.html import CARD, cards, pages, thumbnail
-from atlas.report.load import load
-from atlas.report.pictures import pictures
-from atlas.report.scripts import script, written
-from atlas.scene.style import LINES
 
 COUNT, WITHIN = 10_000, 1e-11
 PROGRAM = """

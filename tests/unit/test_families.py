@@ -14,10 +14,10 @@ from stress.run import PROMISES
 from syrupy.assertion import SnapshotAssertion
 from ulps import absolute, of_length, own
 
+from atlas.arithmetic.certified_digits import enclosed
 from atlas.errors import DomainError
-from atlas.exact.digits import enclosed
-from atlas.families import FAMILIES, Family, Quantity
-from atlas.paper import EQUATIONS
+from atlas.motions.register import FAMILIES, Family, Quantity
+from atlas.trial.ledger import EQUATIONS
 
 EVERY = pytest.mark.parametrize("one", FAMILIES.values(), ids=list(FAMILIES))
 TIMES = np.array([0.0, 0.3, -2.5, 40.0])

@@ -10,7 +10,7 @@ from mpmath import mp
 from scipy.spatial.transform import Rotation
 
 import atlas
-from atlas.core.bodies.field import Field, LaboratoryFrame
+from atlas.bodies.field import Field, LaboratoryFrame
 from atlas.errors import AtlasError, DomainError
 
 EPS = float(np.finfo(float).eps)

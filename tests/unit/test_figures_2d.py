@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from oracles.taylor import taylor
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
-from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.bodies.body import SymmetricBody
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface
-from atlas.scene.hyperbola_plane import asymptote, branches, places, unstable, window
-from atlas.scene.recipes import load
-from atlas.scene.style import style
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
+from atlas.pictures import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface
+from atlas.pictures.hyperbola_plane import asymptote, branches, places, unstable, window
+from atlas.pictures.recipes import load
+from atlas.pictures.style import style
 
 EPS = float(np.finfo(float).eps)
 NAMES = (

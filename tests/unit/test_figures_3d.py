@@ -8,8 +8,8 @@ from drawing import draw
 from numpy.typing import NDArray
 
 from atlas import ElementaryMotion, Hyperbola, Quadric, SymmetricBody
-from atlas.scene import Arrow, Curve, Label, Points, Surface, recipes
-from atlas.scene.quadrics import quadric_matrix, sheet_axis
+from atlas.pictures import Arrow, Curve, Label, Points, Surface, recipes
+from atlas.pictures.quadrics import quadric_matrix, sheet_axis
 
 FloatArray = NDArray[np.float64]
 

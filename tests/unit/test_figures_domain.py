@@ -8,8 +8,8 @@ import pytest
 from drawing import made
 
 from atlas.errors import AtlasError
-from atlas.scene import recipes
-from atlas.scene.style import LINES
+from atlas.pictures import recipes
+from atlas.pictures.style import LINES
 
 BAD: list[tuple[str, dict[str, Any], str]] = [
     ("ball", {"larmor": 0.0}, "needs a field"),

@@ -12,10 +12,10 @@ from oracles.top import taylor
 from stress.nutating import narrow
 
 from atlas import DomainError, ElementaryMotion, EllipticMotion, GeneralMotion, Hyperbola, TopMotion, simulate
-from atlas.core.maps.bifurcation import momentum_map, potential
-from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
-from atlas.scene.any_motion import precessing
+from atlas.maps.bifurcation import momentum_map, potential
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.pictures import Arrow, Curve, Image, Points, Surface, recipes
+from atlas.pictures.any_motion import precessing
 
 EPS = float(np.finfo(float).eps)
 LONG: tuple[Any, ...] = (0.5, (1.0, 0.1), -0.5)

@@ -10,9 +10,22 @@ from drawing import made
 from numpy.typing import NDArray
 
 from atlas import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
-from atlas.scene import Arrow, Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, quadric_panel, recipes
-from atlas.scene.any_motion import course
+from atlas.pictures import (
+    Arrow,
+    Curve,
+    Image,
+    Label,
+    Layer,
+    Panel,
+    Plane,
+    Points,
+    Region,
+    Surface,
+    quadric_panel,
+    recipes,
+)
+from atlas.pictures.any_motion import course
+from atlas.surfaces.kernel import Quadric
 
 FloatArray = NDArray[np.float64]
 NAMES = [name for name in recipes.names() if not recipes.load(name).records]

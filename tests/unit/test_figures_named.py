@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
 from atlas import AtlasError, ElementaryMotion, GeneralMotion
-from atlas.draw.panels import to_figure
-from atlas.scene import Curve, Image, Plane, Points, Scene, recipes
+from atlas.pictures import Curve, Image, Plane, Points, Scene, recipes
+from atlas.pictures.drawing.panels import to_figure
 
 DOTS, LEAST, SEEN, WORDS = 100, 30, 25, 60
 """Pixels an inch, how many must differ where a layer is taken away, and by how much of 255; words of a caption."""

@@ -9,7 +9,7 @@ from drawing import layers, panels
 from numpy.typing import NDArray
 
 from atlas import DomainError, Hyperbola, SymmetricBody, simulate
-from atlas.scene import Arrow, Curve, Label, Points, Surface, quadrics, recipes, torus
+from atlas.pictures import Arrow, Curve, Label, Points, Surface, quadrics, recipes, torus
 
 FloatArray = NDArray[np.float64]
 

@@ -7,10 +7,10 @@ import pytest
 from drawing import layers
 
 from atlas import TopMotion
-from atlas.core.maps.wells import Wells
-from atlas.core.surfaces.quadric import TopQuadric
-from atlas.scene import Arrow, Curve, Label, Points, Region, Scene, Space, Surface, recipes
-from atlas.scene.arrange import narrowed
+from atlas.maps.wells import Wells
+from atlas.pictures import Arrow, Curve, Label, Points, Region, Scene, Space, Surface, recipes
+from atlas.pictures.arrange import narrowed
+from atlas.surfaces.kernel import TopQuadric
 
 
 def made(name: str, **parameters: Any) -> Scene:

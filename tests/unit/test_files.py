@@ -12,7 +12,7 @@ import pytest
 from packaging.requirements import Requirement
 
 from atlas import files
-from atlas.build import publish
+from atlas.book.building import publish
 from atlas.libraries import LIBRARIES, release, versions
 
 ROOT = Path(__file__).resolve().parents[2]

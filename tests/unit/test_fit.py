@@ -19,11 +19,11 @@ import atlas
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.errors import AtlasError
-from atlas.study.fit.data import Data, _inverse_right, of_arrays, of_file
-from atlas.study.fit.models import MODELS, model_of
-from atlas.study.fit.parameters import Parameter, Parameters, parameters_of
-from atlas.study.fit.problem import Problem
-from atlas.study.fit.result import Fit
+from atlas.fitting.data import Data, _inverse_right, of_arrays, of_file
+from atlas.fitting.models import MODELS, model_of
+from atlas.fitting.parameters import Parameter, Parameters, parameters_of
+from atlas.fitting.problem import Problem
+from atlas.fitting.result import Fit
 
 RATIO, FIELD, OMEGA = 1.3, (0.2, -0.4, 1.1), (1.2, 0.3, 0.7)
 ATTITUDE = Rotation.from_rotvec([0.3, -0.2, 0.4])
@@ -466,8 +466,8 @@ def test_the_command_ends_with_one_where_solutions_are_equal(tmp_path: Path) -> 
 def test_the_command_knows_the_families() -> None:
     """Its names, which it lists without loading them, are those of the fit."""
     from atlas.cli import fit
-    from atlas.study.fit import LOSSES
-    from atlas.study.fit.data import KINDS
+    from atlas.fitting import LOSSES
+    from atlas.fitting.data import KINDS
 
     assert set(fit.FAMILIES) == set(MODELS)
     assert set(fit.KINDS) == {*KINDS, "signal"}

@@ -18,13 +18,13 @@ from scipy.spatial.transform import Rotation
 from tests_support import few_figures
 
 import atlas
+from atlas.book.fit_report import MEANINGS
+from atlas.book.markdown import read
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import motion_of
 from atlas.errors import AtlasError
-from atlas.report.fitted import MEANINGS
-from atlas.report.markdown import read
-from atlas.study.fit.models import MODELS
+from atlas.fitting.models import MODELS
 
 NOISE = 0.01
 NAMES = ",".join(f"R{i}{j}" for i in "123" for j in "123")
@@ -132,7 +132,7 @@ def unbuilt(monkeypatch: pytest.MonkeyPatch) -> None:
     def build(*_: object, **__: object) -> None:
         raise AtlasError("not built here")
 
-    monkeypatch.setattr("atlas.build.report.build_report", build)
+    monkeypatch.setattr("atlas.book.building.report.build_report", build)
 
 
 @pytest.mark.slow

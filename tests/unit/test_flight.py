@@ -7,12 +7,12 @@ from oracles.taylor import taylor
 from scipy.spatial.transform import Rotation
 
 import atlas
-from atlas.core.bodies.field import Field
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.flight import AGREEMENT, Flight
-from atlas.core.motions.particle import ParticleMotion
+from atlas.bodies.field import Field
 from atlas.errors import AtlasError
-from atlas.scene.flight import scene_of
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.particle.flight import AGREEMENT, Flight
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.pictures.flight import scene_of
 
 EPS = float(np.finfo(float).eps)
 FIELD = Field([0.3, -0.5, 1.1], [0.2, 0.1, -0.3], mu=-1.3, c=0.8)

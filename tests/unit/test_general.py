@@ -13,12 +13,12 @@ from stress.nutating import narrow
 from ulps import absolute
 
 import atlas
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.motions.placement import turned_by
-from atlas.core.nutation import grid as general_grid
-from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.motions.general import GeneralMotion as Balls
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.frames import turned_by
+from atlas.motions.nutation import grid as general_grid
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.nutation.kernel_general import GeneralMotion
 
 Inputs = tuple[float, tuple[float, float], tuple[float, float, float]]
 ULP1 = 2.0**-52

@@ -14,15 +14,15 @@ from stress.run import PROMISES
 from ulps import ONE, absolute, error
 
 import atlas
-from atlas.core.motions import general
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.nutation import pair as nutation_pair
-from atlas.core.nutation.blocks import Blocks
-from atlas.core.nutation.rows import MotionsAtTimes, Rows
-from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
-from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.exact.nutation.cayley_klein import infinite
+from atlas.motions.nutation import kernel_general as general
+from atlas.motions.nutation import rows_pair as nutation_pair
+from atlas.motions.nutation.certified_cayley_klein import infinite
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.motions.nutation.rows import MotionsAtTimes, Rows
+from atlas.motions.nutation.rows_blocks import Blocks
+from atlas.motions.nutation.rows_scalars import Scalars
 
 SCALARS = ("period", "modulus", "complementary_modulus", "nome", "precession_per_period", "spin_per_period")
 PER_REGIME = 8

@@ -11,9 +11,9 @@ import pytest
 from flint import arb, ctx
 from stress.regimes import GENERAL
 
-from atlas.core.motions.general import GeneralMotion
-from atlas.core.nutation import rows, single
-from atlas.exact.motions.general import GeneralMotion as Balls
+from atlas.motions.nutation import rows, single
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.nutation.kernel_general import GeneralMotion
 from tests.oracles.taylor import taylor
 
 WANTED = 16

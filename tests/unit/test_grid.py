@@ -6,12 +6,12 @@ import pytest
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.core.arithmetic import grid
-from atlas.core.arithmetic.grid import Progression
-from atlas.core.motions.ball import BallMotion
-from atlas.core.motions.elementary import ElementaryMotion
+from atlas.arithmetic import grid
+from atlas.arithmetic.grid import Progression
+from atlas.arithmetic.numbers import rational
 from atlas.errors import AtlasError
-from atlas.formulas.numbers import rational
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_ball import BallMotion
 
 ULP1 = 2.0**-52
 I, B2, B3, OMEGA2 = 0.7, 1.1, -0.6, 1.3
@@ -120,7 +120,7 @@ def test_grids_of_every_length_end_where_they_should(monkeypatch: pytest.MonkeyP
 def test_a_grid_of_any_length_is_cut_well(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
     """Where the work is cut for two threads, also next to the smallest length that is worth it, no value is lost."""
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
-    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 2)
+    monkeypatch.setattr("atlas.arithmetic.machine.processors", lambda: 2)
     grid = motion.rotation_grid(0.0, 1e-3, count)
     some = np.linspace(0, count - 1, 50).astype(int)
     exact = motion.rotation(some * 1e-3)
@@ -130,9 +130,9 @@ def test_a_grid_of_any_length_is_cut_well(monkeypatch: pytest.MonkeyPatch, count
 def test_two_threads_give_the_same_grid(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
-    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 2)
+    monkeypatch.setattr("atlas.arithmetic.machine.processors", lambda: 2)
     two = motion.rotation_grid(-10.0, 1e-3, 250_000)
-    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 1)
+    monkeypatch.setattr("atlas.arithmetic.machine.processors", lambda: 1)
     assert np.array_equal(two, motion.rotation_grid(-10.0, 1e-3, 250_000))
 
 

@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 import atlas
-from atlas.build.appendices import described
+from atlas.book.blocks.reference import markdown
+from atlas.book.building.records import described
+from atlas.book.files import find
+from atlas.book.load import load
+from atlas.book.texts import Link, Text, Texts
 from atlas.cli import main
-from atlas.report.blocks.reference import markdown
-from atlas.report.files import find
-from atlas.report.load import load
-from atlas.report.texts import Link, Text, Texts
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 BLOCK = re.compile(r"^(`{3,})(\w+)\n(.*?)^\1$", re.MULTILINE | re.DOTALL)
@@ -98,7 +98,7 @@ def test_examples_in_docstrings_give_what_they_show() -> None:
 
 def test_examples_in_the_kernels_give_what_they_show() -> None:
     """So do those of formulas, of balls and of doubles."""
-    homes = (Path(atlas.__file__).parent / floor for floor in ("formulas", "exact", "core"))
+    homes = (Path(atlas.__file__).parent / floor for floor in ("arithmetic", "bodies", "surfaces", "motions", "maps"))
     files = [path for home in homes for path in home.rglob("*.py") if ">>>" in path.read_text("utf-8")]
     names = (
         ".".join(("atlas", *path.relative_to(Path(atlas.__file__).parent).with_suffix("").parts)) for path in files

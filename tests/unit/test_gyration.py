@@ -3,7 +3,7 @@ import numpy as np
 from mpmath import mp
 from numpy.typing import NDArray
 
-from atlas.core.motions.particle_rows import Gyration, gyration
+from atlas.motions.particle.rows import Gyration, gyration
 
 EPS = float(np.finfo(float).eps)
 

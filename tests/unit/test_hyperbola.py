@@ -7,12 +7,12 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
-from atlas.core.surfaces.hyperbola import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.surfaces.hyperbola import Hyperbola as Certified
+from atlas.motions.elementary.certified_hyperbola import Hyperbola as Certified
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
+from atlas.surfaces.kernel import Quadric
 
 RATIOS = [0.5, 1.0 - 2.0**-53, 1.0, 1.0 + 2.0**-52, 1.5, 2.0]
 FIELDS = [(1.0, 2.0), (-1.0, 2.0), (1.0, -1e-12), (1e-12, 1.0), (1e140, 2e140), (-1e-140, -3e-140)]

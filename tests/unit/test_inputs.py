@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core import inputs
+from atlas.arithmetic import inputs
 from atlas.errors import AtlasError, DomainError
 
 

@@ -6,8 +6,8 @@ import pytest
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.motions.integrals import integrals, shape_factors
+from atlas.bodies.body import SymmetricBody
+from atlas.bodies.integrals import integrals, shape_factors
 from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)

@@ -10,12 +10,12 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas import BallMotion, DomainError
-from atlas.core.bodies import laboratory
-from atlas.core.bodies.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.bodies import laboratory
+from atlas.bodies.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.book.tables import compute
+from atlas.book.tables.laboratory import Dipole, demagnetization
+from atlas.book.tables.table import Data, Request
 from atlas.errors import AtlasError
-from atlas.report.tables import compute
-from atlas.report.tables.laboratory import Dipole, demagnetization
-from atlas.report.tables.table import Data, Request
 
 EPS = float(np.finfo(float).eps)
 

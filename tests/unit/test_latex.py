@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 from pypdf import PdfReader
 
-from atlas.build.composed import build_tex
-from atlas.build.report import build_report
+from atlas.arithmetic.certified_digits import certified
+from atlas.book.blocks.table import Cell, ColumnView, TableView
+from atlas.book.building.composed import build_tex
+from atlas.book.building.report import build_report
+from atlas.book.latex import _numbers, _with_unit, table_of
 from atlas.errors import AtlasError
-from atlas.exact.digits import certified
-from atlas.exact.motions.elementary import ElementaryMotion as Balls
-from atlas.report.blocks.table import Cell, ColumnView, TableView
-from atlas.report.latex import _numbers, _with_unit, table_of
+from atlas.motions.elementary.certified import ElementaryMotion as Balls
 
 REPORT = r"""
 name = "small"

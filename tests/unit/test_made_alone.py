@@ -11,15 +11,15 @@ from stress.regimes import GENERAL
 from stress.tops import TOPS
 
 import atlas
-from atlas.core.bodies.inertia import mass_matrix_from_inertia
-from atlas.core.maps.bifurcation import momentum_map
-from atlas.core.maps.wells import Wells
-from atlas.core.motions.general import standing
-from atlas.core.motions.top import balls
-from atlas.core.nutation.functions import Line
-from atlas.core.nutation.single import SingleMotion, SingleTop
-from atlas.core.nutation.swing import Swing
+from atlas.bodies.inertia import mass_matrix_from_inertia
 from atlas.errors import DomainError
+from atlas.maps.bifurcation import momentum_map
+from atlas.maps.wells import Wells
+from atlas.motions.nutation.functions import Line
+from atlas.motions.nutation.kernel_general import standing
+from atlas.motions.nutation.kernel_top import balls
+from atlas.motions.nutation.single import SingleMotion, SingleTop
+from atlas.motions.nutation.swing import Swing
 
 EPS = 2.0**-52
 

@@ -11,11 +11,11 @@ import pytest
 from click.testing import CliRunner
 
 import atlas
+from atlas.checking.error_maps import over_omega2, over_ratio
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError, DomainError
-from atlas.scene import Image, recipes
-from atlas.study.maps import over_omega2, over_ratio
-from atlas.study.sweep.rotation_errors import constants, formula
+from atlas.pictures import Image, recipes
+from atlas.sweeps.rotation_errors import constants, formula
 
 CELLS = (8, 15)
 

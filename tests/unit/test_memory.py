@@ -39,7 +39,7 @@ with ThreadPoolExecutor(1) as pool:
 ROWS = """
 import resource
 import numpy as np
-from atlas.study.sweep.plan import Plan
+from atlas.sweeps.plan import Plan
 
 swept = {"ratio": np.linspace(0.5, 1.5, 100).tolist(), "omega2": np.linspace(0.1, 2.0, 1000).tolist()}
 plan = Plan.of("elementary", {"B2": 1.0, "B3": 0.3, "t": 7.0} | swept, ("k", "R13"))

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.maps.bifurcation import momentum_map, potential
-from atlas.core.maps.trace_map import trace_map
-from atlas.core.maps.wells import Branch, Wells, border, nutation_squared, rest
+from atlas.maps.bifurcation import momentum_map, potential
+from atlas.maps.trace_map import trace_map
+from atlas.maps.wells import Branch, Wells, border, nutation_squared, rest
 
 EPS = float(np.finfo(float).eps)
 BODIES = [(0.5, (1.0, 0.1), -0.5), (2.0, (1.0, -2.0), -3.0), (1.0, (1.0, 2.0), 0.7), (1.5, (-1.0, 2.0), 0.4)]

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.maps.monodromy import Monodromy, around, on_loop
-from atlas.core.maps.wells import Wells
+from atlas.maps.monodromy import Monodromy, around, on_loop
+from atlas.maps.wells import Wells
 
 CASES: dict[str, tuple[Any, ...]] = {
     "heavy top": (0.5, (0.0, 0.0), 1.0, 1.0, 1.0, 0.0, (-1, 1)),

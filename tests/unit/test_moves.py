@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from atlas.draw import moves, viewer
+from atlas.pictures import movement, recipes
+from atlas.pictures.drawing import moves, viewer
 from atlas.places import folder
-from atlas.scene import movement, recipes
 
 SCRIPT = folder("templates") / "html" / "motion.js"
 PROGRAM = """

@@ -11,10 +11,10 @@ from flint import fmpq
 from scipy.spatial.transform import Rotation
 
 import atlas
-from atlas.core.bodies.inertia import principal
-from atlas.core.motions.chosen import body_of
+from atlas.bodies.inertia import principal
 from atlas.errors import NotCertifiedError
-from atlas.exact.motions.clebsch_flow import Flow
+from atlas.motions.any_body import body_of
+from atlas.motions.torus.certified_flow import Flow
 from tests.oracles.taylor import taylor
 
 TURN = Rotation.from_rotvec((0.4, -1.1, 0.7)).as_matrix()

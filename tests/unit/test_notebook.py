@@ -30,12 +30,12 @@ from atlas import (
     SymmetricBody,
     TopMotion,
 )
-from atlas.core.shown import Shown
-from atlas.draw.window import mimebundle
-from atlas.families import FAMILIES
+from atlas.display import Shown
+from atlas.motions.register import FAMILIES
 from atlas.notebook.pictures import alone, scene_of
 from atlas.notebook.show import picture
-from atlas.scene import Curve, Plane, Scene, recipes
+from atlas.pictures import Curve, Plane, Scene, recipes
+from atlas.pictures.drawing.window import mimebundle
 
 TOP = {"inertia": (1.0, 0.5), "coupling": (0.0, 0.0), "direction": (0.6, 0.8), "omega": (0.1, 0.2, 5.0), "linear": 3.0}
 ONE: list[Any] = [

@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
+from atlas.book.files import find
+from atlas.book.load import load
 from atlas.places import folder
-from atlas.report.files import find
-from atlas.report.load import load
 
 
 @pytest.fixture(scope="module")

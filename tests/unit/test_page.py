@@ -20,21 +20,21 @@ from pypdf import PdfReader
 from tests_support import few_figures
 
 from atlas import processes
-from atlas.build.formats import single
+from atlas.book.body_and_field import Body, Field, body_and_field
+from atlas.book.building.formats import single
+from atlas.book.markdown import read
+from atlas.book.page import Asked
+from atlas.book.tables import compute
+from atlas.book.tables.closed import convergents
+from atlas.book.tables.properties import lettered
+from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
-from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
-from atlas.families import FAMILIES
-from atlas.report.body_and_field import Body, Field, body_and_field
-from atlas.report.markdown import read
-from atlas.report.page import Asked
-from atlas.report.tables import compute
-from atlas.report.tables.closed import convergents
-from atlas.report.tables.properties import lettered
-from atlas.report.tables.table import Request
-from atlas.scene.recipes import load
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.register import FAMILIES
+from atlas.pictures.recipes import load
 
 MOTION = "--ratio 1.3 --field 1 2 --omega2 0.7"
 BALL = "ball --larmor 0.5 --momentum 0.3 -0.7"
@@ -261,7 +261,7 @@ def unbuilt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
         (file,) = tmp_path.glob("*.md")
         return read(file.read_text("utf-8"))[0]
 
-    monkeypatch.setattr("atlas.build.report.build_report", build)
+    monkeypatch.setattr("atlas.book.building.report.build_report", build)
     return record
 
 

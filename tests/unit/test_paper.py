@@ -6,14 +6,14 @@ from collections import Counter
 
 import pytest
 
-from atlas.build.appendices import title
+from atlas.book.building.records import title
 from atlas.errors import AtlasError
-from atlas.families import FAMILIES
-from atlas.paper import EQUATIONS, equation, find
-from atlas.paper.citation import cited
-from atlas.paper.plain import plain
+from atlas.motions.register import FAMILIES
 from atlas.places import folder
-from atlas.proof import recorded
+from atlas.trial.ledger import EQUATIONS, equation, find
+from atlas.trial.ledger.citation import cited
+from atlas.trial.ledger.plain import plain
+from atlas.trial.proofs import recorded
 
 # Every equation label of the paper, in the paper's order; mf61 occurs twice there, mf47 twice in one equation.
 LABELS = """

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from mpmath import mp
 
-from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import AtlasError, DomainError
+from atlas.motions.particle.kernel import ParticleMotion
 
 EPS = float(np.finfo(float).eps)
 vectors = arrays(np.float64, 3, elements=st.one_of(st.floats(-3, 3), st.just(0.0)))

@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.words import TURN
+from atlas.arithmetic.numbers import rational, workprec
+from atlas.arithmetic.phase import Phases
+from atlas.arithmetic.words import TURN
 from atlas.errors import AtlasError
-from atlas.formulas.numbers import rational, workprec
 
 UNIT = 2.0**-53
 

@@ -55,7 +55,7 @@ def test_what_is_built_is_kept_in_the_checkouts_build_or_in_the_users_cache(
 
 def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """`atlas figure --out .` leaves only the figure and the record of what it wrote, and draws nothing twice."""
-    from atlas.build.figures import build_figures
+    from atlas.book.building.figures import build_figures
 
     monkeypatch.chdir(tmp_path)
     (first,) = build_figures(["magn"], ("svg",), Path())

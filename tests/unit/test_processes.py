@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from atlas import processes, programs
+from atlas.book import bibliography, pandoc
 from atlas.errors import AtlasError
-from atlas.report import bibliography, pandoc
 
 ROOT = Path(__file__).parents[2]
 MAIN = str(ROOT / "atlas" / "__main__.py")

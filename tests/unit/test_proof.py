@@ -9,15 +9,15 @@ import pytest
 import sympy
 from tests_support import stale
 
-from atlas.build.cache import Cache
-from atlas.paper import EQUATIONS, topic
-from atlas.proof import recorded, run, verify
-from atlas.proof.decide import decide
-from atlas.proof.identity import positive, vanishes
-from atlas.proof.model import Model, hat, rotation
-from atlas.proof.run import trial, trials, try_one
-from atlas.proof.trial import Falsehood
-from atlas.proof.verdict import GRADES, slips
+from atlas.book.building.cache import Cache
+from atlas.trial.ledger import EQUATIONS, topic
+from atlas.trial.proofs import recorded, run, verify
+from atlas.trial.proofs.decide import decide
+from atlas.trial.proofs.identity import positive, vanishes
+from atlas.trial.proofs.model import Model, hat, rotation
+from atlas.trial.proofs.run import trial, trials, try_one
+from atlas.trial.proofs.trial import Falsehood
+from atlas.trial.proofs.verdict import GRADES, slips
 
 RECORDED = recorded.load()
 REFUTED = [name for name, verdict in RECORDED.items() if verdict.verdict == "refuted"]

@@ -8,9 +8,9 @@ import pytest
 from changes import changes
 from rewritings import rewritings
 
-from atlas.paper import EQUATIONS
-from atlas.proof import recorded
-from atlas.proof.run import trial
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs import recorded
+from atlas.trial.proofs.run import trial
 
 COUNT = 40
 

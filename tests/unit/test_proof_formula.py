@@ -3,7 +3,7 @@
 import pytest
 
 from atlas.errors import AtlasError
-from atlas.proof.formula import value
+from atlas.trial.proofs.formula import value
 
 
 def test_functions_are_letters_too() -> None:

@@ -3,10 +3,10 @@
 import pytest
 import sympy
 
-from atlas.paper import EQUATIONS
-from atlas.proof.model import COMMON, matrix, vector
-from atlas.proof.notation import NoMeaningError, Reader, parse, write
-from atlas.proof.run import trial
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs.model import COMMON, matrix, vector
+from atlas.trial.proofs.notation import NoMeaningError, Reader, parse, write
+from atlas.trial.proofs.run import trial
 
 R, S, v, w = matrix("R"), matrix("S"), vector("v"), vector("w")
 LETTERS = {

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from atlas import proof
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
-from atlas.proof import recorded, run
+from atlas.trial import proofs as proof
+from atlas.trial.proofs import recorded, run
 
 VERDICT = recorded.load()["(72)"]
 

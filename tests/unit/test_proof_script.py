@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from atlas.cli.app import atlas as command
-from atlas.proof import recorded, script_of
+from atlas.trial.proofs import recorded, script_of
 
 RECORDED, SCRIPTS = recorded.load(), recorded.scripts()
 SAMPLE = ("(2)", "(34)", "(48)", "(72)", "(97)", "text-two-sheets", "theorem-bracket", "theorem-involution")

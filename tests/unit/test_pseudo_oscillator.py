@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.errors import AtlasError
+from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
 
 EPS = float(np.finfo(float).eps)
 ratios = st.one_of(st.floats(0.05, 2), st.sampled_from([1.0, 1 + EPS, 1 - EPS / 2, 2.0]))

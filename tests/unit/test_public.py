@@ -94,7 +94,7 @@ def test_each_public_name_has_the_type_of_its_home() -> None:
 def test_a_type_checker_sees_classes_and_arrays(tmp_path: Path) -> None:
     """A motion is one of its class, and its matrices are arrays of floats."""
     said = checked(tmp_path / "mine.py", RIGHT)
-    assert '"atlas.core.motions.elementary.ElementaryMotion"' in said
+    assert '"atlas.motions.elementary.kernel.ElementaryMotion"' in said
     assert "float64" in said
     assert "Any" not in said.splitlines()[0]
 
@@ -117,7 +117,7 @@ def test_a_type_checker_takes_what_is_taken(tmp_path: Path) -> None:
 def test_a_type_checker_tells_one_run_from_several_and_columns_from_a_file(tmp_path: Path) -> None:
     """One run gives a `Check`, several a `Convergence`, a sweep without a file its columns."""
     said = [line.partition("Revealed type is ")[2] for line in checked(tmp_path / "mine.py", RUNS).splitlines()[:5]]
-    check, order = '"atlas.study.check.Check"', '"atlas.study.order.Convergence"'
+    check, order = '"atlas.checking.check.Check"', '"atlas.checking.order.Convergence"'
     assert said[:3] == [check, check, order]
     assert said[3].startswith('"dict[str, ')
     assert said[4] == '"pathlib.Path | str"'

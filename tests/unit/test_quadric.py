@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.core.bodies.body import SymmetricBody
-from atlas.core.surfaces.hyperbola import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
+from atlas.bodies.body import SymmetricBody
 from atlas.errors import AtlasError, DomainError
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.surfaces.kernel import Quadric
 
 KINDS = {
     "two-sheet hyperboloid": (1.5, (1.0, 2.0)),

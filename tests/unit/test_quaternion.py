@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import atlas
-from atlas.core.arithmetic.quaternions import product
+from atlas.arithmetic.quaternions import product
 
 FALLS = 2 * 3**0.5
 """Spin below which the top of `MOTIONS` falls over."""

@@ -11,15 +11,15 @@ import pytest
 from stress.extreme import times
 
 import atlas
-from atlas.core.bodies.inertia import inertia_tensor
-from atlas.core.bodies.units import larmor_field
+from atlas.arithmetic.certified_inputs import rationals
+from atlas.bodies.inertia import inertia_tensor
+from atlas.bodies.units import larmor_field
 from atlas.errors import AtlasError
-from atlas.exact.inputs import rationals
-from atlas.exact.motions.ball import BallMotion as Ball
-from atlas.exact.motions.particle import ParticleMotion as Particle
-from atlas.exact.surfaces.hyperbola import Hyperbola as Balls
-from atlas.scene import recipes
-from atlas.study.sweep.plan import Plan
+from atlas.motions.elementary.certified_ball import BallMotion as Ball
+from atlas.motions.elementary.certified_hyperbola import Hyperbola as Balls
+from atlas.motions.particle.certified import ParticleMotion as Particle
+from atlas.pictures import recipes
+from atlas.sweeps.plan import Plan
 
 FIELD = atlas.Field.gaussian((0.3, 1.0, -2.0), mu=1.5)
 PARTICLE = atlas.ParticleMotion(1.0, (0.0, 1.0, 0.0), (0.0, 0.0, 2.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))

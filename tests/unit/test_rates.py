@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 import atlas
-from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
+from atlas.motions.torus.certified import AsymmetricMotion as Balls
 
 Vector = tuple[float, float, float]
 NAMES = "period", "precession_rate", "spin_rate"

@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 from pypdf import PdfReader
 
-from atlas.build.composed import composed
-from atlas.build.report import build_report
+from atlas.book.appendices import Appendices
+from atlas.book.building.composed import composed
+from atlas.book.building.report import build_report
+from atlas.book.compose import compose
+from atlas.book.digits import Number
+from atlas.book.load import load
+from atlas.book.tables.table import Data
 from atlas.errors import AtlasError
-from atlas.report.appendices import Appendices
-from atlas.report.compose import compose
-from atlas.report.digits import Number
-from atlas.report.load import load
-from atlas.report.tables.table import Data
 
 BOOK = r"""
 name = "book"

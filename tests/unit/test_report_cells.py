@@ -10,11 +10,11 @@ import mpmath
 from mpmath import mp, mpf
 from oracles import closed_form
 
+from atlas.book.body_and_field import Body, Field, body_and_field
+from atlas.book.digits import Number
+from atlas.book.tables import TABLES, compute
+from atlas.book.tables.table import Data, Request
 from atlas.places import folder
-from atlas.report.body_and_field import Body, Field, body_and_field
-from atlas.report.digits import Number
-from atlas.report.tables import TABLES, compute
-from atlas.report.tables.table import Data, Request
 
 I, B2, B3, OMEGA2 = 0.7, 1.3, -0.4, 0.6
 TIMES = [0.0, 0.3, 7.25]

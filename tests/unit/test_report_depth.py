@@ -11,11 +11,11 @@ import pytest
 from click.testing import CliRunner
 
 from atlas import programs
+from atlas.book import pandoc, toml
+from atlas.book.load import load
+from atlas.book.texts import DEEPEST, Link, Texts, deepest
 from atlas.cli.app import atlas
 from atlas.errors import AtlasError
-from atlas.report import pandoc, toml
-from atlas.report.load import load
-from atlas.report.texts import DEEPEST, Link, Texts, deepest
 
 
 def set_in_typst(*texts: str) -> list[str]:

@@ -6,13 +6,13 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from atlas.book.blocks.equation import Equation
+from atlas.book.files import find
+from atlas.book.load import load
+from atlas.book.pandoc import Target, _upright
+from atlas.book.texts import Link, Texts
 from atlas.errors import AtlasError
-from atlas.paper import EQUATIONS
-from atlas.report.blocks.equation import Equation
-from atlas.report.files import find
-from atlas.report.load import load
-from atlas.report.pandoc import Target, _upright
-from atlas.report.texts import Link, Texts
+from atlas.trial.ledger import EQUATIONS
 
 
 def one(tex: str, target: Target = "html") -> str:

@@ -13,19 +13,19 @@ import pytest
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas.build import appendices
-from atlas.build.appendices import gather
-from atlas.build.report import Built, build_report
+from atlas.book.appendices import Appendices, Finding
+from atlas.book.blocks import ledger as trial
+from atlas.book.building import records as appendices
+from atlas.book.building.records import gather
+from atlas.book.building.report import Built, build_report
+from atlas.book.compose import compose
+from atlas.book.load import load
+from atlas.book.tables.table import Data
 from atlas.errors import AtlasError
-from atlas.paper import EQUATIONS
-from atlas.paper.equation import slug
-from atlas.proof import recorded
-from atlas.proof.verdict import GRADES
-from atlas.report.appendices import Appendices, Finding
-from atlas.report.blocks import ledger as trial
-from atlas.report.compose import compose
-from atlas.report.load import load
-from atlas.report.tables.table import Data
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.equation import slug
+from atlas.trial.proofs import recorded
+from atlas.trial.proofs.verdict import GRADES
 
 HEAD = r"""
 name = "mine"
@@ -171,7 +171,7 @@ def test_every_use_and_its_entry_link_to_each_other(pages: dict[str, reader.Html
 def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElement]) -> None:
     """The frequency of proper rotation is computed where the docstrings say so."""
     (found,) = [element for name, _, element in entries(pages) if name == "(72)"]
-    assert "core/surfaces/hyperbola.py" in found.xpath(".//code/text()")
+    assert "motions/elementary/kernel_hyperbola.py" in found.xpath(".//code/text()")
 
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
@@ -294,7 +294,7 @@ def test_pages_of_recorded_results_load_no_algebra(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text(HEAD + LEDGER.partition('[[pages]]\nslug = "ledger-iii"')[0] + RECORDED, encoding="utf-8")
     script = (
-        "import sys; from pathlib import Path; from atlas.build.report import build_report;"
+        "import sys; from pathlib import Path; from atlas.book.building.report import build_report;"
         f"build_report(Path({str(file)!r}), Path({str(tmp_path)!r}));"
         "print([name for name in ('sympy', 'scipy', 'mpmath', 'vtk') if name in sys.modules])"
     )

@@ -6,11 +6,11 @@ from typing import Any
 import pytest
 from msgspec.structs import asdict
 
+from atlas.book.blocks import kind_of
+from atlas.book.compose import compose
+from atlas.book.load import load
+from atlas.book.pictures import pictures
 from atlas.errors import AtlasError
-from atlas.report.blocks import kind_of
-from atlas.report.compose import compose
-from atlas.report.load import load
-from atlas.report.pictures import pictures
 
 MARKDOWN = """+++
 name = "mine"

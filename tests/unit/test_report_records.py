@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.appendices import gather
-from atlas.build.report import outlines
+from atlas.book import bibliography
+from atlas.book.building.records import gather
+from atlas.book.building.report import outlines
+from atlas.book.compose import compose
+from atlas.book.files import find, names
+from atlas.book.load import load
+from atlas.book.pictures import pictures
 from atlas.errors import AtlasError
+from atlas.pictures import recipes
 from atlas.places import folder
-from atlas.report import bibliography
-from atlas.report.compose import compose
-from atlas.report.files import find, names
-from atlas.report.load import load
-from atlas.report.pictures import pictures
-from atlas.scene import recipes
 
 HEAD = 'name = "a"\ntitle = "A"\n'
 PAGE = '[[pages]]\nslug = "index"\ntitle = "T"\n'

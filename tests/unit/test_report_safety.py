@@ -10,15 +10,15 @@ import pytest
 from lxml import html as reader
 from pypdf import PdfReader
 
+from atlas.book import html, pdf
+from atlas.book.compose import compose
+from atlas.book.definition import Report
+from atlas.book.document import Document
+from atlas.book.load import load
+from atlas.book.schema import Id, Slug, convert
+from atlas.book.texts import Link, Texts, citations
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.report import html, pdf
-from atlas.report.compose import compose
-from atlas.report.definition import Report
-from atlas.report.document import Document
-from atlas.report.load import load
-from atlas.report.schema import Id, Slug, convert
-from atlas.report.texts import Link, Texts, citations
 
 MARKUP = (
     "<script>alert(1)</script>",
@@ -289,8 +289,8 @@ def test_a_name_has_letters_digits_and_hyphens_between_them(kind: Any) -> None:
 
 def test_a_recipe_is_a_name_or_a_file_beside_the_report(tmp_path: Path) -> None:
     """A figure can't run a file from elsewhere."""
-    from atlas.report.load import load
-    from atlas.report.pictures import pictures
+    from atlas.book.load import load
+    from atlas.book.pictures import pictures
 
     for recipe in ("../evil", "/tmp/evil", "evil"):  # noqa: S108  a name that is refused
         page = {"slug": "index", "title": "", "blocks": [{"kind": "figure", "recipe": recipe}]}
@@ -308,7 +308,7 @@ def test_a_recipe_is_a_name_or_a_file_beside_the_report(tmp_path: Path) -> None:
 
 def test_sets_of_parameters_stand_in_each_block_that_names_them(tmp_path: Path) -> None:
     """A later set holds before an earlier one, the block's own parameter before both; an unknown set is named."""
-    from atlas.report.load import load
+    from atlas.book.load import load
 
     file = tmp_path / "mine.toml"
     sets = "[parameters.sets]\nbody = { ratio = 0.5, azimuth = 1.0 }\nview = { azimuth = 2.0, elevation = 3.0 }\n"

@@ -8,15 +8,15 @@ import click
 import pytest
 from lxml import html as reader
 
+from atlas.book import html
+from atlas.book.blocks.figure import Picture
+from atlas.book.compose import compose
+from atlas.book.html import sections as rows_of
+from atlas.book.load import load
+from atlas.book.pictures import pictures
 from atlas.cli.app import atlas as command_line
 from atlas.cli.figure import setting
 from atlas.errors import AtlasError
-from atlas.report import html
-from atlas.report.blocks.figure import Picture
-from atlas.report.compose import compose
-from atlas.report.html import sections as rows_of
-from atlas.report.load import load
-from atlas.report.pictures import pictures
 
 REPORT = """
 name = "mine"

@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 from fontTools.ttLib import TTFont
 
+from atlas.book.blocks.table import Cell, ColumnView, TableView
+from atlas.book.body_and_field import Body, Field, body_and_field
+from atlas.book.digits import MINUS, THIN, Number
+from atlas.book.fonts import ALWAYS, FACES, ITALIC, source
+from atlas.book.load import load
+from atlas.book.tables import TABLES, compute
+from atlas.book.tables.table import Data, Request, column, scaled
 from atlas.errors import AtlasError
-from atlas.report.blocks.table import Cell, ColumnView, TableView
-from atlas.report.body_and_field import Body, Field, body_and_field
-from atlas.report.digits import MINUS, THIN, Number
-from atlas.report.fonts import ALWAYS, FACES, ITALIC, source
-from atlas.report.load import load
-from atlas.report.tables import TABLES, compute
-from atlas.report.tables.table import Data, Request, column, scaled
-from atlas.scene.style import STYLES
+from atlas.pictures.style import STYLES
 
 BODY = Body(title="short solenoid", ratio=1.5)
 OBLIQUE = Field(title="oblique field", prime=(1.0, 2.0))

@@ -8,18 +8,18 @@ import pytest
 from lxml import html
 from pypdf import PdfReader
 
-from atlas.build.report import build_report
+from atlas.book import bibliography
+from atlas.book.building.report import build_report
+from atlas.book.compose import compose
+from atlas.book.document import THEOREMS, Document
+from atlas.book.files import find, names, related_to
+from atlas.book.load import load
+from atlas.book.pictures import pictures
+from atlas.book.texts import Link, citations
 from atlas.errors import AtlasError
-from atlas.paper import EQUATIONS
-from atlas.paper.equation import slug
 from atlas.places import folder
-from atlas.report import bibliography
-from atlas.report.compose import compose
-from atlas.report.document import THEOREMS, Document
-from atlas.report.files import find, names, related_to
-from atlas.report.load import load
-from atlas.report.pictures import pictures
-from atlas.report.texts import Link, citations
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.equation import slug
 
 VOLUMES = ("atlas", "trial")
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError
+from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
 
 ULP1 = 2.0**-52
 MOTION = (1.5, (1.0, 2.0), 0.7)
@@ -152,9 +152,9 @@ def test_a_time_without_an_answer_is_an_error(t: Any) -> None:
 def test_two_threads_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
     motion, t = ElementaryMotion(*MOTION), np.linspace(0, 1e4, 123_457)
-    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 2)
+    monkeypatch.setattr("atlas.arithmetic.machine.processors", lambda: 2)
     two = motion.rotation(t)
-    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 1)
+    monkeypatch.setattr("atlas.arithmetic.machine.processors", lambda: 1)
     assert np.array_equal(two, motion.rotation(t))
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from atlas.scene.conics import section
-from atlas.scene.solids import matrix
+from atlas.pictures.conics import section
+from atlas.pictures.solids import matrix
 
 FloatArray = NDArray[np.float64]
 

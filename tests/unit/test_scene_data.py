@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas.build.figures import build_figures
-from atlas.scene import Arrow, Curve, Image, Label, Plane, Scene, Space, Surface, data, recipes
+from atlas.book.building.figures import build_figures
+from atlas.pictures import Arrow, Curve, Image, Label, Plane, Scene, Space, Surface, data, recipes
 
 
 def rows(scene: Scene) -> list[dict[str, str]]:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from atlas.core.surfaces.quadric import Quadric
-from atlas.scene import Surface, quadric_panel, sample, solids
+from atlas.pictures import Surface, quadric_panel, sample, solids
+from atlas.surfaces.kernel import Quadric
 
 FloatArray = NDArray[np.float64]
 

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from atlas.draw.view import fit
-from atlas.scene import recipes
-from atlas.scene.arrange import WIDTH, narrowed
-from atlas.scene.layers import Scene, Space
+from atlas.pictures import recipes
+from atlas.pictures.arrange import WIDTH, narrowed
+from atlas.pictures.drawing.view import fit
+from atlas.pictures.layers import Scene, Space
 
 SCENE = recipes.load("motion").scene()
 

@@ -12,10 +12,10 @@ import pytest
 
 from atlas import AtlasError
 from atlas.cli.figure import setting
-from atlas.draw import context
-from atlas.scene import recipes
-from atlas.scene.parameters import described, fitted, typed
-from atlas.scene.style import style
+from atlas.pictures import recipes
+from atlas.pictures.drawing import context
+from atlas.pictures.parameters import described, fitted, typed
+from atlas.pictures.style import style
 
 
 def test_every_file_in_figures_is_a_recipe_with_a_title() -> None:
@@ -91,7 +91,7 @@ def test_what_a_recipe_takes_is_what_its_function_takes() -> None:
 
 RECIPE = '''"""Typed."""
 from typing import Any, Literal
-from atlas.scene import Plane, Scene
+from atlas.pictures import Plane, Scene
 RANGES = {"size": (0.5, 2.0)}
 def scene(*, pairs: tuple[tuple[int, int], ...] = ((1, 2), (2, 3)), ratio: Any = 1.5,
           field: tuple[float, float] = (1.0, 2.0), levels: tuple[float, ...] = (1.0,),
@@ -184,7 +184,7 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
             r"figures/broken\.py: scene\(\) must return a Scene, not NoneType",
         ),
         (
-            b'"""Broken."""\nfrom atlas.scene import Scene\ndef scene(): return Scene(caption="A.")\n',
+            b'"""Broken."""\nfrom atlas.pictures import Scene\ndef scene(): return Scene(caption="A.")\n',
             r"figures/broken\.py: the Scene has no alt and no panels",
         ),
         (b"\xff\xfe", r"figures/broken\.py, line 1: SyntaxError"),

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas.errors import DomainError
-from atlas.scene.sample import curve, flat
+from atlas.pictures.sample import curve, flat
 
 FloatArray = NDArray[np.float64]
 

@@ -8,12 +8,12 @@ from flint import arb, fmpq
 from scipy.spatial.transform import Rotation
 
 import atlas
-from atlas.exact.motions.ball import BallMotion
-from atlas.exact.motions.elementary import ElementaryMotion, FreeMotion
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.exact.motions.general import GeneralMotion
-from atlas.exact.motions.top import TopMotion
-from atlas.formulas.numbers import rational, workprec
+from atlas.arithmetic.numbers import rational, workprec
+from atlas.motions.elementary.certified import ElementaryMotion, FreeMotion
+from atlas.motions.elementary.certified_ball import BallMotion
+from atlas.motions.nutation.certified_elliptic import EllipticMotion
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
 
 STEP, BITS, BOUND = fmpq(1, 10**40), 1200, 1e-12
 VECTORS = {"rotation": "rotation", "angular_velocity": "angular_velocity", "field": "field_in_body"}

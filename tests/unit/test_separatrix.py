@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.scene.recipes import load
+from atlas.pictures.recipes import load
 
 EPS = float(np.finfo(float).eps)
 UNSTABLE = (0.5, (1.0, 0.1), -0.5)  # inside the band: x = 1/2

@@ -10,9 +10,9 @@ from oracles import closed_form
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core.motions import euler_poisson as equations
+from atlas.checking.simulate import METHODS, Simulation
 from atlas.errors import AtlasError
-from atlas.study.simulate import METHODS, Simulation
+from atlas.motions import euler_poisson as equations
 
 TENSOR = np.array([[2.0, 0.3, -0.1], [0.3, 1.5, 0.2], [-0.1, 0.2, 1.7]])
 B, OMEGA, TIMES = (0.3, 1.0, -2.0), (0.4, 0.5, -0.6), (0.0, 0.5, 3.0)

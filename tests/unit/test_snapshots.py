@@ -15,8 +15,8 @@ from benchmarks.results import write
 from syrupy.assertion import SnapshotAssertion
 
 from atlas import places
-from atlas.scene import Curve, Plane, Scene, recipes
-from atlas.study import benchmark as results
+from atlas.checking import benchmark as results
+from atlas.pictures import Curve, Plane, Scene, recipes
 
 NOISE = {"error_maps": range(2), "motion_map": range(4)}
 """Panels of rounding errors or of roots by iteration, which differ between processors: only their structure is kept."""

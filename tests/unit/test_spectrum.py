@@ -9,8 +9,8 @@ from click.testing import CliRunner
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.scene import Curve
-from atlas.scene.recipes import load
+from atlas.pictures import Curve
+from atlas.pictures.recipes import load
 
 METHODS = {
     "rotation": "rotation", "axis": "third_axis", "angular_velocity": "angular_velocity", "field": "field_in_body",

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.bodies.speeds import fastest_point
+from atlas.bodies.speeds import fastest_point
+from atlas.book.body_and_field import Body, Field, body_and_field
 from atlas.errors import RelativisticWarning
-from atlas.report.body_and_field import Body, Field, body_and_field
 
 C = 299792458.0  # m/s
 CHARGE = "particle --mu 1 --times 1 --magnetic 0 0 1 --electric"

@@ -26,8 +26,8 @@ from stress.run import PROMISES, SHORT, Result, stress
 from stress.worst import WorstErrors
 from ulps import UNDERFLOW, error, of_length, own, ulp
 
-from atlas.core.motions.elementary import ElementaryMotion
-from atlas.families import FAMILIES
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.register import FAMILIES
 
 TESTS = Path(__file__).parents[1]
 

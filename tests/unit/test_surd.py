@@ -6,8 +6,8 @@ from random import Random
 import pytest
 from flint import acb, acb_poly, ctx, fmpq
 
-from atlas.exact.arithmetic.surd import Polynomial, Surd, evaluated, roots, squarefree, trimmed
-from atlas.exact.motions.top import TopMotion
+from atlas.arithmetic.certified_surd import Polynomial, Surd, evaluated, roots, squarefree, trimmed
+from atlas.motions.nutation.certified_top import TopMotion
 
 
 def drawn(random: Random, degree: int) -> Polynomial:

@@ -14,10 +14,10 @@ from tests_support import dask_client, names
 import atlas
 from atlas.cli.app import atlas as program
 from atlas.cli.app import main
-from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
-from atlas.study.sweep.families import FAMILIES, NAME
-from atlas.study.sweep.tables import csv_part
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.sweeps.families import FAMILIES, NAME
+from atlas.sweeps.tables import csv_part
 
 GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
 NAMES = ("omega3", "k", "phi", "case", "R12")

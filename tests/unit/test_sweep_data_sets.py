@@ -12,7 +12,7 @@ from tests_support import dask_client
 
 import atlas
 from atlas.errors import AtlasError
-from atlas.study.sweep.plan import Plan
+from atlas.sweeps.plan import Plan
 
 pytest.importorskip("pyarrow")
 

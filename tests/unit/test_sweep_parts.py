@@ -18,9 +18,9 @@ from tests_support import names
 import atlas
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError
-from atlas.study.sweep import run, store
-from atlas.study.sweep.plan import LARGEST, Plan
-from atlas.study.sweep.store import Table
+from atlas.sweeps import run, store
+from atlas.sweeps.plan import LARGEST, Plan
+from atlas.sweeps.store import Table
 
 GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
 NAMES = ("omega3", "k", "phi", "case", "R12")
@@ -172,11 +172,11 @@ def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPat
     """A changed kernel changes it, the drawing of a figure does not."""
     read, keys = Path.read_bytes, {run.code.__wrapped__()}
     changed = [
-        "core/arithmetic/double_double",
-        "exact/motions/general",
-        "formulas/numbers",
-        "sweep/tables",
-        "draw/plane",
+        "arithmetic/double_double",
+        "motions/nutation/certified_general",
+        "arithmetic/numbers",
+        "sweeps/tables",
+        "pictures/drawing/plane",
     ]
     for name in changed:
         monkeypatch.setattr(Path, "read_bytes", lambda path, name=name: read(path) + b"#" * (f"{name}.py" in str(path)))
@@ -314,7 +314,7 @@ def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
 def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_for_one(tmp_path: Path) -> None:
     """What a killed process left behind counts for nothing; a file of the user's own is not written over."""
     lock = tmp_path / ".t.csv.lock"
-    kill = "import os, signal; from atlas.study.sweep.store import Table\n"
+    kill = "import os, signal; from atlas.sweeps.store import Table\n"
     kill += f"with Table({str(tmp_path / 't.csv')!r}, '').held(): os.kill(os.getpid(), signal.SIGKILL)"
     assert subprocess.run([sys.executable, "-c", kill], check=False).returncode == -signal.SIGKILL
     assert lock.exists()

@@ -12,12 +12,12 @@ from pypdf import PdfReader
 
 import atlas
 from atlas import AtlasError
-from atlas.build.figures import build_figures
-from atlas.draw import save, to_figure
-from atlas.report.tables import compute
-from atlas.report.tables.table import Request
-from atlas.scene import Curve, Label, Plane, Scene, Space, recipes
-from atlas.scene.arrange import arranged, suited
+from atlas.book.building.figures import build_figures
+from atlas.book.tables import compute
+from atlas.book.tables.table import Request
+from atlas.pictures import Curve, Label, Plane, Scene, Space, recipes
+from atlas.pictures.arrange import arranged, suited
+from atlas.pictures.drawing import save, to_figure
 from atlas.targets import TARGETS, TYPE, find
 
 NARROWEST = min(TARGETS, key=lambda name: TARGETS[name].width)

@@ -6,9 +6,9 @@ from itertools import count
 import pytest
 from flint import arb
 
-from atlas.exact.nutation import swing
-from atlas.exact.nutation.cayley_klein import Lattice, Sum, vanishing_at
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.numbers import workprec
+from atlas.motions.nutation import certified_swing as swing
+from atlas.motions.nutation.certified_cayley_klein import Lattice, Sum, vanishing_at
 
 FACTOR = 0.75
 

@@ -13,11 +13,11 @@ import pytest
 from flint import ctx
 
 import atlas
-from atlas.core.motions.asymmetric import forget
-from atlas.exact.digits import enclosed
-from atlas.exact.motions.general import GeneralMotion
-from atlas.formulas.numbers import workprec
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.numbers import workprec
 from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.torus.kernel import forget
 
 TIMES = np.array([0.3, 1.7, 5.0])
 OMEGA = (0.3, 0.7, 0.2)

@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from atlas.build.composed import build_tex
-from atlas.exact.digits import certified
-from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.clebsch_periods import real_periods
-from atlas.exact.motions.elliptic import EllipticMotion
-from atlas.report.blocks.figure import Figure
-from atlas.report.blocks.table import Table
-from atlas.report.digits import Number
-from atlas.report.files import find
-from atlas.report.load import load
-from atlas.report.tables import compute
-from atlas.report.tables.table import Request
-from atlas.scene import recipes
+from atlas.arithmetic.certified_digits import certified
+from atlas.book.blocks.figure import Figure
+from atlas.book.blocks.table import Table
+from atlas.book.building.composed import build_tex
+from atlas.book.digits import Number
+from atlas.book.files import find
+from atlas.book.load import load
+from atlas.book.tables import compute
+from atlas.book.tables.table import Request
+from atlas.motions.nutation.certified_elliptic import EllipticMotion
+from atlas.motions.torus.approximate_periods import real_periods
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.pictures import recipes
 
 REPORT = load(find("three_moments"))
 BLOCKS = [block for page in REPORT.pages for block in page.blocks]

@@ -16,8 +16,8 @@ from stress.tops import TOPS, rate_of
 from ulps import middle, turn
 
 import atlas
-from atlas.exact.digits import certified
-from atlas.exact.motions.top import TopMotion as Balls
+from atlas.arithmetic.certified_digits import certified
+from atlas.motions.nutation.certified_top import TopMotion as Balls
 
 EPS = 2.0**-52
 ORDINARY, SCALES, SLOW = "top, ordinary", "top, scales 1e-120 to 1e120", "top, slow nutation under a fast spin"

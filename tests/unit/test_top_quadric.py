@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from oracles.top import integrated, taylor
 
 import atlas
-from atlas.exact.surfaces.top_quadric import TopHyperbola as Balls
-from atlas.exact.surfaces.top_quadric import TopQuadric as Surfaces
+from atlas.surfaces.certified_top import TopHyperbola as Balls
+from atlas.surfaces.certified_top import TopQuadric as Surfaces
 
 TOPS = {
     "heavy, standing": ((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), 3.0, 0.0),

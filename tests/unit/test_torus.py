@@ -11,12 +11,12 @@ from click.testing import CliRunner
 from flint import arb
 
 import atlas
+from atlas.arithmetic.numbers import workprec
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
-from atlas.exact.motions import torus
-from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.exact.motions.torus import Torus
-from atlas.formulas.numbers import workprec
+from atlas.motions.torus import certified_torus as torus
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.certified_torus import Torus
 
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 

@@ -7,13 +7,13 @@ from flint import arb, ctx
 from stress import extreme
 from stress.regimes import REGIMES
 
-from atlas.core.motions.ball import BallMotion
-from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
-from atlas.core.motions.particle import ParticleMotion
-from atlas.core.surfaces.hyperbola import Hyperbola
-from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.motions import elementary as exact_elementary
+from atlas.motions.elementary import certified as exact_elementary
+from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
+from atlas.motions.elementary.kernel_ball import BallMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.motions.particle.kernel import ParticleMotion
+from atlas.surfaces.kernel import Quadric
 
 ULP1 = 2.0**-52
 

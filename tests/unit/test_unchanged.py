@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.shown import Shown
-from atlas.families import FAMILIES
+from atlas.display import Shown
 from atlas.families.family import Family
+from atlas.motions.register import FAMILIES
 
 MASSES, POINTS = np.ones(4), np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]])
 OTHERS = {

@@ -7,11 +7,11 @@ import pytest
 from scipy import constants
 
 import atlas
-from atlas.core.bodies import units
-from atlas.core.bodies.field import Field
-from atlas.core.bodies.units import charge_to_mass, larmor_field
-from atlas.core.motions.particle import ParticleMotion
+from atlas.bodies import units
+from atlas.bodies.field import Field
+from atlas.bodies.units import charge_to_mass, larmor_field
 from atlas.errors import AtlasError
+from atlas.motions.particle.kernel import ParticleMotion
 
 EPS = float(np.finfo(float).eps)
 MU, STATVOLT = 2_997_924.58, 29_979.2458

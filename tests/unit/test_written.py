@@ -15,7 +15,7 @@ from tests_support import names
 
 import atlas
 from atlas import files
-from atlas.build.publish import replace
+from atlas.book.building.publish import replace
 from atlas.cli import main
 
 REPORT = """
@@ -189,7 +189,7 @@ def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
 def test_folders_take_turns_and_are_whole_at_any_moment(tmp_path: Path) -> None:
     """Two processes write one folder over and over: a reader finds it there, with the files of one of them."""
     program = (
-        "import sys; from pathlib import Path; from atlas.build.publish import replace\n"
+        "import sys; from pathlib import Path; from atlas.book.building.publish import replace\n"
         "for _ in range(60): replace(Path('out/x'), {name: sys.argv[1].encode() for name in ('a', 'b/c')})"
     )
     replace(tmp_path / "out" / "x", {"a": b"0", "b/c": b"0"})
@@ -210,9 +210,9 @@ def test_folders_take_turns_and_are_whole_at_any_moment(tmp_path: Path) -> None:
 def test_a_folder_that_was_being_written_is_cleared_by_the_next(tmp_path: Path) -> None:
     """Killed between its files, it leaves the folder as it was; the next one clears what is left beside it."""
     program = (
-        "import os, signal; from pathlib import Path; from atlas.build.publish import replace\n"
+        "import os, signal; from pathlib import Path; from atlas.book.building.publish import replace\n"
         "def killed(*_): os.kill(os.getpid(), signal.SIGKILL)\n"
-        "import atlas.build.publish as publish; publish.exchange = killed\n"
+        "import atlas.book.building.publish as publish; publish.exchange = killed\n"
         "replace(Path('out/x'), {'a': b'new'})"
     )
     replace(tmp_path / "out" / "x", {"a": b"old"})

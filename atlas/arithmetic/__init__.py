@@ -1,0 +1,1 @@
+"""Numbers: doubles, two words, balls, exact rationals, and rotations made of them."""

@@ -1,0 +1,52 @@
+"""Turns about an axis, and their products: what a motion is whose axis keeps its angle with the field."""
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+from flint import fmpq
+
+from atlas.arithmetic.certified_inputs import Real, sin_cos
+from atlas.arithmetic.numbers import root
+
+Matrix: TypeAlias = list[list[Any]]
+
+AXES = tuple(tuple(fmpq(int(i == j)) for j in range(3)) for i in range(3))
+
+
+def identity() -> Matrix:
+    """Return the attitude at t = 0."""
+    return [list(axis) for axis in AXES]
+
+
+def turn(vector: Sequence[Real], cos: Real, sin: Real) -> Matrix:
+    """Return the turn about a vector that is not zero by the angle whose cosine and sine are given, by Rodrigues.
+
+    Of rational vectors all but the length is rational, and what is zero at all angles is exactly zero.
+    """
+    x, y, z = vector
+    square = x * x + y * y + z * z
+    v, sine = (1 - cos) / square, sin / root(square)
+    a, b, c = x * sine, y * sine, z * sine
+    return [
+        [1 - (y * y + z * z) * v, x * y * v - c, x * z * v + b],
+        [x * y * v + c, 1 - (x * x + z * z) * v, y * z * v - a],
+        [x * z * v - b, y * z * v + a, 1 - (x * x + y * y) * v],
+    ]
+
+
+def turns(t: Any, first: tuple[Sequence[Real], Real], second: tuple[Sequence[Real], Real]) -> Matrix:
+    """Return the product of two turns at time t, each about an axis at a rate."""
+    (s, c), (S, C) = sin_cos(first[1] * t), sin_cos(second[1] * t)
+    return product(turn(first[0], c, s), turn(second[0], C, S))
+
+
+def product(first: Matrix, second: Matrix) -> Matrix:
+    """Return the product of two matrices."""
+    columns = list(zip(*second, strict=True))
+    return [[a * x + b * y + c * z for x, y, z in columns] for a, b, c in first]
+
+
+def turned_back(vector: Sequence[Real], cos: Real, sin: Real) -> list[Real]:
+    """Return a vector as a body has it that has turned about its third axis."""
+    x, y, z = vector
+    return [x * cos + y * sin, y * cos - x * sin, z]

@@ -1,0 +1,216 @@
+"""Numbers a + b sqrt(N) with rational a, b, N, exactly: what the length of a rational vector makes of others."""
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TypeAlias
+
+from flint import acb, arb, ctx, fmpq
+
+from atlas.arithmetic.certified_quartic_roots import discriminant, four_roots, three_roots, two_roots
+from atlas.arithmetic.numbers import root, workprec
+from atlas.errors import DomainError
+
+MOST = 1 << 17
+"""Bits at which the search for roots is given up, after less than a second."""
+
+Polynomial: TypeAlias = tuple["Surd", ...]
+"""Coefficients, the constant one first; the last one is not zero."""
+
+
+@dataclass(frozen=True)
+class Surd:
+    """The number a + b sqrt(N), N > 0; N is no square, or b is zero."""
+
+    a: fmpq
+    b: fmpq
+    N: fmpq
+
+    @classmethod
+    def root(cls, N: fmpq) -> "Surd":
+        """Return sqrt(N)."""
+        exact = root(N)
+        return cls(exact, fmpq(0), N) if isinstance(exact, fmpq) else cls(fmpq(0), fmpq(1), N)
+
+    @classmethod
+    def rational(cls, x: fmpq) -> "Surd":
+        """Return a rational number."""
+        return cls(x, fmpq(0), fmpq(1))
+
+    def of(self, x: "Surd | fmpq | int") -> "Surd":
+        """Return a number as one of this field."""
+        return x if isinstance(x, Surd) else Surd(fmpq(x), fmpq(0), self.N)
+
+    def __add__(self, other: "Surd | fmpq | int") -> "Surd":
+        x = self.of(other)
+        return Surd(self.a + x.a, self.b + x.b, self.N)
+
+    def __neg__(self) -> "Surd":
+        return Surd(-self.a, -self.b, self.N)
+
+    def __sub__(self, other: "Surd | fmpq | int") -> "Surd":
+        return self + (-self.of(other))
+
+    def __mul__(self, other: "Surd | fmpq | int") -> "Surd":
+        x = self.of(other)
+        return Surd(self.a * x.a + self.b * x.b * self.N, self.a * x.b + self.b * x.a, self.N)
+
+    def __truediv__(self, other: "Surd | fmpq | int") -> "Surd":
+        x = self.of(other)
+        norm = x.a * x.a - x.b * x.b * self.N
+        return self * Surd(x.a / norm, -x.b / norm, self.N)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: "Surd | fmpq | int") -> "Surd":
+        return self.of(other) - self
+
+    @property
+    def sign(self) -> int:
+        """The sign, -1, 0 or 1."""
+        a, b = sign_of(self.a), sign_of(self.b)
+        if a * b >= 0:
+            return a or b
+        return a * sign_of(self.a * self.a - self.b * self.b * self.N)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the number is zero."""
+        return bool(self.a == 0 and self.b == 0)
+
+    @property
+    def value(self) -> fmpq | arb:
+        """The number itself where it is rational, else a ball at the precision of the moment."""
+        if self.b == 0:
+            return self.a
+        precision = ctx.prec
+        while True:  # where a and b sqrt(N) cancel
+            with workprec(precision):
+                value = arb(self.a) + self.b * arb(self.N).sqrt()
+            if value.rel_accuracy_bits() >= ctx.prec - 8 or self.is_zero:
+                return value
+            precision *= 2
+
+
+def evaluated(p: Polynomial, x: Surd) -> Surd:
+    """Return p(x)."""
+    value = x.of(0)
+    for c in reversed(p):
+        value = value * x + c
+    return value
+
+
+def derivative(p: Polynomial) -> Polynomial:
+    """Return p'."""
+    return trimmed([c * n for n, c in enumerate(p)][1:])
+
+
+def trimmed(p: "list[Surd] | Polynomial") -> Polynomial:
+    """Return a polynomial without leading zeros."""
+    c = list(p)
+    while c and c[-1].is_zero:
+        c.pop()
+    return tuple(c)
+
+
+def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
+    """Return the factors without multiple roots, each with the multiplicity of its roots (Yun)."""
+    if discriminant([_ball(c) for c in p]) != 0:
+        return [(p, 1)]
+    factors, n = list[tuple[Polynomial, int]](), 1
+    slope = derivative(p)
+    common = gcd(p, slope)
+    b, c = divided(p, common)[0], divided(slope, common)[0]
+    while len(b) > 1:
+        d = _minus(c, derivative(b))
+        a = gcd(b, d)
+        if len(a) > 1:
+            factors.append((a, n))
+        b, c, n = divided(b, a)[0], divided(d, a)[0], n + 1
+    return factors
+
+
+def roots(p: Polynomial) -> list[acb]:
+    """Return the roots of a polynomial that has no double one, the real ones first, ascending; no two balls overlap.
+
+    Of degree four at most. They are as accurate as the precision of the moment, which is
+    raised as far as it takes. DomainError where they are too many orders of magnitude apart.
+    """
+    if len(p) == 2:
+        return [acb((-(p[0] / p[1])).value)]
+    if p[0].is_zero:
+        return _sorted([acb(0), *roots(p[1:])])
+    digits = precision = ctx.prec
+    while precision < MOST:
+        precision *= 2
+        with workprec(precision):
+            # first from balls, in which most signs are known; what is exact takes longer
+            for exact in (True,) if precision > 2 * digits else (False, True):
+                closed = _closed(p, exact=exact)
+                apart = not any(x.overlaps(y) for x, y in combinations(closed, 2))
+                if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in closed):
+                    return _sorted(closed)
+    raise DomainError(
+        "The roots of Q are too many orders of magnitude apart to be found: make the components more alike."
+    )
+
+
+def _sorted(values: list[acb]) -> list[acb]:
+    real = sorted((z for z in values if z.imag.is_zero()), key=lambda z: z.real.mid())
+    return real + [z for z in values if not z.imag.is_zero()]
+
+
+def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
+    """Return the roots in closed form at the precision of the moment, which may not suffice; none from unsure balls."""
+    formula = {5: four_roots, 4: three_roots, 3: two_roots}[len(p)]
+    weights = {5: (1, 4, 6, 4, 1), 4: (1, 3, 3, 1), 3: (1, 2, 1)}[len(p)]
+    numbers = p if exact else [_ball(c) for c in p]
+    try:
+        a = [c / weight for c, weight in zip(reversed(numbers), weights, strict=True)]
+        return formula(a, lambda x: x.sign, _ball) if exact else formula(a, _sure_sign, lambda x: x)
+    except UnsureError:
+        return [acb(arb("nan"))]
+
+
+class UnsureError(Exception):
+    """The sign of a ball is not known."""
+
+
+def _sure_sign(x: arb) -> int:
+    if not x != 0:
+        raise UnsureError
+    return 1 if x > 0 else -1
+
+
+def _ball(x: Surd) -> arb:
+    return arb(x.value)
+
+
+def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
+    """Return quotient and remainder."""
+    rest, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
+    for n in range(len(p) - len(q), -1, -1):
+        factor = rest[n + len(q) - 1] / q[-1]
+        quotient[n] = factor
+        for i, c in enumerate(q):
+            rest[n + i] = rest[n + i] - factor * c
+    return trimmed(quotient), trimmed(rest[: len(q) - 1])
+
+
+def gcd(p: Polynomial, q: Polynomial) -> Polynomial:
+    """Return the greatest common divisor with leading coefficient one."""
+    while q:
+        p, q = q, divided(p, q)[1]
+    return tuple(c / p[-1] for c in p)
+
+
+def _minus(p: Polynomial, q: Polynomial) -> Polynomial:
+    """Return p - q."""
+    zero = (p or q)[0].of(0)
+    size = max(len(p), len(q))
+    first, second = ([*x, *[zero] * (size - len(x))] for x in (p, q))
+    return trimmed([x - y for x, y in zip(first, second, strict=True)])
+
+
+def sign_of(x: fmpq) -> int:
+    """Return the sign, -1, 0 or 1."""
+    return int(x > 0) - int(x < 0)

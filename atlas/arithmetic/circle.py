@@ -1,0 +1,47 @@
+"""Cosines and sines of phases that were reduced to half a turn."""
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+
+# Constants that meet arrays are arrays without dimensions: NumPy takes a third less time for a call with few times.
+HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0, np.float64(1.0).view(np.int64), 63))
+
+
+def signs(whole: FloatArray) -> FloatArray:
+    """Turn sums of whole numbers and ROUNDER, in place, into the signs 1 of even and -1 of odd ones."""
+    parity = whole.view(np.int64)
+    np.left_shift(parity, SIGN_BIT, out=parity)
+    np.bitwise_or(parity, ONE_BITS, out=parity)
+    return whole
+
+
+def circle_of(
+    u: FloatArray,
+    e: FloatArray | None,
+    sign: FloatArray,
+    square: FloatArray,
+    cos: FloatArray,
+    sin: FloatArray,
+    versine: FloatArray,
+) -> None:
+    """Fill what `Phases.circle` does from what `Phases.angles` returns; x may leave its range where it was added to.
+
+    Without `e`, nothing was left out of x/2.
+    """
+    # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
+    np.tan(u, out=u)
+    if e is not None:
+        np.multiply(u, u, out=square)
+        square += WHOLE
+        e *= square
+        u += e
+    np.multiply(u, u, out=square)
+    square += WHOLE
+    np.divide(u, square, out=sin)
+    half = np.multiply(u, sin, out=square)
+    np.subtract(HALF, half, out=cos)
+    cos *= sign
+    sin *= sign
+    np.multiply(half[0], sign[0], out=versine)
+    versine += sign[0] < NOTHING

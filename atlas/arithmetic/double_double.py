@@ -1,0 +1,366 @@
+"""Arrays of numbers in two words, each row with a bound on its error: the scalars of many motions at once.
+
+A formula written with + - * / and `root` takes these arrays as it takes exact rationals and balls. What a row loses, by
+rounding and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row is
+computed again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
+
+The sums and products are those of Dekker, Knuth and Joldes, Muller, Popescu (ACM TOMS 44, 15, 2017), without a fused
+multiply-add, which NumPy does not have. With u = 2^-53 their relative errors are at most 3 u^2 for a sum, 5 u^2 for a
+product, 15 u^2 for a quotient and 25/8 u^2 for a square root; the bounds below are larger.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from atlas.arithmetic import numbers
+from atlas.arithmetic.given import Given, Index, element, exact_number
+from atlas.arithmetic.inputs import FloatArray, common_shape
+from atlas.arithmetic.machine import keep
+
+SPLITTER = 2.0**27 + 1
+SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
+"""Bounds on the relative error of one operation."""
+
+ORDINARY = 2.0**100
+"""Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
+
+KNOWN = 2.0**-90
+"""Relative error of two words above which a number is made again, exactly."""
+
+BLOCK = 8192
+"""Rows evaluated at once: few enough to stay in the cache and in memory that is kept, and so many that a call costs
+little."""
+
+Formula = Callable[..., Any]
+
+
+class DoubleDouble:
+    """Numbers hi + lo, |lo| <= ulp(hi)/2, that are within `rel` of themselves; `lo` None is zero, `rel` 0 is exact.
+
+    `hi` and `lo` are arrays or NumPy scalars; `rel` is a float as long as nothing can cancel, an array after that.
+    """
+
+    __slots__ = ("_halves", "hi", "lo", "rel")
+
+    def __init__(self, hi: Any, lo: Any = None, rel: Any = 0.0) -> None:
+        self.hi, self.lo, self.rel = hi, lo, rel
+        self._halves: Any = None
+
+    @property
+    def halves(self) -> Any:
+        """Both halves of `hi`, 26 digits each, by Veltkamp: their products are exact."""
+        if self._halves is None:
+            t = self.hi * SPLITTER
+            head = t - (t - self.hi)
+            self._halves = head, self.hi - head
+        return self._halves
+
+    def __getitem__(self, index: Any) -> "DoubleDouble":
+        """Return some of an array of numbers; one bound for all stays that."""
+        parts = (x if x is None or np.ndim(x) == 0 else x[index] for x in (self.hi, self.lo, self.rel))
+        return DoubleDouble(*parts)
+
+    def __add__(self, other: "DoubleDouble") -> "DoubleDouble":
+        """Return the sum; exact inputs cancel without loss, and what inexact ones lose is in `rel`."""
+        s = self.hi + other.hi
+        t = s - self.hi
+        e = (self.hi - (s - t)) + (other.hi - t)
+        if self.lo is None and other.lo is None:
+            return DoubleDouble(s, e, self._lost(other, s, 0.0))
+        if self.lo is None or other.lo is None:
+            return DoubleDouble(*_normal(s, e + (other.lo if self.lo is None else self.lo)), self._lost(other, s, SUM))
+        f = self.lo + other.lo
+        t = f - self.lo
+        g = (self.lo - (f - t)) + (other.lo - t)
+        s, e = _normal(s, e + f)
+        s, e = _normal(s, e + g)
+        return DoubleDouble(s, e, self._lost(other, s, SUM))
+
+    def __neg__(self) -> "DoubleDouble":
+        return DoubleDouble(-self.hi, None if self.lo is None else -self.lo, self.rel)
+
+    def __sub__(self, other: "DoubleDouble") -> "DoubleDouble":
+        return self + -other
+
+    @property
+    def is_one(self) -> bool:
+        """Whether this is the number one for all rows, as the first moment of inertia often is."""
+        return self.lo is None and np.ndim(self.hi) == 0 and bool(self.hi == 1.0)
+
+    def __mul__(self, other: "DoubleDouble") -> "DoubleDouble":
+        if self.is_one or other.is_one:
+            return other if self.is_one else self
+        p, e = _product(self, other)
+        rel = self.rel + other.rel
+        if self.lo is None and other.lo is None:
+            return DoubleDouble(p, e, rel)
+        if self.lo is not None:
+            e += self.lo * other.hi
+        if other.lo is not None:
+            e += self.hi * other.lo
+        return DoubleDouble(*_normal(p, e), rel + self.rel * other.rel + PRODUCT)
+
+    def __truediv__(self, other: "DoubleDouble") -> "DoubleDouble":
+        if other.is_one:
+            return self
+        q = self.hi / other.hi
+        p, e = _product(DoubleDouble(q), other)
+        rest = (self.hi - p) - e
+        if self.lo is not None:
+            rest += self.lo
+        if other.lo is not None:
+            rest -= q * other.lo
+        rel = self.rel + 2 * other.rel * (1 + self.rel) + QUOTIENT
+        if np.ndim(other.rel):
+            rel = np.where(other.rel < 0.5, rel, np.inf)
+        return DoubleDouble(*_normal(q, rest / other.hi), rel)
+
+    def __abs__(self) -> "DoubleDouble":
+        return DoubleDouble(abs(self.hi), None if self.lo is None else self.lo * np.copysign(1.0, self.hi), self.rel)
+
+    def sqrt(self) -> "DoubleDouble":
+        """Return the root of numbers that are not negative."""
+        s = np.sqrt(self.hi)
+        root = DoubleDouble(s)
+        p, e = _product(root, root)
+        rest = (self.hi - p) - e
+        if self.lo is not None:
+            rest += self.lo
+        return DoubleDouble(*_normal(s, rest / (s + s + (s == 0))), self.rel + ROOT)
+
+    def scaled(self, exponent: int) -> "DoubleDouble":
+        """Return this number times 2^exponent."""
+        unit = 2.0**exponent
+        return DoubleDouble(self.hi * unit, None if self.lo is None else self.lo * unit, self.rel)
+
+    def select(self, positive: "DoubleDouble", other: "DoubleDouble") -> "DoubleDouble":
+        """Return `positive` where this number is, `other` elsewhere."""
+        selected = chosen(self.hi > 0, positive, other)
+        if np.ndim(self.rel):
+            selected.rel = np.where(self.rel < 0.5, selected.rel, np.inf)
+        return selected
+
+    @property
+    def low(self) -> Any:
+        """The second word as a number."""
+        return 0.0 if self.lo is None else self.lo
+
+    def nearest(self) -> tuple[Any, Any]:
+        """Return the nearest doubles, and where they are so for certain."""
+        low, error = self.low, 2 * self.rel * abs(self.hi)
+        return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
+
+    def _lost(self, other: "DoubleDouble", total: Any, rounding: float) -> Any:
+        """Return the relative error of a sum: what the terms lack, in parts of it, and its rounding."""
+        if isinstance(self.rel, float) and isinstance(other.rel, float) and not (self.rel or other.rel):
+            return rounding
+        lost = self.rel * abs(self.hi) + other.rel * abs(other.hi)
+        # a sum that is zero by cancellation of inexact terms may be anything: inf, which no product with zero hides
+        return np.where(lost == 0, 0.0, lost / abs(total)) + rounding
+
+
+ONE = DoubleDouble(np.float64(1.0))
+
+
+def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+    """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
+    scalar = not (np.ndim(x.rel) or np.ndim(y.rel))
+    hi, low = np.where(where, x.hi, y.hi), np.where(where, x.low, y.low)
+    return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(where, x.rel, y.rel))
+
+
+def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+    """Return of two forms of a number the one with the smaller bound."""
+    return chosen(y.rel < x.rel, y, x)
+
+
+def stacked(*rows: DoubleDouble) -> DoubleDouble:
+    """Return several arrays of numbers as one, (n, m)."""
+    shape = np.broadcast_shapes(*(np.shape(x.hi) for x in rows))
+    words = zip(*((x.hi, x.low, x.rel) for x in rows), strict=True)
+    return DoubleDouble(*(np.array([np.broadcast_to(x, shape) for x in word]) for word in words))
+
+
+def constant(value: float, like: DoubleDouble) -> DoubleDouble:
+    """Return an array of one exact number."""
+    return DoubleDouble(np.full_like(like.hi, value))
+
+
+def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
+    """Return numbers times 1 or -1."""
+    return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
+
+
+def over(
+    formula: Formula,
+    *inputs: Any,
+    unit: slice = slice(0),
+    degree: int | Sequence[int] = 1,
+    alone: Formula | None = None,
+) -> Any:
+    """Evaluate a formula, each result rounded once: floats for plain inputs, arrays of their common shape otherwise.
+
+    `formula` takes as many numbers, of flint or `DoubleDouble`. The inputs `unit` share one unit, in which the result
+    is homogeneous of this degree; degrees, if it returns several. `alone` takes floats and returns floats, where 256
+    digits do not suffice.
+    """
+    alone = alone or partial(numbers.alone, formula)
+    if not any(np.ndim(x) for x in inputs):
+        return alone(*(element(x, ()) for x in inputs))
+    shape = common_shape(*(np.shape(x) for x in inputs))
+    degrees = (degree,) if isinstance(degree, int) else degree
+    out = np.empty((len(degrees), int(np.prod(shape))))
+    for rows, row, exponents, results in blocks(formula, inputs, shape, unit):
+        known = np.ones(rows.stop - rows.start, dtype=bool)
+        for values, n, result in zip(out[:, rows], degrees, results, strict=True):
+            values_of_rows, certain = result.nearest()
+            if exponents is not None:
+                values_of_rows = np.ldexp(values_of_rows, n * exponents[0])
+                certain &= exponents[1] & (
+                    (values_of_rows == 0) | ((abs(values_of_rows) > 2.0**-1000) & (abs(values_of_rows) < np.inf))
+                )
+            values[:] = values_of_rows
+            known &= certain
+        for i in np.flatnonzero(~known).tolist():
+            out[:, rows.start + i] = alone(*row(i))
+    values_of_rows = [values.reshape(shape) for values in out]
+    return values_of_rows[0] if isinstance(degree, int) else values_of_rows
+
+
+def blocks(
+    formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice, bound: float = ORDINARY
+) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[Any]]]:
+    """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
+
+    Where an input is not between 1/bound and `bound`, those in `unit` are scaled by a power of two: its exponents come
+    third, with the rows that are ordinary numbers after that. No row depends on those beside it.
+    """
+    size = int(np.prod(shape))
+    columns = [column(x, shape) for x in inputs]
+    keep()
+    for start in range(0, size, BLOCK):
+        rows = slice(start, min(start + BLOCK, size))
+        used, exponents = [_cut(x, rows) for x in columns], None
+        numbers_of_block = [x.hi for x in used]
+        plain = _ordinary(numbers_of_block, rows.stop - rows.start, bound)
+        if not plain.all():
+            scaled, exponents = _scaled(numbers_of_block, unit, plain)
+            low = exponents[0]
+            units = range(len(used))[unit]
+            used = [
+                DoubleDouble(y, x.lo if x.lo is None or i not in units else np.ldexp(x.lo, -low), x.rel)
+                for i, (x, y) in enumerate(zip(used, scaled, strict=True))
+            ]
+        with np.errstate(all="ignore"):
+            results = formula(*used)
+            yield rows, _row(inputs, shape, start), exponents, results if isinstance(results, tuple) else (results,)
+
+
+def _row(inputs: Sequence[Any], shape: tuple[int, ...], start: int) -> Callable[[int], list[Any]]:
+    return lambda i: [element(x, _index(start + i, shape)) for x in inputs]
+
+
+def _index(i: int, shape: tuple[int, ...]) -> Index:
+    return tuple(map(int, np.unravel_index(i, shape)))
+
+
+def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
+    """Return an input as it broadcasts to a shape, in one row, to be read by slices; a number as it is."""
+    if np.ndim(x) == 0:
+        return DoubleDouble(x.hi[()], x.lo[()], x.rel) if isinstance(x, Given) else DoubleDouble(np.float64(x))
+    if isinstance(x, Given):
+        rel = x.rel if np.ndim(x.rel) == 0 else _flat(np.asarray(x.rel), shape)
+        return DoubleDouble(_flat(x.hi, shape), _flat(x.lo, shape), rel)
+    return DoubleDouble(_flat(np.asarray(x), shape))
+
+
+def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
+    """Return some rows of a column."""
+    parts = (y if y is None or isinstance(y, float) else y[rows] for y in (x.hi, x.lo, x.rel))
+    return DoubleDouble(*parts)
+
+
+def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
+    """Return an array as it broadcasts to a shape, in one row, to be read by slices."""
+    return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
+
+
+def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1) -> list[Any]:
+    """Return the `count` results of a formula as exact inputs of a motion: floats, arrays, or `Given`.
+
+    `formula` takes as many numbers and returns a tuple of numbers that are of the unit of the inputs `unit`. A number
+    that is not rational stands as the rational one nearest to it in 256 digits.
+    """
+    shape = common_shape(*(np.shape(x) for x in inputs))
+
+    @lru_cache(maxsize=1024)
+    def row(index: Index) -> tuple[fmpq, ...]:
+        with numbers.workprec():
+            results = formula(*(numbers.rational(element(x, index)) for x in inputs))
+            return tuple(map(numbers.as_rational, results))
+
+    if not shape:
+        return [exact_number(x) for x in row(())]
+    words = np.empty((3, count, int(np.prod(shape))))
+    for rows, _, exponents, results in blocks(formula, inputs, shape, unit):
+        for i, x in enumerate(results):
+            words[0, i, rows], words[1, i, rows], words[2, i, rows] = x.hi, x.low, x.rel
+        if exponents is not None:
+            words[:2, :, rows] = np.ldexp(words[:2, :, rows], exponents[0])
+            words[2, :, rows] = np.where(exponents[1], words[2, :, rows], np.inf)
+    doubtful = ~(words[2] < KNOWN).all(axis=0)
+    for n in np.flatnonzero(doubtful).tolist():
+        for i, x in enumerate(row(_index(n, shape))):
+            one = exact_number(x)
+            words[:, i, n] = (one.hi, one.lo, one.rel) if isinstance(one, Given) else (one, 0.0, 0.0)
+    parts = words.reshape(3, count, *shape)
+    return [
+        Given(*parts[:, i], exact=lambda index, i=i: row(index)[i])  # type: ignore[misc]
+        for i in range(count)
+    ]
+
+
+def _ordinary(columns: Sequence[Any], rows: int, bound: float = ORDINARY) -> Any:
+    """Return in which rows all numbers are zero or far from what products of a few could not hold."""
+    ordinary = np.ones(rows, dtype=bool)
+    for size in map(abs, columns):
+        ordinary &= (size == 0) | ((size >= 1 / bound) & (size <= bound))
+    return ordinary
+
+
+def _scaled(columns: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
+    """Return the inputs with those in `unit` over a power of two, its exponents, and which rows are ordinary then.
+
+    Rows that are `plain` stay as they are.
+    """
+    rows = plain.size
+    largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in columns[unit])), axis=0)
+    exponents = np.where(plain, 0, np.frexp(largest)[1])
+    used = list(columns)
+    used[unit] = [np.ldexp(x, -exponents) for x in columns[unit]]
+    ordinary = _ordinary(used, rows)
+    # a number that the scaling made zero is none
+    lost = [(x != 0) & (y == 0) for x, y in zip(columns[unit], used[unit], strict=True)]
+    return used, (exponents, ordinary & ~np.logical_or.reduce(np.broadcast_arrays(np.zeros(rows, dtype=bool), *lost)))
+
+
+def _normal(s: Any, e: Any) -> tuple[Any, Any]:
+    """Return a sum in two words, for |s| >= |e|."""
+    total = s + e
+    return total, e - (total - s)
+
+
+def _product(x: DoubleDouble, y: DoubleDouble) -> tuple[Any, Any]:
+    """Return the product of the first words, and what its rounding left out, by Dekker."""
+    (a, b), (c, d) = x.halves, y.halves
+    p = x.hi * y.hi
+    e = a * c
+    e -= p
+    e += a * d
+    e += b * c
+    e += b * d
+    return p, e

@@ -1,0 +1,213 @@
+"""What a user typed, as float64, or one sentence that says what is wrong with it."""
+
+import reprlib
+from collections.abc import Sequence
+from fractions import Fraction
+from math import isfinite
+from numbers import Number
+from typing import Any, TypeVar
+
+import numpy as np
+from flint import fmpq
+from numpy.typing import NDArray
+
+from atlas.arithmetic.dimensions import bare
+from atlas.arithmetic.given import Given, exact_number
+from atlas.errors import AtlasError, DomainError
+from atlas.lazy import cached_property
+
+FloatArray = NDArray[np.float64]
+Value = TypeVar("Value")
+
+NO_VECTORS = (dict, set, frozenset, bytes, bytearray)
+"""What can be gone through and may give numbers, but keys, in no order, or bytes."""
+
+_OF_FIELD = (
+    " B' lies in the plane of e2 and e3, so that B1 = 0 is left out; a Field itself will do or, for an axis in any "
+    "direction, field.frame(axis).field."
+)
+
+
+def real(value: Any, name: str, unit: str = "") -> FloatArray:
+    """Return `value` as a read-only float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`.
+
+    A quantity of pint or astropy is taken in that `unit` of SI, and refused where it has none.
+    """
+    if type(value) is float and isfinite(value):
+        return frozen(np.array(value + 0.0))
+    if type(value) is not np.ndarray:
+        value = bare(value, name, unit)
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise AtlasError(f"{name} must be a number or an array without masked entries; fill or drop them first.")
+    try:
+        raw = np.asarray(value)
+        # NumPy would read text as numbers, None as NaN and True as 1.
+        is_numeric = raw.dtype.kind in "iuf" or (raw.dtype.kind == "O" and all(isinstance(x, Number) for x in raw.flat))
+        array = raw.astype(np.float64) if is_numeric else None
+    except (TypeError, ValueError, OverflowError) as error:
+        raise _not_real(value, name) from error
+    if array is None:
+        raise _not_real(value, name)
+    if not np.isfinite(array).all():
+        worst = array[~np.isfinite(array)].flat[0]
+        raise DomainError(f"{name} must be finite, but holds {worst}.")
+    array += 0.0
+    return frozen(array)
+
+
+def _not_real(value: Any, name: str) -> AtlasError:
+    """Return the error for what is not made of numbers."""
+    return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.")
+
+
+def number(value: Any, name: str, unit: str = "") -> float:
+    """Return `value` as one finite float."""
+    if type(value) is float and isfinite(value):
+        return value + 0.0
+    array = real(value, name, unit)
+    if array.ndim:
+        raise AtlasError(f"{name} must be one number, not an array of shape {array.shape}.")
+    return float(array)
+
+
+def positive(value: Any, name: str, unit: str = "") -> float:
+    """Return `value` as one finite float above zero."""
+    result = number(value, name, unit)
+    if result <= 0:
+        raise DomainError(f"{name} must be positive, not {result}.")
+    return result
+
+
+def whole(value: Any, name: str, least: int = 0) -> int:
+    """Return `value` as a whole number, at least `least`."""
+    if type(value) is int and value >= least:
+        return value
+    result = number(value, name)
+    if result != int(result) or result < least:
+        raise AtlasError(f"{name} must be a whole number, at least {least}, not {reprlib.repr(value)}.")
+    return int(result)
+
+
+def vector(value: Any, name: str, unit: str = "") -> FloatArray:
+    """Return `value` as three finite floats, shape (3,)."""
+    array = real(value, name, unit)
+    if array.shape != (3,):
+        raise AtlasError(f"{name} must have three components, not the shape {array.shape}.")
+    return array
+
+
+def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
+    """Return `value` as finite vectors, shape (..., 3)."""
+    array = real(value, name, unit)
+    if array.shape[-1:] != (3,):
+        raise AtlasError(f"{name} must have three components last, shape (..., 3), not {array.shape}.")
+    return array
+
+
+def matrix(value: Any, name: str) -> FloatArray:
+    """Return `value` as a finite matrix, shape (3, 3)."""
+    array = real(value, name)
+    if array.shape != (3, 3):
+        raise AtlasError(f"{name} must be a matrix of shape (3, 3), not of shape {array.shape}.")
+    return array
+
+
+def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
+    """Return the components of a vector in that unit, each a finite number or array, by name for the errors.
+
+    A `Field` gives B2 and B3, as exact as they are, and refuses where B1 is not zero; so do Fractions. A square
+    array, or a list of lists, may hold them in its rows or in its columns: AtlasError.
+    """
+    if hasattr(type(value), "exact_pair") and names[-1] == "B3":
+        value = value.exact if len(names) == len("123") else value.exact_pair
+    try:
+        parts = [] if isinstance(value, NO_VECTORS) else list(getattr(value, "values", value))  # of a data frame
+    except TypeError:
+        parts = []
+    if len(parts) != len(names):
+        raise AtlasError(
+            f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
+            f"{_OF_FIELD if tuple(names) == ('B2', 'B3') else ''}"
+        )
+    rows = np.ndim(value) > 1 if hasattr(value, "ndim") else isinstance(value, list) and _listed(parts)
+    if rows and all(len(part) == len(parts) for part in parts):
+        raise AtlasError(
+            f"{what} may have its components ({', '.join(names)}) in the rows or in the columns of a square array: "
+            "give a tuple of them, such as tuple(rows.T)."
+        )
+    return [numbers(x, name, unit) for x, name in zip(parts, names, strict=True)]
+
+
+def numbers(value: Any, name: str, unit: str = "") -> Any:
+    """Return `value` as `real` does, but numbers that no double holds, such as a Fraction, as exact `Given` ones."""
+    if isinstance(value, Fraction | fmpq):
+        value = exact_number(value)
+    return value if isinstance(value, Given) else real(value, name, unit)
+
+
+def _listed(parts: Sequence[Any]) -> bool:
+    """Whether all are lists or tuples."""
+    return all(isinstance(part, list | tuple) for part in parts)
+
+
+def finite(values: Any, name: str) -> Any:
+    """Return what was computed, a number or an array, or several; DomainError where one is too large for a float."""
+    if not all(np.isfinite(value).all() for value in (values if isinstance(values, tuple) else (values,))):
+        raise DomainError(f"{name} is too large for a float: choose larger units.")
+    return values
+
+
+def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the shape to which arrays of these shapes broadcast."""
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError as error:
+        raise AtlasError(
+            f"The shapes {', '.join(map(str, shapes))} of the inputs do not broadcast together."
+        ) from error
+
+
+def frozen(value: Value) -> Value:
+    """Return what an object keeps and hands out: an array can no longer be written into, nor one of several."""
+    for array in value if isinstance(value, tuple | list) else (value,):
+        if isinstance(array, np.ndarray):
+            array.flags.writeable = False
+    return value
+
+
+class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
+    """A `cached_property` whose arrays can't be written into: other values hang on them."""
+
+    def complete(self, value: Value) -> Value:
+        """Return the value with its arrays made read-only."""
+        return frozen(value)
+
+
+def plain(array: Any) -> Any:
+    """Return a Python float for an array without dimensions, any other array as it is; exact numbers are rounded."""
+    return float(array) if not np.ndim(array) else array.hi if isinstance(array, Given) else array
+
+
+def as_given(array: Any) -> Any:
+    """Return what an object keeps of an input: exact numbers as they are, all others as `plain` gives them."""
+    return array if isinstance(array, Given) else plain(array)
+
+
+def turn_time(rate: Any) -> Any:
+    """Return the time 2 pi/|rate| of one turn; infinite where nothing turns. DomainError beyond all floats."""
+    with np.errstate(divide="ignore", over="ignore"):
+        times = np.divide(2 * np.pi, np.abs(rate))
+    finite(np.where(np.equal(rate, 0), 0.0, times), "The period")
+    return plain(times)
+
+
+def scaled(v: FloatArray) -> tuple[FloatArray, Any]:
+    """Return v (n, ...) over powers of two, so that sums of squares along the first axis are floats, and the powers."""
+    exponent = np.frexp(np.abs(v).max(axis=0))[1]
+    return np.ldexp(v, -exponent), exponent
+
+
+def largest(vectors: FloatArray) -> FloatArray:
+    """Return the size of the largest component of each vector (m, 3), by columns, which NumPy does faster."""
+    x, y, z = np.abs(vectors).T
+    return np.asarray(np.maximum(np.maximum(x, y), z))

@@ -1,0 +1,173 @@
+"""Numbers that formulas are written for: exact rationals and balls of flint, and arrays in two words.
+
+A formula uses + - * / and the functions below. So it gives the certified floor its balls, the kernels their floats of
+one motion, rounded once, and by `atlas.arithmetic.double_double` those of a million.
+"""
+
+from collections.abc import Callable, Sequence
+from math import inf, isqrt
+from threading import RLock
+from types import TracebackType
+from typing import Any, Generic, Self, TypeAlias, TypeVar, overload
+
+from flint import arb, ctx, fmpq
+
+Number: TypeAlias = Any
+"""fmpq, arb, or an array of `DoubleDouble`."""
+
+Vector: TypeAlias = Sequence[Number]
+
+BITS = 256
+"""Digits of a ball from which a float of one motion is rounded: far more than cancel between exact inputs."""
+
+_LOCK = RLock()
+
+
+class workprec:  # noqa: N801  the name that flint has for it
+    """Let flint compute with so many binary digits inside a `with` block, in one thread at a time.
+
+    Its precision is one for all threads of a process.
+    """
+
+    __slots__ = ("_before", "bits")
+
+    def __init__(self, bits: int = BITS) -> None:
+        self.bits = bits
+
+    def __enter__(self) -> None:
+        _LOCK.acquire()
+        self._before = ctx.prec
+        ctx.prec = self.bits
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        ctx.prec = self._before
+        _LOCK.release()
+
+
+Value = TypeVar("Value")
+
+
+class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
+    """A property that is kept with the most digits that it was made with: fewer are in them."""
+
+    def __init__(self, function: Callable[[Any], Value]) -> None:
+        self._of, self.__doc__ = function, function.__doc__
+
+    def __set_name__(self, _: type, name: str) -> None:
+        self._place = f"{name} by precision"
+
+    @overload
+    def __get__(self, one: None, of: Any = None) -> Self: ...
+    @overload
+    def __get__(self, one: object, of: Any = None) -> Value: ...
+    def __get__(self, one: Any, of: Any = None) -> Self | Value:
+        """Return the value, made if the precision of the moment is above what it was made with."""
+        if one is None:
+            return self
+        with _LOCK:  # else the precision could be another thread's, or change while the value is made
+            known: tuple[int, Value] | None = vars(one).get(self._place)
+            if known is None or known[0] < ctx.prec:
+                vars(one)[self._place] = known = ctx.prec, self._of(one)
+        return known[1]
+
+
+def rational(x: float | fmpq) -> fmpq:
+    """Return a float as the number that it is; a rational number stays."""
+    return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
+
+
+def as_rational(x: fmpq | arb) -> fmpq:
+    """Return a rational number, or the middle of a ball."""
+    if isinstance(x, fmpq):
+        return x
+    m, e = (int(n) for n in x.mid().man_exp())
+    return fmpq(m << e) if e >= 0 else fmpq(m, 1 << -e)
+
+
+def root(x: Number) -> Number:
+    """Return the root of a number that is not negative; of a rational number exactly where it is rational."""
+    if not isinstance(x, fmpq):
+        return x.sqrt()
+    p, q = int(x.p), int(x.q)
+    a, b = isqrt(p), isqrt(q)
+    return fmpq(a, b) if a * a == p and b * b == q else arb(x).sqrt()
+
+
+def select(x: Number, positive: Number, other: Number) -> Number:
+    """Return `positive` where x is, `other` elsewhere."""
+    if isinstance(x, fmpq | arb):
+        return positive if x > 0 else other
+    return x.select(positive, other)
+
+
+def dot(a: Vector, b: Vector) -> Number:
+    """Scalar product (a, b)."""
+    first, *others = (x * y for x, y in zip(a, b, strict=True))
+    return sum(others, first)
+
+
+def quaternion_products(R: Sequence[Sequence[Number]]) -> tuple[tuple[Number, ...], ...]:
+    """Return 4 q_i q_j of the quaternion (x, y, z, w) of a rotation matrix; the row of the largest loses nothing."""
+    trace = R[0][0] + R[1][1] + R[2][2]
+    x, y, z = (2 * R[i][i] - trace for i in range(3))
+    xy, yz, xz = (R[i][j] + R[j][i] for i, j in ((0, 1), (1, 2), (0, 2)))
+    xw, yw, zw = (R[i][j] - R[j][i] for i, j in ((2, 1), (0, 2), (1, 0)))
+    return (1 + x, xy, xz, xw), (xy, 1 + y, yz, yw), (xz, yz, 1 + z, zw), (xw, yw, zw, 1 + trace)
+
+
+def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
+    """Vector product [a, b]."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
+    """Return a vector turned by the quaternion (x, y, z, w), which need not be of length 1."""
+    axis, w = q[:3], q[3]
+    across, along = w * w, dot(axis, axis)
+    size, less, twice = across + along, across - along, dot(axis, v)
+    moved = zip(v, axis, cross(axis, v), strict=True)
+    return tuple((less * x + (twice + twice) * n + (w + w) * y) / size for x, n, y in moved)
+
+
+def length(*components: Number) -> Number:
+    """Return the length of a vector."""
+    return root(dot(components, components))
+
+
+def direction(vector: Vector) -> tuple[Number, ...]:
+    """Return the unit vector along a vector; of a zero rational one, which has no direction, the last axis."""
+    size = length(*vector)
+    if isinstance(size, fmpq) and size == 0:
+        return *vector[:-1], fmpq(1)
+    return tuple(x / size for x in vector)
+
+
+def unit(vector: Vector) -> list[Number]:
+    """Return the unit vector along one that is not zero, each component by one root."""
+    square = dot(vector, vector)
+    roots = [(x, root(x * x / square)) for x in vector]
+    return [select(x, size, -size) for x, size in roots]
+
+
+def alone(formula: Callable[..., Any], *inputs: float) -> Any:
+    """Evaluate a formula on floats, which are taken as exact; each result is rounded once."""
+    return rounded(lambda *x: formula(*map(rational, x)), *inputs)
+
+
+def rounded(function: Callable[..., Any], *inputs: Any) -> Any:
+    """Return a number, or several, in 256 digits, each rounded once."""
+    with workprec():
+        values = function(*inputs)
+        return [nearest(x) for x in values] if isinstance(values, tuple | list) else nearest(values)
+
+
+def nearest(x: fmpq | arb) -> float:
+    """Return the double nearest to a number; beyond the largest, inf of the same sign."""
+    if isinstance(x, arb):
+        return float(x.mid())
+    try:
+        return int(x.p) / int(x.q)
+    except OverflowError:
+        return inf if x > 0 else -inf

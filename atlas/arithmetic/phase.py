@@ -1,0 +1,334 @@
+"""Phases f t of exact frequencies, reduced to half a turn without loss, and their cosines and sines.
+
+A plain double k t has lost the phase once |k t| eps is of order one, and k itself has an error that t magnifies. Here a
+frequency is made from the exact inputs, in turns, as a sum of words, P0 + P1; both products with t are formed with
+their rounding errors, and the whole turns are dropped before anything is rounded.
+"""
+
+from collections.abc import Sequence
+from math import frexp, inf, ldexp, nextafter
+from typing import Self
+
+import numpy as np
+
+from atlas.arithmetic.circle import circle_of, signs
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.machine import keep
+from atlas.arithmetic.numbers import Number, nearest, workprec
+from atlas.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, words
+from atlas.errors import AtlasError
+from atlas.lazy import cached_property
+
+LIMIT = 2.0**50
+"""Largest phase |f t| in radians: beyond it two words of f no longer hold the turn."""
+
+SAFE = 400
+"""Frequencies outside 2^±400 are scaled, and times the other way, lest a product of words overflow or vanish."""
+
+NEVER = -4000
+"""A power of two that makes any time zero: that of a frequency which is zero."""
+
+# Constants that meet arrays are arrays without dimensions, see `atlas.arithmetic.circle`.
+SPLITTER = np.array(2.0**27 + 1)
+"""Veltkamp's: t SPLITTER cuts t into two halves of 26 digits, whose products with halves are exact."""
+
+ROUNDER, QUANTUM = np.array(1.5 * 2.0**52), np.array(1.5 * 2.0**27)
+"""Adding and subtracting them rounds to whole numbers, the last digit of the sum being the parity, and to 2^-25."""
+
+EVEN = 2 * ROUNDER
+"""The same for even numbers."""
+
+NEAR = 2.0**21
+"""Half a phase, in radians, up to which three products of words hold it."""
+
+LESS = 4.0
+"""How much further they do where the phase is rounded."""
+
+QUARTER = scaled(TURN, -2)
+HEAD = round(nearest(QUARTER) * 2.0**26) / 2.0**26
+with workprec():
+    TAIL = nearest(QUARTER - HEAD)
+MINUS_HEAD, MINUS_TAIL = np.array(-HEAD), np.array(-TAIL)
+QUARTER_TURN, MINUS_BOTH = np.array(nearest(QUARTER)), np.array([MINUS_HEAD, MINUS_TAIL])[:, None, None]
+"""pi/2, and -pi/2 as a head of 27 digits, whose product with a multiple of 2^-25 below one is exact, and a tail."""
+
+
+LEAST = 1e-290
+"""Longest time below which it is the unit of frequency that is at fault."""
+
+
+class Phases:
+    """Phases of one or two frequencies, and what is needed to evaluate them at times t.
+
+    `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
+    `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
+    (2, 1, n, 1) are those of P0. `rounder` (n, 1) rounds to the half turns that are left out: EVEN ones for whole
+    turns.
+
+        >>> t, cos, sin = np.array([1e15]), np.empty((1, 1)), np.empty((1, 1))
+        >>> with workprec():
+        ...     turns = [1 / TURN]
+        >>> Phases(turns).circle(t, room(1, 1), cos, sin, np.empty(1))
+        >>> 2 * float(cos[0, 0])  # that of 1e15
+        -0.51319373778697...
+    """
+
+    def __init__(
+        self, turns: Sequence[Number], origins: Sequence[Number] | None = None, rounder: FloatArray = ROUNDER
+    ) -> None:
+        halves = [scaled(middle(turn), 1) for turn in turns]
+        exponents = _exponents(halves)
+        small = halves
+        self.exponents = None
+        if any(exponents):
+            small = [scaled(p, -x) for p, x in zip(halves, exponents, strict=True)]
+            self.exponents = np.array(exponents)[:, None]
+        self._keep(_columns([words(p, 2) for p in small]))
+        self.rounder = rounder
+        with workprec():
+            fastest = max(abs(p * QUARTER) for p in halves)
+            self._within(_reach(fastest))
+            self.near = nearest(NEAR / fastest) if fastest != 0 else inf
+            self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
+        if self.origins is not None:
+            first, low = self.origins
+            self.starts = -first * MINUS_HEAD, low * QUARTER_TURN - first * MINUS_TAIL
+        self._small = small
+
+    @cached_property
+    def radians(self) -> FloatArray:
+        """Half the frequency in radians, (2, n, 1): a head of 26 digits and the rest."""
+        with workprec():
+            return _columns([_head(p * QUARTER)[:2] for p in self._small])
+
+    @cached_property
+    def _sums(self) -> tuple[FloatArray, FloatArray]:
+        """Head of P0 + P1 with 26 digits, and the matrix that sums what `halves_of` has."""
+        with workprec():
+            head, *rest = _columns([_head(p) for p in self._small])
+        first = [] if self.origins is None else [self.origins[1]]
+        return head, QUARTER_TURN * np.hstack([*first, *rest, np.eye(len(head))])
+
+    @classmethod
+    def of_words(cls, words: FloatArray) -> Self:
+        """Phases of frequencies P0 + P1 in half turns, (2, n, m), each with a time of its own; no phase is too long."""
+        self = cls.__new__(cls)
+        self._keep(words)
+        still = words[0] == 0
+        self.exponents = np.where(still, NEVER, 0) if still.any() else None
+        self.origins, self.rounder, self.near = None, ROUNDER, -1.0
+        self._within(inf)
+        return self
+
+    def _keep(self, words: FloatArray) -> None:
+        """Keep words, and halves of the first, as the products need them."""
+        P0, P1 = words
+        head = P0 * SPLITTER - (P0 * SPLITTER - P0)
+        self.words = np.array([-P0, P1])
+        self.halves = np.array([head, P0 - head])[:, None]
+
+    def _within(self, reach: float) -> None:
+        """Keep the longest time."""
+        self.reach, self.longest = reach, min(reach, float(np.finfo(float).max))
+
+    def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
+        """Fill cos(x)/2 and sin(x)/2 (n, m), and (1 - cos x)/2 of the first phase (m,), for x = f t.
+
+        `t` (m,) finite; `work` (8, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps
+        its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
+
+        Without origins cos and sin are within 8 units of w = 2^-53, four ulp of 1, if NumPy's tangent is within an ulp.
+        Proof, to first order in w, |x| <= 1.8 as `angles` leaves it. The phase: P1 t, the last sum of `rest` (< 1/8)
+        and the words left out are 0.35 w of x; y and its sum 0.25 w more. u = tan(x/2) <= 1.26 is within 1.5 ulp, one
+        of the tangent and a half of the sum with e (1 + u^2): 1.5 w below 1, 3 w above. The roundings of u^2, 1 + u^2
+        and the quotient: sin has the relative error (2 + q) w, q = u^2/(1 + u^2), and u sin has (3 + q) w; the last
+        difference is half a unit of cos at most. So the error of cos = 1 - 2 q is below
+
+            4 u/(1 + u^2)^2 du + 2 q (3 + q) w + 0.5 w + 0.6 w = 7.8 w at u = 1.26, 7.6 w at u = 1 from above,
+
+        and less below; that of sin is below 2 |1 - u^2|/(1 + u^2)^2 du + (2 + q) w + 0.6 w < 5 w.
+        """
+        circle_of(*self.angles(t, work), cos, sin, versine)
+
+    def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Return x/2 for x = f t less whole half turns, what rounding left out of it, and the turns' sign.
+
+        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near LIMIT the
+        whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8 there.
+        """
+        half, rest, whole, free = self.reduced(t, work)
+        return half, rest, signs(whole), free
+
+    def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
+        """Return what `angles` does with the number of half turns, plus `rounder`, in the place of their sign."""
+        far = farthest(t)
+        if not far <= self.longest:
+            self.check(t)
+        if self.exponents is not None:
+            t = np.ldexp(t, self.exponents)
+            low = None if low is None else np.ldexp(low, self.exponents)
+        halves = work[6:] if t.ndim > 1 else work[6:, :1]
+        upper, lower = halves
+        np.multiply(t, SPLITTER, out=upper)
+        np.subtract(upper, t, out=lower)
+        upper -= lower
+        np.subtract(t, upper, out=lower)
+        if far <= self.near:
+            if low is not None:
+                lower += low
+                t = t + low
+            return self._reduced_near(t, halves, work)
+        # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
+        parts, rest, coarse = work[:6], work[6], work[7]
+        np.multiply(self.words, t, out=parts[::5])
+        np.multiply(self.halves, halves, out=parts[1:5].reshape(2, 2, *rest.shape))
+        np.add.reduce(parts, axis=0, out=rest)
+        if low is not None:
+            np.multiply(self.words[0], low, out=coarse)
+            rest -= coarse
+        # `whole` half turns and `product`, what is left of them, come with the sign turned round
+        product, whole, y = parts[:3]
+        np.add(product, self.rounder, out=whole)
+        np.subtract(whole, self.rounder, out=coarse)
+        product -= coarse
+        # in half turns the phase is rest - coarse, coarse a multiple of 2^-25
+        np.add(product, QUANTUM, out=coarse)
+        coarse -= QUANTUM
+        product -= coarse
+        rest -= product
+        if self.origins is not None:
+            coarse -= self.origins[0]
+            rest += self.origins[1]
+            np.add(coarse, self.rounder, out=y)
+            whole.view(np.int64)[:] += y.view(np.int64)
+            y -= self.rounder
+            coarse -= y
+        # in radians, and halved: coarse MINUS_HEAD is exact, y is small
+        np.multiply(coarse, MINUS_TAIL, out=y)
+        rest *= QUARTER_TURN
+        y += rest
+        coarse *= MINUS_HEAD
+        np.add(coarse, y, out=product)
+        coarse -= product
+        coarse += y
+        return product, coarse, whole, rest
+
+    def halves_of(
+        self, t: FloatArray, work: FloatArray, low: FloatArray | None = None, turns: FloatArray | None = None
+    ) -> FloatArray:
+        """Return x/2, rounded once, as `reduced` does; it lies in `work`, whose last axis may be longer than t's.
+
+        `turns` (n, m), if given, gets the number of half turns that are left out, plus `rounder`.
+
+        For half phases up to LESS NEAR the head of the frequency times that of t is exact, and so is what is left of it
+        without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
+        """
+        if self.exponents is not None or not farthest(t) <= LESS * self.near:
+            half, _, whole, _ = self.reduced(t, work[..., : t.size], low)
+            if turns is not None:
+                turns[:] = whole
+            return half
+        head, table = self._sums
+        n, k = table.shape
+        rows = work.reshape(-1, work.shape[-1])[:, : t.size]
+        stack, whole, x = rows[:k], rows[k : k + n], rows[k + n : k + 2 * n]
+        *first, upper, lower = stack[: k - n]
+        p = stack[k - n :]
+        np.multiply(t, SPLITTER, out=upper)
+        np.subtract(upper, t, out=lower)
+        upper -= lower
+        np.subtract(t, upper, out=lower)
+        if low is not None:
+            lower += low
+        np.multiply(head, upper, out=p)
+        if self.origins is not None:
+            first[0][:] = 1.0
+            p += self.origins[0]
+        np.add(p, self.rounder, out=whole)
+        if turns is not None:
+            turns[:] = whole
+        whole -= self.rounder
+        p -= whole
+        return np.matmul(table, stack, out=x)
+
+    def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
+        """Return the same for half phases up to NEAR, by Cody and Waite: half f t less w pi/2, both cut.
+
+        With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53 digits, and
+        their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8: two sums of it
+        are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x.
+        What a time lacks is in t1, whose sum and product are then within 2^-59 each: 0.1 w more.
+        """
+        both, product, whole, w = work[:2], work[2], work[3], work[7]
+        np.multiply(self.radians[0], halves, out=both)
+        np.multiply(self.words[0], t, out=product)
+        if self.origins is not None:
+            product -= self.origins[0]
+        np.subtract(self.rounder, product, out=whole)
+        np.subtract(whole, self.rounder, out=w)
+        np.multiply(w, MINUS_BOTH, out=work[4:6])
+        both += work[4:6]
+        head, rest = both
+        np.multiply(self.radians[1], t, out=product)
+        rest += product
+        if self.origins is not None:
+            head += self.starts[0]
+            rest += self.starts[1]
+        np.add(head, rest, out=product)
+        head -= product
+        head += rest
+        return product, head, whole, rest
+
+    def check(self, t: FloatArray) -> None:
+        """Raise AtlasError for a time that is out of reach."""
+        far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
+        if far.size:
+            units = "" if self.reach > LEAST else " A frequency is too large for a float: choose larger units."
+            raise AtlasError(
+                f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is "
+                f"lost.{units}"
+            )
+
+
+def _exponents(halves: Sequence[Number]) -> list[int]:
+    """Return the powers of two by which frequencies are scaled: zeros, where none is extreme."""
+    moving = [magnitude(p) for p in halves if p != 0]
+    if moving and all(abs(x) <= SAFE for x in moving):
+        return [0] * len(halves)
+    return [magnitude(p) if p != 0 else NEVER for p in halves]
+
+
+def room(frequencies: int, times: int) -> FloatArray:
+    """Return memory to evaluate so many phases at so many times in, see `Phases.angles`."""
+    keep()
+    return np.empty((8, frequencies, times))
+
+
+def farthest(t: FloatArray) -> float:
+    """Return the largest |t|; not a number where a time is none."""
+    return max(t.item(t.argmax()), -t.item(t.argmin())) if t.size else 0.0
+
+
+def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
+    """Return words by word and frequency, shape (words, n, 1), to broadcast against times."""
+    return np.array(rows).T[:, :, None]
+
+
+def _reach(fastest: Number) -> float:
+    """Return the longest time within LIMIT, at a rate of half the phase."""
+    return nextafter(nearest(LIMIT / (2 * fastest)), inf) if fastest != 0 else inf
+
+
+def _head(x: Number) -> tuple[float, float, float]:
+    """Cut a number into a double of 26 digits and the rest; and the number."""
+    value = nearest(x)
+    size = frexp(value)[1]
+    head = ldexp(round(ldexp(value, 26 - size)), size - 26)
+    return head, nearest(x - head), value
+
+
+def _cut(turn: Number) -> tuple[float, float]:
+    """Cut a phase in turns into half turns: a multiple of 2^-25, at most one, and the rest."""
+    whole = turn_of(turn)
+    head = round(ldexp(nearest(whole), 26)) / 2.0**25
+    return head, 2 * nearest(whole - head / 2)

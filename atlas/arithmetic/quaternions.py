@@ -1,0 +1,52 @@
+"""Unit quaternions (x, y, z, w), the scalar last, of rotation matrices and of products of rotations."""
+
+from collections.abc import Sequence
+from math import hypot
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import quaternion_products
+from atlas.errors import AtlasError
+
+ROUNDED = 1e-6
+"""By how much the length of a quaternion that is typed may differ from 1."""
+
+
+def of_matrix(R: Any) -> FloatArray:
+    """Return unit quaternions of rotation matrices (..., 3, 3), one of the two of each; shape (..., 4)."""
+    quaternions = rows_of_matrix(R)
+    return np.asarray(quaternions / np.sqrt((quaternions * quaternions).sum(-1))[..., None])
+
+
+def rows_of_matrix(R: Any) -> FloatArray:
+    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), each 4 times its largest component long."""
+    entries: Any = np.moveaxis(np.asarray(R), (-2, -1), (0, 1))
+    rows = quaternion_products(entries)
+    table = np.array([np.stack(row, -1) for row in rows])
+    largest = np.argmax([table[i, ..., i] for i in range(4)], axis=0)
+    return np.asarray(np.take_along_axis(table, largest[None, ..., None], axis=0)[0])
+
+
+def product(p: FloatArray, q: FloatArray) -> FloatArray:
+    """Return the quaternions p q of a rotation q and p after it; shapes (..., 4) broadcast."""
+    (a, b, c, d), (x, y, z, w) = np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0)
+    return np.stack([
+        d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x,
+        d * z + a * y - b * x + c * w, d * w - a * x - b * y - c * z,
+    ], -1)  # fmt: skip
+
+
+def between(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the matrix (4, 4) that takes a row q to p q r, p and r the quaternions of two rotation matrices."""
+    return product(product(of_matrix(left), np.eye(4)), of_matrix(right))
+
+
+def rotation_of(typed: Sequence[float], name: str) -> FloatArray:
+    """Return the rotation matrix (3, 3) of a typed quaternion, which has a name; AtlasError for no unit length."""
+    from scipy.spatial.transform import Rotation
+
+    if abs((length := hypot(*typed)) - 1) > ROUNDED:
+        raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
+    return np.asarray(Rotation.from_quat(typed).as_matrix())

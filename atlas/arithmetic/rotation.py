@@ -1,0 +1,283 @@
+"""Two turns in a row, R = R_n(k t) R_z(phi t), (85): the matrix of every motion in elementary functions.
+
+It is linear in a few functions of time. By Rodrigues R_n(x) = n n^T + cos x (1 - n n^T) + sin x [n, .], and
+R_z(x) = cos x E + sin x J + e3 e3^T. So
+
+    R(s + tau) = R_n(k s) R(tau) R_z(phi s) = sum over r of F_r(s) (L_r R(tau) Q_r),
+
+F_r being products of functions of k s and phi s. With tau = 0 that gives R(s) itself.
+"""
+
+import reprlib
+from collections.abc import Callable, Mapping
+from math import prod
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.machine import keep, shared
+from atlas.arithmetic.numbers import Number, nearest, workprec
+from atlas.arithmetic.phase import QUANTUM, Phases, room
+from atlas.arithmetic.words import TURN, words
+from atlas.errors import AtlasError
+from atlas.lazy import cached_property
+
+Axis = tuple[Number, Number, Number]
+"""A unit vector of exact numbers."""
+
+IDENTITY = np.eye(3)
+E, J, E33 = np.diag([1.0, 1, 0]), np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.diag([0.0, 0, 1])
+
+SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
+"""What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
+
+
+class Basis:
+    """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
+
+    In the order of `resolution`: cos kt, cos phi t, sin kt, sin phi t, 1 - cos kt; cos kt and sin kt times cos phi t,
+    the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t. `phases` are `Phases` or a
+    `Progression` of them.
+    """
+
+    def __init__(self, phases: Any, size: int, count: int = 3) -> None:
+        self.phases = phases
+        self.work = room(1 if count == 3 else 2, size)
+        self.rows = np.empty((count, size))
+
+    def at(self, t: FloatArray) -> FloatArray:
+        """Return the functions over SCALE, shape (count, m), at times t (m,), or what a `Progression` takes for them.
+
+        Valid until the next call.
+        """
+        rows, work = self.rows, self.work
+        if t.shape[-1] < rows.shape[1]:
+            rows, work = rows[:, : t.shape[-1]], work[:, :, : t.shape[-1]]
+        if len(rows) == 3:
+            self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2])
+            return rows
+        self.phases.circle(t, work, rows[0:2], rows[2:4], rows[4])
+        multiply(rows)
+        return rows
+
+
+def multiply(rows: NDArray[Any]) -> None:
+    """Fill the functions from the sixth on, products of those before."""
+    first, second = rows[0:4:2], rows[1:4:2]
+    np.multiply(first, second[:, None], out=rows[5:9].reshape(2, 2, -1))
+    if len(rows) == 11:
+        np.multiply(rows[4], second, out=rows[9:])
+
+
+def rodrigues(axis: Axis) -> FloatArray:
+    """Return 1, [n, .] and n n^T, shape (3, 3, 3), each element rounded once."""
+    n1, n2, n3 = map(nearest, axis)
+    with workprec():
+        dyad = [[nearest(a * b) for b in axis] for a in axis]
+    return np.array([IDENTITY, [[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]], dyad])
+
+
+def generators(axis: Axis) -> FloatArray:
+    """Return n n^T and 1 - n n^T, with the sum 1 exactly, since R(0) is; [n, .]; and n n^T, elements rounded once."""
+    _, across, dyad = rodrigues(axis)
+    along = dyad.copy()
+    for i, n in enumerate(axis):
+        if along[i, i] < 0.5:
+            with workprec():
+                along[i, i] = 1.0 - nearest(1 - n * n)
+    return np.array([along, IDENTITY - along, across, dyad])
+
+
+def extended(axis: Axis) -> NDArray[np.longdouble]:
+    """Return the four matrices of an axis with the digits of a long double."""
+    n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (words(n, 2) for n in axis))
+    dyad = np.outer([n1, n2, n3], [n1, n2, n3])
+    across = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
+    return np.array([dyad, IDENTITY - dyad, across, dyad])
+
+
+def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
+    """Return L_r and Q_r of the generators, both (9, 3, 3); or (11, 3, 3) if the third row is wanted to its own size.
+
+    The third column, small when k t is, comes from sin and 1 - cos and keeps its digits. So does then the third row, at
+    the price of two functions more: that is the third column of the transposed matrix.
+    """
+    along, rest, across, dyad = parts
+    upper = E if third_row else IDENTITY
+    C, aC = upper @ along, upper @ rest + (IDENTITY - upper)
+    pairs = [(IDENTITY, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
+    if third_row:
+        pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
+    return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
+
+
+BLOCK, PART = 6000, 3000
+"""Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
+so few that the library does not thread the product. No powers of two, whose multiples a cache takes for one another."""
+
+LARGEST = float(np.finfo(float).max) / 4
+"""Size of a component that turns: a sum of two, times two, is a float."""
+
+
+class DoubleRotation:
+    """Rotation matrix R(t) = R_n(k t) R_z(phi t), (85), of a body that precesses about n and turns about its axis.
+
+    `axis` n is a unit vector, `precession` k and `proper` phi are frequencies, all exact. If `inverse`, the matrix is
+    the transposed one, as for the ball, (28). Each entry is a constant linear combination of functions of time, see
+    `Basis`: one small matrix product makes all of them.
+    """
+
+    vectors: Mapping[str, tuple[float, ...]] = MappingProxyType({})
+    """Constant vectors of the motion, by name."""
+
+    def __init__(self, axis: Axis, precession: Number, proper: Number, *, inverse: bool = False) -> None:
+        self.axis, self.frequencies, self.inverse = axis, (precession, proper), inverse
+        with workprec():
+            self.turns = [f / TURN for f in self.frequencies]
+        self.phases = Phases(self.turns)
+        weights = SCALE[:, None, None][: None if inverse else 9] * np.matmul(
+            *resolution(generators(axis), third_row=inverse)
+        )
+        self.weights = np.ascontiguousarray(weights.swapaxes(1, 2)) if inverse else weights
+        self.entries = self.weights.reshape(-1, 9)
+
+    @cached_property
+    def rodrigues(self) -> FloatArray:
+        """Matrices of the functions of the phase k t by itself, (3, 3, 3), times two."""
+        return 2 * rodrigues(self.axis)
+
+    @cached_property
+    def precession(self) -> Phases:
+        """The phase k t by itself."""
+        return Phases(self.turns[:1])
+
+    @cached_property
+    def proper(self) -> Phases:
+        """The phase phi t by itself."""
+        return Phases(self.turns[1:])
+
+    @cached_property
+    def composition(self) -> tuple[FloatArray, FloatArray]:
+        """Matrices L_r L_q Q_q Q_r of `Basis`, times SCALE of r, as multiples of 2^-25 and what is left.
+
+        By r, q and entry: the multiples (r, q, 9); the same above the rests, (r, 2 q, 9), for factors that are small.
+        """
+        left, right = resolution(extended(self.axis), third_row=self.inverse)
+        exact = np.matmul(np.matmul(left[:, None], np.matmul(left, right)), right[:, None])
+        exact = (exact.swapaxes(2, 3) if self.inverse else exact).reshape(len(left), len(left), 9)
+        large = exact.astype(np.float64) + QUANTUM - QUANTUM
+        small = np.concatenate([large, (exact - large).astype(np.float64)], axis=1)
+        scale = SCALE[: len(left), None, None]
+        return large * scale, small * scale
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), (84), shape (..., 3, 3)."""
+        return combinations(self.phases, self.entries, t, (3, 3), out)
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), j = 1, 2, 3: the body's axis j in the laboratory, shape (..., 3)."""
+        if j == 3 and not self.inverse:
+            return combinations(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
+        return combinations(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
+
+    @cached_property
+    def _products(self) -> FloatArray:
+        """Weights of the functions of `basis` of half the phases in q_n q_z: the four products of cosines and sines."""
+        x, y, z = map(nearest, self.axis)
+        weights = np.zeros((9, 4))
+        weights[5:] = 4 * np.array([[0, 0, 0, 1], [x, y, z, 0], [0, 0, 1, 0], [y, -x, 0, -z]])
+        if self.inverse:
+            weights[:, :3] *= -1
+        return weights
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
+
+    def vector(self, name: str) -> tuple[float, ...]:
+        """Return the components of a vector."""
+        return self.vectors[name]
+
+    def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R_n(k t) v for a constant v, shape (..., 3): one phase is evaluated, not two."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            weights = self.rodrigues @ np.asarray(vector)
+        if not np.isfinite(weights).all():
+            raise AtlasError(f"The vector {vector} that is to be turned is too large for a float: choose larger units.")
+        return combinations(self.precession, weights, t, (3,), out)
+
+    def swung(self, vector: tuple[float, float, float], t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R_z(-phi t) v for a constant v, shape (..., 3): how the body sees what precesses with it."""
+        x, y, z = vector
+        if max(abs(x), abs(y)) > LARGEST:
+            raise AtlasError(f"The vector {vector} that turns is too large for a float: choose larger units.")
+        out = combinations(self.proper, 2 * np.array([[x, y, 0], [y, -x, 0], [0, 0, 0]]), t, (3,), out)
+        out[..., 2] = z
+        return out
+
+
+def combinations(
+    phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None
+) -> FloatArray:
+    """Return the sums over basis functions that `weights` (3, 9 or 11, prod(shape)) describe, at times of any shape."""
+    times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
+    if times.size <= PART:
+        out = target(out, times.shape + shape)
+        functions = Basis(phases, times.size, len(weights)).at(times.reshape(-1))
+        np.matmul(functions.T, weights, out=out.reshape(-1, weights.shape[1]))
+        return out
+
+    def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
+        """Return what fills a block."""
+        basis = Basis(phases, size, len(weights))
+        return lambda times, rows: combined(basis.at(times), weights, rows)
+
+    return evaluate(times, shape, out, prepare)
+
+
+def combined(functions: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
+    """Write the linear combinations of functions (k, m) that `weights` (k, n) describe into (m, n)."""
+    for i in range(0, len(rows), PART):
+        np.matmul(functions[:, i : i + PART].T, weights, out=rows[i : i + PART])
+
+
+def evaluate(
+    times: FloatArray,
+    shape: tuple[int, ...],
+    out: FloatArray | None,
+    prepare: Callable[[int], Callable[[FloatArray, FloatArray], None]],
+) -> FloatArray:
+    """Return what ``prepare(size)(t, rows)`` writes, block by block, for times of any shape; rows (m, prod(shape))."""
+    out = target(out, times.shape + shape)
+    rows = out.reshape(times.size, prod(shape))
+    flat: Any = times.reshape(-1) if times.flags.c_contiguous else times.flat
+
+    def part(low: int, high: int) -> None:
+        fill = prepare(min(high - low, BLOCK))
+        for i in range(low, high, BLOCK):
+            j = min(i + BLOCK, high)
+            fill(flat[i:j], rows[i:j])
+
+    shared(part, times.size, BLOCK)
+    return out
+
+
+def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
+    """Return the array of this shape to fill: a new one, or the caller's. Raises AtlasError if that does not fit."""
+    keep()
+    if out is None:
+        try:
+            return np.empty(shape)
+        except (ValueError, MemoryError) as error:  # more than NumPy can count, more than there is
+            raise AtlasError(
+                f"there is no memory for an array of shape {reprlib.repr(shape)}: ask for less."
+            ) from error
+    if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray):
+        raise AtlasError(f"out must be a NumPy array of shape {shape}, not of type {type(out).__name__}.")
+    if out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        kind = f"{'' if out.flags.writeable else 'read-only '}{out.dtype} of shape {out.shape}"
+        raise AtlasError(f"out must be a writable C-contiguous float64 array of shape {shape}, not {kind}.")
+    return out

@@ -1,0 +1,243 @@
+"""Rotation matrices of many motions R = R_n(k t) R_z(phi t), (85), each at a few times: no motion is made alone.
+
+What `rotation` makes once for one motion, and then evaluates as a matrix product, is here an array over motions: the
+axis, products of its components, both frequencies in two words. The entries are those of Rodrigues' formula,
+1 + sin x [n, .] + (1 - cos x)(n n^T - 1), times R_z. For phases up to 2^50
+the frequencies have a bound on their error.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass
+from functools import partial
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.arithmetic.double_double import DoubleDouble, blocks, over
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import Number, direction, workprec
+from atlas.arithmetic.phase import LIMIT, Phases, room
+from atlas.arithmetic.words import TURN, exact, magnitude, middle, scaled, words
+from atlas.errors import AtlasError, DomainError
+
+with workprec():
+    HEAD, TAIL = (np.float64(x) for x in words(2 / TURN, 2))
+PER_RADIAN = DoubleDouble(HEAD, TAIL, 2.0**-105)
+"""Half turns in a radian."""
+
+LARGEST = 1020
+"""Power of two beyond which a frequency is none of several."""
+
+LOST = 2.0**-55
+"""Half turns that a phase may lack by the error of its frequency: less than half an ulp of 1 in a matrix."""
+
+
+@dataclass(frozen=True)
+class Frequencies:
+    """Frequencies in half turns per unit of time: `words` (2, n, m) are P0 and P1, `lack` (n, m) bounds their error.
+
+    `exact(i)` returns the n frequencies of the i-th motion in radians.
+    """
+
+    words: FloatArray
+    lack: FloatArray
+    exact: Callable[[Any], Sequence[Number]]
+
+    def at(self, index: Any, t: FloatArray) -> FloatArray:
+        """Return words of motions by their index, good for the times t that go with them.
+
+        Raises AtlasError if a phase is too long.
+        """
+        words = self.words[..., index].copy()
+        with np.errstate(over="ignore", invalid="ignore"):
+            doubtful = np.flatnonzero(~(self.lack[:, index] * abs(t) <= LOST).all(axis=0))
+            motions = np.arange(self.words.shape[2])[index]
+            for i in doubtful.tolist():
+                words[:, :, i] = np.transpose([_words(f) for f in self.exact(motions[i])])
+            far = np.flatnonzero((abs(words[0] * t) > LIMIT / np.pi).any(axis=0))
+        if far.size:
+            longest = LIMIT / np.pi / abs(words[0][:, far[0]]).max()
+            raise AtlasError(
+                f"A time is {t[far[0]]}, but |t| may be {longest:.6g} at most, where a phase reaches 2^50 and is lost."
+            )
+        return words
+
+
+def _words(frequency: Number) -> list[float]:
+    """Return an exact frequency in radians as two words in half turns."""
+    with workprec():
+        halves = scaled(middle(frequency / TURN), 1)
+    if halves != 0 and magnitude(halves) > LARGEST:
+        raise DomainError("A frequency of one of these motions is too large for a float: choose larger units.")
+    return words(halves, 2)
+
+
+def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:
+    """Return the frequencies that a formula gives for inputs that broadcast: `words` and `lack` of `Frequencies`."""
+    shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
+    words, lack = list[Any](), list[Any]()
+    for rows, _, exponents, results in blocks(formula, inputs, shape, unit):
+        turns = [frequency * PER_RADIAN for frequency in results]
+        both = np.array([[np.broadcast_to(x, rows.stop - rows.start) for x in (f.hi, f.low)] for f in turns])
+        error = np.array([np.broadcast_to(f.rel * abs(f.hi), rows.stop - rows.start) for f in turns])
+        if exponents is not None:
+            both, error = np.ldexp(both, exponents[0]), np.ldexp(error, exponents[0])
+            error[:, ~exponents[1]] = np.nan
+        words.append(both)
+        lack.append(error)
+    if not prod(shape):
+        return np.empty((2, 2, 0)), np.empty((2, 0))
+    return np.concatenate(words, axis=2).swapaxes(0, 1), np.concatenate(lack, axis=1)
+
+
+REACH = 2.0**900
+"""Frequencies between its inverse and itself: their products with times of phases up to LIMIT keep their digits."""
+
+Constants = Callable[..., tuple[Sequence[Any], Any, Any]]
+"""A formula for a vector along n, in the plane (e2, e3) if it has two components, and for k and phi."""
+
+Group = tuple[Constants, Any, Sequence[Any]]
+"""A formula, the motions that it holds for (an index of them), and its inputs, which broadcast to these."""
+
+
+class Turnings:
+    """Motions in a row, `count` of them in `groups`; the inputs `unit` of each formula are frequencies.
+
+    `vectors` returns constant vectors of each motion by name, three components (m,). `inverse` transposes the matrices,
+    (28).
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        count: int,
+        unit: slice,
+        vectors: Callable[[], Mapping[str, Sequence[FloatArray]]],
+        *,
+        inverse: bool = False,
+    ) -> None:
+        self.vectors, self.inverse, self.indices = vectors, inverse, np.arange(count)
+        self.words = np.empty((2, 2, 0))
+        self.axis, self.dyad, self.defect = np.zeros((3, 3, count))
+        self.groups = np.empty(count, dtype=np.int8)
+        words, lack = np.empty((2, 2, count)), np.empty((2, count))
+        for number, (constants, index, inputs) in enumerate(groups):
+            self.groups[index] = number
+            planar = len(constants(*(DoubleDouble(np.float64(1)) for _ in inputs))[0]) == 2
+            entries = over(partial(_axis, constants), *inputs, unit=unit, degree=(0,) * (5 if planar else 9))
+            if planar:
+                n2, n3, n23, square2, square3 = entries
+                entries = [0.0, n2, n3, 0.0, 0.0, n23, 1.0, square3, square2]
+            for row, entry in zip((*self.axis, *self.dyad, *self.defect), entries, strict=True):
+                row[index] = np.ravel(entry)
+            words[..., index], lack[:, index] = words_of(partial(_both, constants), inputs, unit)
+        # nothing here refers to itself: a long sweep's arrays are free as soon as they are not needed
+        self.frequencies = Frequencies(words, lack, partial(_exact, groups, self.groups))
+
+    def at(self, index: Any, t: FloatArray) -> "Turnings":
+        """Return motions by their index, ready for the times t that go with them; AtlasError if a phase is too long."""
+        some = copy(self)
+        some.indices, some.words = self.indices[index], self.frequencies.at(index, t)
+        some.axis, some.dyad, some.defect = (x[:, index] for x in (self.axis, self.dyad, self.defect))
+        return some
+
+    def vector(self, name: str) -> Sequence[Any]:
+        """Return the components of a vector, each (m,)."""
+        return [x[self.indices] for x in self.vectors()[name]]
+
+    @property
+    def extreme(self) -> Any:
+        """Where a frequency is beyond REACH, and the motion has to be made alone."""
+        size = abs(self.words[0])
+        return np.flatnonzero(~((size == 0) | ((size > 1 / REACH) & (size < REACH))).all(axis=0))
+
+    def rotation(self, t: FloatArray, out: FloatArray) -> None:
+        """Write R(t), (84), at one time each, (m,), into (m, 3, 3)."""
+        for j, column in enumerate(self._columns(t)):
+            for i, entry in enumerate(column):
+                out[:, i, j] = entry
+
+    def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
+        """Write the columns R_j(t), j = 1, 2, 3, into (m, 3)."""
+        for i, entry in enumerate(self._columns(t)[j - 1]):
+            out[:, i] = entry
+
+    def quaternion(self, t: FloatArray, out: FloatArray) -> None:
+        """Write the quaternions q_n(k t) q_z(phi t), (x, y, z, w), or their inverses, into (m, 4)."""
+        (c, s), (cos, sin) = (self._circle(i, t / 2)[:2] for i in range(2))
+        x, y, z = self.axis * s
+        q = np.array([x * cos + y * sin, y * cos - x * sin, z * cos + c * sin, c * cos - z * sin])
+        q *= 1.5 - 0.5 * (q * q).sum(axis=0)
+        if self.inverse:
+            q[:3] *= -1
+        out[:] = q.T
+
+    def turned(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
+        """Write R_n(k t) v for constant v (3, m) into (m, 3)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            for i, row in enumerate(self._precession(*self._circle(0, t)[1:])):
+                out[:, i] = row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2]
+        if not np.isfinite(out).all():
+            raise AtlasError("A vector that is to be turned is too large for a float: choose larger units.")
+
+    def swung(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
+        """Write R_z(-phi t) v for constant v (3, m) into (m, 3)."""
+        (x, y, z), (cos, sin, _) = vector, self._circle(1, t)
+        out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
+
+    def _columns(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
+        """Return the columns of R_n(k t) R_z(phi t), or of its inverse, each entry (m,).
+
+        What rounding did to the length of a column is taken back by a step of Newton's.
+        """
+        cos, sin, _ = self._circle(1, t)
+        rows = [(x * cos + y * sin, y * cos - x * sin, z) for x, y, z in self._precession(*self._circle(0, t)[1:])]
+        columns = rows if self.inverse else zip(*rows, strict=True)
+        return [_unit(*column) for column in columns]
+
+    def _precession(self, sin: FloatArray, versine: FloatArray) -> list[tuple[Any, Any, Any]]:
+        """Return the rows of R_n, by Rodrigues."""
+        s1, s2, s3 = self.axis * sin
+        v12, v13, v23 = self.dyad * versine
+        d1, d2, d3 = 1.0 - self.defect * versine
+        return [(d1, v12 - s3, v13 + s2), (v12 + s3, d2, v23 - s1), (v13 - s2, v23 + s1, d3)]
+
+    def _circle(self, i: int, t: FloatArray) -> FloatArray:
+        """Return cos, sin and 1 - cos of the first or second phase, (3, m)."""
+        halves = np.empty((3, 1, t.size))
+        Phases.of_words(self.words[:, i : i + 1]).circle(t, room(1, t.size), halves[0], halves[1], halves[2, 0])
+        halves *= 2
+        return halves[:, 0]
+
+
+def _unit(x: FloatArray, y: FloatArray, z: FloatArray) -> tuple[Any, Any, Any]:
+    """Return a vector of length 1 but for rounding with a length nearer to 1, each component to its own size."""
+    factor = 1.5 - 0.5 * (x * x + y * y + z * z)
+    return x * factor, y * factor, z * factor
+
+
+def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
+    """Return n, n_i n_j for i < j and 1 - n_i^2; where n is in the plane (e2, e3), n2, n3, n2 n3, n2^2 and n3^2."""
+    n = direction(constants(*inputs)[0])
+    squares = [x * x for x in n]
+    if len(n) == 2:
+        return *n, n[0] * n[1], *squares
+    (x, y, z), (xx, yy, zz) = n, squares
+    return x, y, z, x * y, x * z, y * z, yy + zz, xx + zz, xx + yy
+
+
+def _both(constants: Constants, *inputs: Any) -> Sequence[Any]:
+    """Return k and phi."""
+    return constants(*inputs)[1:]
+
+
+def _exact(groups: Sequence[Group], places: NDArray[np.int8], i: int) -> Sequence[Number]:
+    """Return k and phi of a motion, by the group in whose place it stands."""
+    constants, index, inputs = groups[places[i]]
+    place = i if isinstance(index, slice) else np.searchsorted(index, i)
+    shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
+    with workprec():
+        return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))

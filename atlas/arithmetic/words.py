@@ -1,0 +1,67 @@
+"""Numbers of flint cut into doubles: axes and frequencies are made in 256 digits, and kept in words."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from flint import arb, fmpq
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import BITS, Number, nearest, rational, workprec
+
+__all__ = ["BITS", "ONE", "TURN", "ZERO", "exact", "floats", "magnitude", "middle", "scaled", "turn_of", "words"]
+
+
+def exact(*numbers: Any) -> tuple[fmpq, ...]:
+    """Return each double as the number it is; rational numbers stay."""
+    return tuple(x if isinstance(x, fmpq) else rational(float(x)) for x in numbers)
+
+
+def floats(numbers: Iterable[Number]) -> FloatArray:
+    """Return numbers, each rounded once."""
+    return np.array([nearest(x) for x in numbers])
+
+
+def middle(x: Number) -> arb:
+    """Return the middle of a ball, or a rational number, in 256 digits, as a ball without a radius."""
+    if isinstance(x, arb):
+        return x.mid()
+    with workprec():
+        return arb(x).mid()
+
+
+def scaled(x: arb, exponent: int) -> arb:
+    """Return x 2^exponent, for a ball without a radius."""
+    m, e = x.man_exp()
+    return arb((m, int(e) + exponent))
+
+
+def magnitude(x: arb) -> int:
+    """Least n with |x| < 2^n, for a ball without a radius that is not zero."""
+    m, e = x.man_exp()
+    return int(m).bit_length() + int(e)
+
+
+def words(x: Number, count: int) -> list[float]:
+    """Split a number into doubles, each the nearest to what the ones before it leave."""
+    parts, rest = [], middle(x)
+    with workprec(2 * BITS):
+        for _ in range(count):
+            parts.append(nearest(rest))
+            rest -= parts[-1]
+    return parts
+
+
+def turn_of(x: Number) -> arb:
+    """Return what is left of a number beyond the nearest whole one."""
+    m, e = (int(number) for number in middle(x).man_exp())
+    if e >= 0:
+        return arb(0)
+    one = 1 << -e
+    return arb(((m + (one >> 1)) % one - (one >> 1), e))
+
+
+ZERO, ONE = fmpq(0), fmpq(1)
+with workprec():
+    TURN = middle(2 * arb.pi())
+"""One turn, 2 pi radians."""

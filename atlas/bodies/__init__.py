@@ -1,0 +1,1 @@
+"""Bodies and what acts on them: moments of inertia, charges, fields, units, what is conserved."""

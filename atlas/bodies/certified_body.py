@@ -1,0 +1,44 @@
+"""Moments of inertia as exact rationals: of a ratio, of a body, of a shape with its dimensions (8), (33)."""
+
+from typing import Any, NamedTuple
+
+from flint import fmpq
+
+from atlas.arithmetic.certified_inputs import rational
+from atlas.bodies.formula_domain import ROD, check_ratio, written
+from atlas.bodies.formula_shapes import FLAT, SHAPES, check_shape
+from atlas.errors import DomainError
+
+
+class Moments(NamedTuple):
+    """I2 and I3, in the place of a ratio."""
+
+    I2: Any
+    I3: Any
+
+
+def ratio_of(ratio: Any) -> fmpq:
+    """Return I = I3/I2, (33), exactly: of a number, or the quotient of a body's two moments.
+
+    Domain: 0 < I <= 2. Raises DomainError outside.
+    """
+    if hasattr(ratio, "I2") and hasattr(ratio, "I3"):
+        if ratio.I3 == 0:
+            raise DomainError(ROD)
+        I = rational(ratio.I3, "I3") / rational(ratio.I2, "I2")
+    else:
+        I = rational(ratio, "the ratio I = I3/I2")
+    check_ratio(I)
+    return I
+
+
+def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
+    """Return (I2, I3) of a homogeneous shape, (8), exactly, from its ``mass`` and its dimensions."""
+    check_shape(name, dimensions)
+    names, formula = SHAPES[name]
+    values = [rational(dimensions[key], key) for key in names]
+    for key, value in zip(names, values, strict=True):
+        if value < 0 or (value == 0 and key not in FLAT):
+            raise DomainError(f"The {key} must be positive, not {written(value)}.")
+    m, *lengths = values
+    return formula(m, *(x * x for x in lengths))

@@ -1,0 +1,86 @@
+"""Second moments of a charge distribution that is symmetric about the body's axis, apart from those of its mass."""
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import CHARGE, LENGTH
+from atlas.arithmetic.inputs import number, real, vectors
+from atlas.bodies.body import SHAPES, from_shape
+from atlas.errors import AtlasError, DomainError
+
+CHARGE_MOMENT = "C m**2"
+SYMMETRIC = 1e-9
+"""By how much moments about the axis may differ from symmetric ones, in parts of the largest."""
+
+
+@dataclass(frozen=True)
+class ChargeMoments:
+    """Moments J = sum e (x^2 1 - x x^T) = diag(J2, J2, J3) of charges e at x from the centre of mass.
+
+    They are to charge what moments of inertia are to mass, of either sign, in charge times length squared; the sum of
+    two belongs to both distributions together: a charged coat on a neutral core has the coat's. The centre of charge
+    must be the centre of mass, else flight and rotation would be coupled; a body held at a point of its axis may have
+    it anywhere on the axis, x counted from that point.
+    Raises AtlasError for what is no finite number.
+    """
+
+    J2: float
+    J3: float
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        object.__setattr__(self, "J2", number(self.J2, "J2", CHARGE_MOMENT))
+        object.__setattr__(self, "J3", number(self.J3, "J3", CHARGE_MOMENT))
+
+    def __add__(self, other: "ChargeMoments") -> "ChargeMoments":
+        if not isinstance(other, ChargeMoments):
+            return NotImplemented
+        return ChargeMoments(self.J2 + other.J2, self.J3 + other.J3)
+
+    @classmethod
+    def shape(cls, name: str, charge: float, **dimensions: Any) -> Self:
+        """Moments of a charge spread evenly over a shape, as in `SymmetricBody`: "ring", "spherical_shell", ...
+
+        `dimensions` are those of the shape without its mass, e.g. radius. Raises AtlasError for another shape or other
+        dimensions, DomainError for one that is not positive.
+        """
+        if "mass" in dimensions:
+            raise AtlasError("Moments of a charge take no mass: give the charge and the dimensions of the shape.")
+        if name in SHAPES and {*dimensions, "mass"} != {*SHAPES[name][1]}:
+            sizes, given_sizes = (
+                ", ".join(size for size in x if size != "mass") for x in (SHAPES[name][1], dimensions)
+            )
+            raise AtlasError(f"The moments of a charged {name} take {sizes}, not {given_sizes or 'nothing'}.")
+        charge = number(charge, "The charge", CHARGE)
+        whole = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
+        sign = float(np.sign(charge))
+        return cls(sign * whole.I2, sign * whole.I3)
+
+    @classmethod
+    def points(cls, charges: Any, positions: Any, *, held: bool = False) -> Self:
+        """Moments of point charges, `charges` (N,) at `positions` (N, 3) from the centre of mass, e3 being the axis.
+
+        `held` says that the body is held at a point, from which the positions are counted. Raises DomainError if it is
+        not and the centre of charge is off that of mass (the sum of e x is not zero), or if the moments are not
+        symmetric about e3, to 1e-9 of the largest; AtlasError for wrong shapes.
+        """
+        e, x = real(charges, "The charges", CHARGE), vectors(positions, "The positions", LENGTH)
+        if e.ndim != 1 or x.shape != (*e.shape, 3):
+            raise AtlasError(f"Point charges are given by (N,) charges and (N, 3) positions, not {e.shape}, {x.shape}.")
+        dipole, reach = e @ x, np.abs(e) @ np.linalg.norm(x, axis=1)
+        if not held and np.abs(dipole).max(initial=0.0) > SYMMETRIC * reach:
+            raise DomainError(
+                f"The centre of charge is off the centre of mass: the sum of e x is {dipole.tolist()}, where it must "
+                "be zero, lest the flight drive the rotation; of a body held at a point, say held=True, or --heavy."
+            )
+        moments = np.einsum("n,nk,nk->", e, x, x) * np.eye(3) - np.einsum("n,ni,nj->ij", e, x, x)
+        symmetric = np.diag([moments[0, 0], moments[0, 0], moments[2, 2]])
+        size = np.abs(e) @ np.einsum("nk,nk->n", x, x)
+        if np.abs(moments - symmetric).max() > SYMMETRIC * size:
+            raise DomainError(
+                "The charges are not symmetric about e3, the body's axis: their moments J1 and J2 must be equal and "
+                "those off the diagonal zero, to 1e-9 of the largest."
+            )
+        return cls(float(moments[0, 0] + moments[1, 1]) / 2, float(moments[2, 2]))

@@ -1,0 +1,69 @@
+"""Integrals of a charged body of any inertia tensor: Clebsch's case of e(3), theorem-lie-poisson to theorem-clebsch."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.double_double import over
+from atlas.arithmetic.inputs import FloatArray, common_shape, plain, vectors
+from atlas.bodies import formula_integrals as formulas
+from atlas.bodies.body import SymmetricBody
+from atlas.bodies.inertia import inertia_tensor
+from atlas.bodies.symmetric_top import moments_of_one
+
+
+@dataclass(frozen=True)
+class Clebsch:
+    """What a charged body of any inertia tensor J conserves; each a float, or an array if the state was one.
+
+    M = J (Omega + K) is the canonical momentum. H, F and both Casimirs are independent if the three principal moments
+    differ; a symmetric body conserves M3 too, and F follows from it, theorem-clebsch-symmetric.
+    """
+
+    H: Any
+    """H = (M, J^-1 M)/2 + (K, J K)/2, theorem-lie-poisson, in the unit of inertia/time^2."""
+    F: Any
+    """Clebsch's F = M^2 - det J (K, J^-1 K), theorem-clebsch, in (unit of inertia/time)^2."""
+    MK: Any
+    """The Casimir (M, K), |B'| times the canonical momentum along B, in the unit of inertia/time^2."""
+    K2: Any
+    """The Casimir K^2 = B'^2, (37), in 1/time^2."""
+    energy: Any
+    """Kinetic energy (Omega, J Omega)/2 = H - (M, K), theorem-kinetic-energy, in the unit of inertia/time^2."""
+
+
+def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
+    """Return the integrals H, F, (M, K), K^2 and the kinetic energy of a state, theorem-clebsch.
+
+    `inertia` is any inertia tensor (3, 3) in the axes of the body, principal moments (3,), a SymmetricBody or a ratio
+    I = I3/I2 (I2 = 1 then); `Omega`, `K` = R^T B' (..., 3) in the body and in one unit 1/time; they broadcast.
+    The state is taken as exact, and each of the five is rounded once. DomainError for a tensor that no body has.
+    AtlasError is raised for what are no such arrays.
+    """
+    spin, field = vectors(Omega, "Omega"), vectors(K, "K")
+    common_shape(spin.shape, field.shape)
+    return conserved([*body_tensor(inertia).flat], spin, field)
+
+
+def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
+    """Return the integrals of states, each rounded once, of nine entries of J, which broadcast with Omega and K."""
+    unit = -int(np.frexp(max(np.abs(x).max(initial=0.0) for x in J))[1])
+    inputs = (*(np.ldexp(x, unit) for x in J), *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
+    integrals = over(formulas.clebsch, *inputs, unit=slice(9, None), degree=(2,) * 5)
+    powers = (-1 - unit, -2 * unit, -unit, 0, -1 - unit)
+    return Clebsch(*(plain(np.ldexp(x, power)) for x, power in zip(integrals, powers, strict=True)))
+
+
+def body_tensor(inertia: Any) -> FloatArray:
+    """Return the inertia tensor (3, 3), checked, of itself, principal moments (3,), a SymmetricBody or a ratio."""
+    if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
+        I2, I3 = moments_of_one(inertia)
+        inertia = (I2, I2, I3)
+    return inertia_tensor(inertia)
+
+
+def cofactors(J: FloatArray) -> FloatArray:
+    """Matrix det J J^-1 of a symmetric tensor (3, 3), in any floating type."""
+    return np.array([np.cross(J[1], J[2]), np.cross(J[2], J[0]), np.cross(J[0], J[1])])

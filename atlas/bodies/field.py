@@ -1,0 +1,179 @@
+"""Constant fields as the user has them, and the laboratory frame of figure Lssc, in which the paper works."""
+
+from dataclasses import dataclass
+from dataclasses import field as attribute
+from fractions import Fraction
+from typing import Any, Self
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import NO_FIELDS, RATE, SI_FIELDS
+from atlas.arithmetic.given import as_float_or_fraction
+from atlas.arithmetic.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
+from atlas.arithmetic.numbers import cross, dot, nearest, root, unit, workprec
+from atlas.arithmetic.words import exact
+from atlas.bodies import units as unit_systems
+from atlas.bodies.speeds import check_drift
+from atlas.display import called
+from atlas.errors import AtlasError, DomainError
+
+
+class Prime(np.ndarray[Any, np.dtype[np.float64]]):
+    """The vector B', an array (3,) that is not cut to B2 and B3 where B1 is not zero."""
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, slice) and self.shape == (3,) and key.indices(3) == (1, 3, 1) and self[0] != 0:
+            raise DomainError(
+                f"B1 = {float(self[0])} of this field is not zero, so that B2 and B3 are not all of it: take "
+                "field.frame(axis).field, for a body whose axis points along `axis`."
+            )
+        return super().__getitem__(key)
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
+
+    `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
+    (89) (Gaussian), 1 where not (SI); see `atlas.bodies.units`. Raises AtlasError for what is not finite, and
+    for c that is not positive.
+    """
+
+    B: FloatArray
+    E: FloatArray
+    mu: float
+    c: float
+    prime: FloatArray = attribute(init=False)
+    """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B. Its part [1:] is refused for B1 != 0."""
+    exact: tuple[float | Fraction, ...] = attribute(init=False)
+    """The components of B' without rounding, as motions take them: floats, or fractions where they are no floats."""
+
+    def __init__(self, B: Any, E: Any = (0.0, 0.0, 0.0), mu: Any = 1.0, c: Any = 1.0) -> None:
+        object.__setattr__(self, "c", positive(c, "c"))
+        unit = SI_FIELDS if self.c == 1 else NO_FIELDS
+        object.__setattr__(self, "B", vector(B, "B", unit["B"]))
+        object.__setattr__(self, "E", vector(E, "E", unit["E"]))
+        object.__setattr__(self, "mu", number(mu, "mu", unit["mu"]))
+        prime = unit_systems.prime(mu if isinstance(mu, Fraction) else self.mu, self.B, self.c)
+        object.__setattr__(self, "exact", tuple(as_float_or_fraction(x) for x in prime))
+        object.__setattr__(self, "prime", frozen(np.array([float(x) for x in self.exact]).view(Prime)))
+
+    def __repr__(self) -> str:
+        text = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
+        return f"{text}  # B' = {self.prime.tolist()}"
+
+    @classmethod
+    def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+        """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s.
+
+        Since the units are known, a drift above a tenth of the speed of light gives a `RelativisticWarning`, and
+        DomainError where |E| across B is c |B| or more. Raises AtlasError as `Field` does.
+        """
+        field = cls(B, E, mu, unit_systems.SI.c)
+        check_drift(field.E, field.B, unit_systems.SI)
+        return field
+
+    @classmethod
+    def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s.
+
+        Warns of a drift, and raises DomainError, as `si` does: here |E| across B stays below |B|. Raises AtlasError as
+        `Field` does.
+        """
+        field = cls(B, E, mu, unit_systems.GAUSSIAN.c)
+        check_drift(field.E, field.B, unit_systems.GAUSSIAN)
+        return field
+
+    @property
+    def pair(self) -> tuple[float, float]:
+        """(B2, B3) of B', what a motion takes a field for whose body points along e3, (32). DomainError for B1 != 0."""
+        B2, B3 = self.prime[1:].tolist()
+        return B2, B3
+
+    @property
+    def exact_pair(self) -> tuple[float | Fraction, ...]:
+        """(B2, B3) of `exact`. DomainError for B1 != 0."""
+        _ = self.pair
+        return self.exact[1:]
+
+    def frame(self, axis: Any) -> "LaboratoryFrame":
+        """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.
+
+        Raises AtlasError for an axis without a direction.
+        """
+        return LaboratoryFrame(axis, self.prime)
+
+
+@dataclass(frozen=True, eq=False)
+class LaboratoryFrame:
+    """Frame of figure Lssc: e3 along the body's axis at t = 0, B' in the plane of e2 and e3 with B2 >= 0, (32).
+
+    `axis` (3,), not zero; `B` (3,), the vector B' (for mu < 0 it is not B that has B2 >= 0, but B'), both in the
+    user's frame. Both are taken as exact, and whether they are parallel is decided exactly.
+
+    `alignment` names the case: `oblique`; `perpendicular` (B3 = 0); `parallel` and `antiparallel` (B2 = 0, B3 > 0 and
+    < 0) and `no field`, where the plane is not determined and e1 is taken from the user's axis farthest from e3. Raises
+    AtlasError for an axis or a field that is no vector.
+    """
+
+    axis: FloatArray
+    B: FloatArray
+    alignment: str = attribute(init=False)
+    field: tuple[float, float] = attribute(init=False)
+    """(B2, B3), each rounded once."""
+    matrix: FloatArray = attribute(init=False)
+    """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
+
+    def __init__(self, axis: Any, B: Any) -> None:
+        """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
+        axis, B = vector(axis, "The axis"), vector(B, "B", RATE)
+        n, b = exact(*axis), exact(*B)
+        n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
+        if n2 == 0:
+            raise DomainError("The axis of the body must have a direction, but is the zero vector.")
+        oblique = dot(across, across) != 0
+        if oblique:
+            alignment = "oblique" if along != 0 else "perpendicular"
+            e2 = [n2 * y - along * x for x, y in zip(n, b, strict=True)]
+        else:
+            alignment = "no field" if b2 == 0 else "parallel" if along > 0 else "antiparallel"
+            e1 = exact(*np.eye(3)[np.argmin(np.abs(axis))])
+            across = tuple(n2 * y - dot(n, e1) * x for x, y in zip(n, e1, strict=True))
+            e2 = list(cross(n, e1))
+        with workprec():
+            third = nearest(root(along * along / n2))
+            field = (nearest(root(dot(across, across) / n2)) if oblique else 0.0, -third if along < 0 else third)
+            matrix = np.array([[nearest(x) for x in unit(row)] for row in (across, e2, n)])
+        object.__setattr__(self, "axis", axis)
+        object.__setattr__(self, "B", B)
+        object.__setattr__(self, "alignment", alignment)
+        object.__setattr__(self, "field", finite(field, "A length or a frequency"))
+        object.__setattr__(self, "matrix", frozen(matrix))
+
+    def __repr__(self) -> str:
+        text = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
+        return f"{text}  # {self.alignment}, (B2, B3) = {self.field}"
+
+    def to_laboratory(self, v: Any) -> FloatArray:
+        """Components (..., 3) in the laboratory of vectors given in the user's frame.
+
+        Raises AtlasError for what are no vectors.
+        """
+        return vectors(v, "v") @ self.matrix.T
+
+    def to_user(self, v: Any) -> FloatArray:
+        """Components (..., 3) in the user's frame of vectors given in the laboratory.
+
+        Raises AtlasError for what are no vectors.
+        """
+        return vectors(v, "v") @ self.matrix
+
+    def rotation_to_user(self, R: Any) -> FloatArray:
+        """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's.
+
+        Raises AtlasError for what are no matrices.
+        """
+        rotations = real(R, "R")
+        if rotations.shape[-2:] != (3, 3):
+            raise AtlasError(f"R must be matrices (..., 3, 3), not of shape {rotations.shape}.")
+        return self.matrix.T @ rotations @ self.matrix

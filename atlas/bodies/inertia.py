@@ -1,0 +1,137 @@
+"""Inertia tensor and mass matrix (8), one from the other, for any body."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import LENGTH, MASS
+from atlas.arithmetic.inputs import FloatArray, real
+from atlas.errors import AtlasError, DomainError
+
+ROUNDING = 16 * float(np.finfo(float).eps)
+"""Part of the largest principal value of a matrix by which rounded elements may make a principal value wrong."""
+
+PRECISION = 320
+"""Bits of principal values and axes before they are rounded, once."""
+
+LARGEST = float(np.finfo(float).max) / 8
+"""Sums of elements up to this are finite."""
+
+
+def mass_matrix(inertia: Any) -> FloatArray:
+    """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see (12)."""
+    inertia = np.asarray(inertia, dtype=np.float64)
+    return np.asarray(np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2 * np.eye(3) - inertia)
+
+
+def mass_matrix_from_inertia(inertia: Any) -> FloatArray:
+    """Mass matrix g = (tr I / 2) 1 - I of an inertia tensor: 2 g1 = I2 + I3 - I1, and so on; see (11).
+
+    `inertia` is a diagonal of shape (3,) or tensors of shape (..., 3, 3); the result has the same shape.
+    """
+    tensor, trace = diagonal_or_matrices(inertia, "The inertia tensor")
+    return trace / 2 - tensor if tensor.ndim == 1 else mass_matrix(tensor)
+
+
+def inertia_from_mass_matrix(mass_matrix: Any) -> FloatArray:
+    """Inertia tensor I = (tr g) 1 - g of a mass matrix (8), as defined below (12).
+
+    `mass_matrix` is a diagonal of shape (3,) or matrices of shape (..., 3, 3); the result has the same shape.
+    """
+    matrix, trace = diagonal_or_matrices(mass_matrix, "The mass matrix")
+    return trace - matrix if matrix.ndim == 1 else trace * np.eye(3) - matrix
+
+
+def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
+    """Mass matrix g_ij = sum m_N x_N^i x_N^j, (8), of points counted from their centre of mass.
+
+    `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
+    """
+    m, x = real(masses, "The masses", MASS), real(positions, "The positions", LENGTH)
+    if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
+        raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
+    if m.min() <= 0:
+        raise DomainError(f"Every mass must be positive, but one is {m.min()}.")
+    with np.errstate(over="ignore", invalid="ignore"):
+        x = x - (m @ x) / m.sum()
+        return real((m[:, None] * x).T @ x, "The mass matrix")
+
+
+def inertia_tensor(inertia: Any) -> FloatArray:
+    """Return the inertia tensor (3, 3) of a body, from itself or from principal moments (3,), checked.
+
+    Raises DomainError unless it is positive, with each principal moment at most the sum of the others: by (11),
+    2 g1 = I2 + I3 - I1 is a sum of 2 m x^2. A plane body has equality, up to rounding.
+    """
+    tensor, _ = diagonal_or_matrices(inertia, "The inertia tensor")
+    if tensor.ndim > 2:
+        raise AtlasError(f"A body has one inertia tensor (3, 3) or diagonal (3,), not the shape {tensor.shape}.")
+    tensor = np.diag(tensor) if tensor.ndim == 1 else tensor
+    rounded = ROUNDING * bool((tensor * (1 - np.eye(3))).any())
+    I = np.sort(principal(tensor)[0])
+    if I[0] <= rounded * I[2]:
+        raise DomainError(f"The moments of inertia must be positive, but the principal ones are {I}.")
+    if I[2] - I[1] > I[0] + ROUNDING * I[2]:
+        raise DomainError(
+            f"No body has the principal moments {I}: the largest is at most the sum of the others, since 2 g1 = I2 + "
+            f"I3 - I1 is a sum of 2 m x^2, but {I[2]:.6g} > {I[1]:.6g} + {I[0]:.6g}."
+        )
+    return tensor
+
+
+def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Principal values (3,) of a symmetric matrix (3, 3), and its principal axes as the rows of a rotation (3, 3).
+
+    The elements are taken as exact: values and axes are those of the characteristic polynomial over the rationals, each
+    rounded once, so that small values are as accurate as large ones. Values of a diagonal stay in their order; others
+    ascend.
+    """
+    from flint import arb, fmpq, fmpq_mat, fmpq_poly
+
+    from atlas.arithmetic.numbers import cross, dot, nearest, workprec
+
+    if not (matrix * (1 - np.eye(3))).any():
+        return np.diagonal(matrix).copy(), np.eye(3)
+    exact = [[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
+    (a, d, e), (d2, b, f), (e2, f2, c) = exact
+    d, e, f = (d + d2) / 2, (e + e2) / 2, (f + f2) / 2
+    of_pairs = a * b + a * c + b * c - d * d - e * e - f * f
+    determinant = fmpq_mat([[a, d, e], [d, b, f], [e, f, c]]).det()
+    with workprec(PRECISION):
+        roots = fmpq_poly([-determinant, of_pairs, -(a + b + c), 1]).complex_roots()
+        values = sorted(((x.real, n) for x, n in roots), key=lambda root: float(root[0].mid()))
+        axes = list[list[arb]]()
+        for value, count in values:
+            if count == 1:
+                rows = [[a - value, arb(d), arb(e)], [arb(d), b - value, arb(f)], [arb(e), arb(f), c - value]]
+                normals = [cross(rows[i], rows[i - 1]) for i in range(3)]
+                axis = max(normals, key=lambda v: float(dot(v, v).mid()))
+                axes.append([x / dot(axis, axis).sqrt() for x in axis])
+        simple = np.array([[nearest(x) for x in axis] for axis in axes])
+    I = np.array([nearest(x) for x, n in values for _ in range(n)])
+    simple *= np.where(np.take_along_axis(simple, abs(simple).argmax(1)[:, None], 1) < 0, -1.0, 1.0)
+    if len(simple) == 3:
+        turn = np.sign(np.linalg.det(simple))
+        return I, simple * np.array([[1.0], [1.0], [turn]])
+    third = simple[0]
+    second = np.cross(third, np.eye(3)[abs(third).argmin()])
+    second /= np.linalg.norm(second)
+    frame = [np.cross(second, third), second, third]
+    return I, np.array(frame if values[0][1] == 2 else [third, frame[0], frame[1]])
+
+
+def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:
+    """Return diagonals (3,) or symmetric matrices (..., 3, 3) and their trace, shaped to broadcast."""
+    tensor = real(value, name)
+    if tensor.shape != (3,) and tensor.shape[-2:] != (3, 3):
+        raise AtlasError(f"{name} must be a diagonal (3,) or matrices (..., 3, 3), not of shape {tensor.shape}.")
+    if np.abs(tensor).max(initial=0.0) > LARGEST:
+        raise DomainError(f"{name} is too large for a float: choose larger units.")
+    if tensor.ndim == 1:
+        return tensor, tensor.sum()
+    size = np.abs(tensor).max(axis=(-2, -1))
+    if (np.abs(tensor - tensor.swapaxes(-2, -1)).max(axis=(-2, -1)) > ROUNDING * size).any():
+        i, j = np.unravel_index(np.argmax(np.abs(tensor - tensor.swapaxes(-2, -1)).reshape(-1, 9).max(axis=0)), (3, 3))
+        element, other = tensor.reshape(-1, 3, 3)[0][[i, j], [j, i]]
+        raise AtlasError(f"{name} must be symmetric, but has {element:.6g} and {other:.6g} across its diagonal.")
+    return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]

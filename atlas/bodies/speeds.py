@@ -1,0 +1,70 @@
+"""Speeds beside that of light, where units are known: all formulas of the atlas are non-relativistic.
+
+A charge drifts across crossed fields with c [E, B]/B^2, (94), which is below the speed of light only while |E| across B
+is below c |B| in SI, below |B| in Gaussian units. What is above a tenth of the speed of light is warned of once, by a
+`RelativisticWarning`; a drift at or above it is refused.
+"""
+
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.inputs import scaled
+from atlas.bodies.units import SPEED_OF_LIGHT, System
+from atlas.errors import DomainError, RelativisticWarning
+
+SLOW = 0.1
+"""Part of the speed of light above which a speed is warned of: squares of it are beyond a percent."""
+
+ELLIPSOIDS = "sphere", "spherical_shell", "spheroid"
+"""Shapes without a rim."""
+
+RIM = np.linspace(0.0, 2 * np.pi, 64, endpoint=False)
+"""Angles of points of a rim at which its speed is taken."""
+
+
+def speed_of_light(units: System) -> float:
+    """Return the speed of light in the unit of length of a system by the second."""
+    return SPEED_OF_LIGHT if units.c == 1 else units.c
+
+
+def check_drift(E: Any, B: Any, units: System) -> None:
+    """Warn of a drift in fields (3,) above a tenth of the speed of light. DomainError where it is not below it."""
+    e, n = (np.array(x, dtype=float) for x in (E, B))
+    if not (n.any() and e.any()):
+        return
+    (n, up), (e, down) = scaled(n), scaled(e)
+    with np.errstate(over="ignore"):
+        drift = np.ldexp(np.linalg.norm(np.cross(e, n)) / (n @ n), down - up)
+        part = float(drift * units.c / speed_of_light(units))
+    if part >= 1:
+        least = "c |B|" if units.c == 1 else "|B|"
+        raise DomainError(
+            f"electric field: the drift c [E, B]/B^2 would be {part:.6g} times the speed of light: the part of E "
+            f"across B must stay below {least}, for the atlas is non-relativistic."
+        )
+    warn_of("the drift c [E, B]/B^2", part)
+
+
+def warn_of(speed: str, part: float) -> None:
+    """Warn of a speed, in parts of that of light, if it is above a tenth."""
+    if part > SLOW:
+        warnings.warn(
+            f"non-relativistic: {speed} is {part:.3g} times the speed of light, above {SLOW:g}: formulas are off by "
+            "about the square of that.",
+            RelativisticWarning,
+            stacklevel=4,
+        )
+
+
+def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
+    """Return the largest speed |[Omega, x]| of points x of a shape about e3, one of `SHAPES`, by its dimensions."""
+    w, r = np.array(omega, dtype=float), float(sizes.get("radius", 0.0))
+    if shape in ELLIPSOIDS:
+        axes = [float(sizes.get(name, r)) for name in ("equatorial", "equatorial", "polar")]
+        return float(np.linalg.norm(np.cross(w, np.diag(axes)), 2))
+    half = float(sizes.get("height", sizes.get("length", 0.0))) / 2
+    rim = np.stack([r * np.cos(RIM), r * np.sin(RIM), np.full_like(RIM, half)], -1)
+    return float(np.linalg.norm(np.cross(w, rim), axis=-1).max())

@@ -1,0 +1,58 @@
+"""What a report shows of recorded results, as plain data: the trial of the ledger's entries, and tables by name.
+
+The floor above reads the records; this one sets them out and never runs what they record.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from atlas.book.tables.table import Data
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What the trial found on one entry of the ledger, in the plain letters of its record.
+
+    verdict         proved, refuted, undecided, definition, or supported, then with the count in `method`
+    method          how it was decided, and `follows`: from what the printed form was derived
+    corrected       TeX of the true form where the printed one is refuted, and the verdict on it
+    counterexample  values of the letters that break the printed form, and what its two sides then are
+    note            what the verdict means, where it needs a word
+    modules         the modules that cite the entry, such as ``motions/elementary/kernel_hyperbola.py``
+    grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
+    false           a false sentence near a claim in words, which the trial refutes
+    script          plain SymPy that shows it, or the line that says why there is none
+    said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed
+    """
+
+    verdict: str
+    method: str
+    follows: str
+    corrected: str = ""
+    corrected_verdict: str = ""
+    counterexample: Mapping[str, str] = field(default_factory=dict)
+    note: str = ""
+    modules: tuple[str, ...] = ()
+    grade: str = ""
+    slip: str = ""
+    false: str = ""
+    script: str = ""
+    said: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Described:
+    """A public name of the package: its arguments as they are written, its docstring, and the names inside it."""
+
+    arguments: str
+    docstring: str
+    members: Mapping[str, "Described"] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Appendices:
+    """The findings by label, the recorded tables by name, and the public names of the package."""
+
+    findings: Mapping[str, Finding] = field(default_factory=dict)
+    tables: Mapping[str, Data] = field(default_factory=dict)
+    reference: Mapping[str, Described] = field(default_factory=dict)

@@ -1,0 +1,66 @@
+"""The works that a report cites: a BibTeX file, set by pandoc's citeproc in the pages and by Typst in the PDF.
+
+Both set them by author and year, so that a citation reads the same wherever it stands.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from atlas.book import pandoc
+from atlas.errors import AtlasError
+
+NAME = "references.bib"
+"""What the file is called beside the source of the PDF."""
+_MODES = ("AuthorInText", "NormalCitation")
+
+
+@dataclass(frozen=True)
+class Bibliography:
+    """Works by key: how each is named in a sentence and in brackets, and its entry as HTML, in the order of the list.
+
+    `source` is the text of the file.
+    """
+
+    source: str = ""
+    named: Mapping[str, str] = field(default_factory=dict)
+    bracketed: Mapping[str, str] = field(default_factory=dict)
+    entries: Mapping[str, str] = field(default_factory=dict)
+
+
+def read(path: Path) -> Bibliography:
+    """Read a BibTeX file. Raises AtlasError if it can't be read or has no entry."""
+    try:
+        source = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise AtlasError(f"the bibliography {path} can't be read: {error}.") from error
+    keys = [entry["id"] for entry in json.loads(pandoc.run(["-f", "biblatex", "-t", "csljson"], source))]
+    if not keys:
+        raise AtlasError(f"the bibliography {path} has no entry.")
+    cited = [{"t": "Cite", "c": [[_citation(key, mode)], []]} for mode in _MODES for key in keys]
+    document = pandoc.document([{"t": "Plain", "c": [citation]} for citation in cited])
+    arguments = ["-f", "json", "-t", "json", "--citeproc", f"--bibliography={path}"]
+    *plain, listed = json.loads(pandoc.run(arguments, document))["blocks"]
+    words = [_words(citation["c"][0]["c"][1]) for citation in plain]
+    entries = {citation["c"][0][0].removeprefix("ref-"): citation["c"][1] for citation in listed["c"][1]}
+    html = pandoc.write([(tree, False) for tree in entries.values()], "html")
+    return Bibliography(
+        source,
+        dict(zip(keys, words, strict=False)),
+        {key: citation[1:-1] for key, citation in zip(keys, words[len(keys) :], strict=True)},  # without its brackets
+        dict(zip(entries, html, strict=True)),
+    )
+
+
+def _citation(key: str, mode: str) -> dict[str, Any]:
+    """Return a citation of one work as pandoc writes it."""
+    nothing: dict[str, Any] = {"citationPrefix": [], "citationSuffix": [], "citationNoteNum": 0, "citationHash": 0}
+    return {"citationId": key, "citationMode": {"t": mode}, **nothing}
+
+
+def _words(nodes: list[Any]) -> str:
+    """Return the words of inlines; what is nested in them comes last in each."""
+    inner = (node.get("c", " ") for node in nodes)
+    return "".join(words if isinstance(words, str) else _words(words[-1]) for words in inner)

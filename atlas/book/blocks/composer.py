@@ -1,0 +1,97 @@
+"""What the blocks of a report share while they are gone through in order: counts, texts, names, uses."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from atlas.book.appendices import Appendices
+from atlas.book.texts import citations
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.equation import slug
+
+
+@dataclass(frozen=True)
+class Use:
+    """A place of the report that cites an entry of the ledger: page, anchor, and what it is."""
+
+    page: str
+    file: str
+    anchor: str
+    words: str
+
+
+class Composer:
+    """Goes through the blocks of a report, and collects in its `document` what they have.
+
+    slug, title      the page
+    where            the place that an error names
+    figures, tables  how many there are so far
+    parameters       the bodies and fields of the report
+    recorded         the recorded results that its blocks show
+    ledger           the page of each entry of the ledger that the report has
+    uses             the places that use each equation
+    """
+
+    def __init__(self, document: Any, recorded: Appendices) -> None:
+        self.document, self.recorded = document, recorded
+        self.where = self.slug = self.title = ""
+        self.figures = self.tables = 0
+        self.uses, self.ledger, self.parameters = document.uses, document.ledger, document.report.parameters
+
+    def begin(self, slug: str, title: str) -> None:
+        """Go on to a page."""
+        self.slug, self.title = slug, title
+        self.cited: set[str] = set()
+        self.said: set[str] = set()
+
+    def text(self, markdown: str, *, inline: bool = False) -> int:
+        """Take in a text and return its number."""
+        return int(self.document.texts.add(markdown, self.where, inline=inline))
+
+    def paragraphs(self, markdown: str) -> int:
+        """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
+        anchors = {}
+        for name in citations(markdown):
+            if name in EQUATIONS and name not in self.cited and self.ledger.get(name) != self.slug:
+                self.cited.add(name)
+                anchors[name] = f"cite-{self.slug}-{slug(name)}"
+                self.use(name, anchors[name], "text")
+        return int(self.document.texts.add(markdown, self.where, anchors=anchors))
+
+    def caption(self, markdown: str, anchor: str, words: str) -> int:
+        """Take in a caption; what it cites is used by its figure or table."""
+        for name in citations(markdown):
+            if name in EQUATIONS:
+                self.use(name, anchor, words)
+        return self.text(markdown, inline=True)
+
+    def once(self, sentence: str) -> str:
+        """Return a sentence that has not been said on this page, else nothing."""
+        new = sentence not in self.said
+        self.said.add(sentence)
+        return sentence if new else ""
+
+    def anchors(self, names: Iterable[str]) -> list[str]:
+        """Return where names lead in the PDF, but for what stands beside this report. Raises for an unknown one."""
+        find, targets = self.document.cite("typst"), self.document.targets
+        anchors = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
+        return [anchor for anchor in anchors if anchor]
+
+    def use(self, name: str, anchor: str, words: str) -> None:
+        """Note that a place of this page uses an equation, once."""
+        place = Use(self.title, f"{self.slug}.html", anchor, words)
+        if place not in self.uses[name]:
+            self.uses[name].append(place)
+
+    def target(self, name: str, anchor: str, words: str) -> bool:
+        """Let a name lead to an anchor of this page; return whether it is the first to do so."""
+        first = name not in self.document.targets
+        if first:
+            self.document.targets[name] = (f"{self.slug}.html", anchor, words)
+        return first
+
+    def anchor(self, kind: str, own: str | None, word: str, number: int) -> str:
+        """Return the anchor of a figure or table, by its id or else its number, and let citations lead there."""
+        name = own or f"{number}"
+        self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
+        return f"{kind}-{name}"

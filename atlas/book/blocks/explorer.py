@@ -1,0 +1,101 @@
+"""Motions with sliders: the pages show them as they move; print leaves them out."""
+
+import json
+from dataclasses import asdict, dataclass, replace
+from math import atan2, degrees
+from typing import Any, Literal
+
+import msgspec
+
+from atlas.book.blocks.composer import Composer
+from atlas.book.schema import Pair, StrictStruct
+from atlas.errors import AtlasError, unknown
+from atlas.families.sliders import TIME, Slider, sliders_of
+from atlas.motions.register import FAMILIES
+
+_OBLIQUE, _STEP = (1.0, 89.0), 0.01
+"""The angle between field and e2 in degrees, for which (71) has a pole and both asymptotes, and its step."""
+_PLANE = (-3.0, 3.0), (-5.0, 5.0)
+"""What the plane of omega2 and omega3 shows of them, in the script too."""
+IN_SPACE = ("space", "body")
+
+Panel = Literal["plane", "space", "body", "frequencies", "portrait", "rosette"]
+
+
+class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
+    """A sentence in Markdown with TeX, and below it the motion that the sliders choose.
+
+    ``panels`` are what is seen: the ``plane`` of omega2 and omega3 with the hyperbola, the ``space`` with the quadric,
+    the ``body``; the ``frequencies`` over omega2, the phase ``portrait``, the ``rosette`` of a point, 40 degrees
+    from the axis, as seen along the field.
+    ``sliders`` are among I, angle, omega1, omega2, omega3, p and q; what has none keeps the register's start, and
+    omega3 is that of the hyperbola. ``start`` sets some of them, ``at`` the field (B2, B3).
+    """
+
+    text: str
+    panels: tuple[Panel, ...] = ("plane", "body")
+    sliders: tuple[str, ...] = ("I", "angle", "omega2", "omega3")
+    start: dict[str, float] = msgspec.field(default_factory=dict)
+    at: Pair | None = None
+
+
+@dataclass(frozen=True)
+class ExplorerView:
+    """The number of its text, its panels and sliders, and for the script the field (B2, B3).
+
+    The field is exact until a slider turns it; ``free`` is a start off the hyperbola.
+    """
+
+    text: int
+    panels: tuple[str, ...]
+    sliders: tuple[Slider, ...]
+    field: tuple[float, float]
+    free: bool
+
+    @property
+    def described(self) -> str:
+        """The sliders for the script."""
+        return json.dumps([asdict(slider) for slider in self.sliders], ensure_ascii=False)
+
+    @property
+    def in_space(self) -> bool:
+        """Whether a panel is drawn in space."""
+        return any(name in IN_SPACE for name in self.panels)
+
+
+def view(block: Explorer, composer: Composer) -> ExplorerView:
+    """Take in the text; ranges and starts of the sliders are those of the register where the block sets none.
+
+    Raises AtlasError for a slider that there is not.
+    """
+    B2, B3 = (
+        block.at
+        or next(parameter for parameter in FAMILIES["elementary"].parameters if parameter.name == "field").default
+    )
+    known = _sliders(B2, B3)
+    for name in (*block.sliders, *block.start):
+        if name not in known:
+            raise unknown("slider", name, known)
+    if any(name not in block.sliders for name in block.start):
+        raise AtlasError(f"start: only what has a slider may be set, one of {', '.join(block.sliders)}.")
+    chosen = [replace(known[name], start=block.start.get(name, known[name].start)) for name in block.sliders]
+    moving = [] if block.panels == ("frequencies",) else [TIME]
+    text, free = composer.paragraphs(block.text), "omega3" in block.start
+    return ExplorerView(text, block.panels, (*chosen, *moving), (B2, B3), free)
+
+
+def _sliders(B2: float, B3: float) -> dict[str, Slider]:
+    """Return all sliders by name."""
+    known = {slider.name: slider for name in ("general", "elementary") for slider in sliders_of(FAMILIES[name])}
+    (low2, high2), (low3, high3) = _PLANE
+    turned = "angle of the field with e2, in degrees"
+    sliders: list[Any] = [
+        replace(known["ratio"], name="I", symbol="I"),
+        Slider("angle", turned, *_OBLIQUE, _STEP, round(degrees(atan2(B3, B2)), 2), "∠(e₂, B)"),
+        replace(known["omega1"], symbol="ω₁", start=0.0),
+        replace(known["omega2"], symbol="ω₂", low=low2, high=high2),
+        replace(known["omega3"], symbol="ω₃", low=low3, high=high3, step=_STEP, start=0.0),
+        Slider("p", "turns of the body about its axis", -7.0, 7.0, 1.0, 1.0),
+        Slider("q", "turns of the axis about the field", 1.0, 9.0, 1.0, 2.0),
+    ]
+    return {slider.name: slider for slider in sliders}

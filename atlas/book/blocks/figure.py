@@ -1,0 +1,126 @@
+"""A numbered figure: one picture, or two beside each other; of each what is drawn, and what became of it."""
+
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from atlas.book.blocks.composer import Composer
+from atlas.book.schema import Id, StrictStruct
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.citation import marked
+
+
+class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
+    """A recipe with its parameters; ``both`` sets the shaded picture beside the line drawing."""
+
+    recipe: str
+    id: Id | None = None
+    renderer: Literal["vector", "shaded", "both"] = "vector"
+    body: str | None = None
+    bodies: tuple[str, ...] = ()
+    field: str | None = None
+    sets: tuple[str, ...] = ()
+    parameters: dict[str, Any] = msgspec.field(default_factory=dict)
+    caption: str | None = None
+    width: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
+
+
+@dataclass
+class Picture:
+    """A picture that is drawn once for all the blocks that show it: what is wanted, and what became of it.
+
+    stem        its name among the files of the report
+    recipe, renderer, parameters    what to draw: a name in figures/ or a file; `title` is that of the recipe
+    caption, alt, size    what the scene says of itself, and its size in millimetres
+    given       all parameters of the scene as text
+    file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
+    tables      the commands that make tables of the numbers that it shows
+    beside      the places of what else the page shows it with, where it has that: the same for a `narrow` screen, the
+                script with which the page turns the `scene`, the one that tells how it `moves`
+    failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
+    """
+
+    stem: str
+    recipe: str
+    renderer: str
+    parameters: Mapping[str, Any]
+    title: str = ""
+    caption: str = ""
+    alt: str = ""
+    size: tuple[float, float] = (120.0, 30.0)
+    given: Mapping[str, str] = field(default_factory=dict)
+    file: str = ""
+    files: Mapping[str, str] = field(default_factory=dict)
+    beside: Mapping[str, str] = field(default_factory=dict)
+    tables: tuple[str, ...] = ()
+    failure: str = ""
+    remark: str = ""
+
+    @property
+    def called(self) -> str:
+        """The recipe as it stands in the report: its name, or that of its file beside the report."""
+        return Path(self.recipe).name
+
+    @property
+    def printed(self) -> str:
+        """The file that the PDF shows: PDF in the place of SVG."""
+        return self.file.replace(".svg", ".pdf")
+
+    @property
+    def command(self) -> str:
+        """The command that draws it."""
+        from atlas.pictures.parameters import typed
+
+        settings = [f"{name}={typed(value)}" for name, value in self.parameters.items() if value is not None]
+        words = ["atlas", "figure", self.called, *(["--set", *settings] if settings else [])]
+        return shlex.join([*words, *(["--renderer", "shaded"] if self.renderer == "shaded" else [])])
+
+
+@dataclass(frozen=True)
+class FigureView:
+    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters."""
+
+    number: int
+    id: str
+    pictures: tuple[Picture, ...]
+    caption: int
+    alt: str
+    width: float
+    height: float
+    given: int
+
+    @property
+    def failure(self) -> str:
+        """Why there is no picture, or nothing."""
+        return next((picture.failure for picture in self.pictures if picture.failure), "")
+
+    @property
+    def remark(self) -> str:
+        """What the reader should know of how it was drawn, or nothing."""
+        return next((picture.remark for picture in self.pictures if picture.remark), "")
+
+
+def view(block: Figure, composer: Composer) -> FigureView:
+    """Give a figure its number and take in its caption; where it could not be drawn, the view says why."""
+    composer.figures += 1
+    pictures = tuple(composer.document.pictures_of(block))
+    first = pictures[0]
+    caption = block.caption or marked(first.caption, EQUATIONS) or f"The recipe {first.called} failed."
+    width, height = first.size
+    shown = block.width or width
+    anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
+    parameters = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
+    return FigureView(
+        composer.figures,
+        anchor,
+        pictures,
+        composer.caption(caption, anchor, f"Figure {composer.figures}"),
+        first.alt or first.failure,
+        shown,
+        height * shown / width,
+        composer.text(parameters, inline=True),
+    )

@@ -1,0 +1,149 @@
+"""The ledger of one section of the paper, and the errata: entries with what the trial found."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from atlas.book.appendices import Finding
+from atlas.book.blocks.composer import Composer, Use
+from atlas.book.blocks.counterexample import written
+from atlas.book.schema import StrictStruct
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.equation import Equation, slug
+
+SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
+GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
+"""The kinds of slips, in the order of the errata: those of `atlas.trial.proofs.verdict`, not loaded here."""
+
+
+@dataclass(frozen=True)
+class EntryView:
+    """An entry of the ledger, what the trial found on it, and the numbers of its texts, None of what it does not have.
+
+    `uses` fills while the report is gone through.
+    """
+
+    equation: Equation
+    finding: Finding
+    uses: list[Use]
+    says: int
+    formula: int
+    assumptions: int | None
+    how: int
+    corrected: int | None
+    note: int | None
+    counterexample: int | None
+    quote: int | None
+    false: int | None
+    said: int | None
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.equation.name
+
+    @property
+    def number(self) -> str:
+        """Its number in print, or nothing."""
+        return self.name if self.equation.number is not None else ""
+
+    @property
+    def slug(self) -> str:
+        """The name in links."""
+        return slug(self.name)
+
+    @property
+    def same(self) -> str:
+        """The entry that shares the slip, in links."""
+        return slug(self.finding.slip)
+
+
+def entries(composer: Composer, wanted: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
+    """Return the entries that are wanted, in the paper's order, their texts taken in.
+
+    An entry that the trial has no finding on is undecided.
+    """
+    nothing = Finding("undecided", "not tried", "")
+    pairs = ((entry, composer.recorded.findings.get(name, nothing)) for name, entry in EQUATIONS.items())
+    return tuple(_entry(entry, finding, composer) for entry, finding in pairs if wanted(entry, finding))
+
+
+def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
+    def words(markdown: str) -> int | None:
+        return composer.text(markdown, inline=True) if markdown else None
+
+    how = finding.method if not finding.follows else f"{finding.method}, from {finding.follows}"
+    return EntryView(
+        entry,
+        finding,
+        composer.uses[entry.name],
+        says=composer.text(entry.says, inline=True),
+        formula=composer.text(_display(entry.tex)),
+        assumptions=words("; ".join(entry.assumptions)),
+        how=composer.text(how, inline=True),
+        corrected=composer.text(_display(finding.corrected)) if finding.corrected else None,
+        note=words(finding.note),
+        counterexample=words(written(finding.counterexample, entry.section) if finding.counterexample else ""),
+        quote=words(f"“{entry.quote}”" if entry.quote else ""),
+        false=words(f"“{finding.false}.”" if finding.false else ""),
+        said=words("; ".join(_reading(*pair) for pair in finding.said.items())),
+    )
+
+
+def _reading(phrase: str, line: str) -> str:
+    return f"${phrase}$ is tried as `{line}`" if line else f"${phrase}$ is supposed, or tried in a further line"
+
+
+def by_grade(entries: Sequence[EntryView]) -> tuple[EntryView, ...]:
+    """Return entries with a slip, the grave ones first; those that share a slip stand together, its own one first."""
+    place = {entry.name: number for number, entry in enumerate(entries)}
+
+    def order(entry: EntryView) -> tuple[int, int, bool, int]:
+        own, found = place[entry.name], entry.finding
+        return GRADES.index(found.grade), place.get(found.slip, own), bool(found.slip), own
+
+    return tuple(sorted(entries, key=order))
+
+
+def _display(tex: str) -> str:
+    return f"$${tex.strip()}$$"
+
+
+class Ledger(StrictStruct, frozen=True, tag_field="kind", tag="ledger"):
+    """The entries of one section of the paper, each with what the trial found: "II", ..., "VII", or "Atlas"."""
+
+    section: str
+
+
+class Errata(StrictStruct, frozen=True, tag_field="kind", tag="errata"):
+    """Every entry of the ledger with a slip, the grave ones first: as printed, as corrected, and a counterexample."""
+
+
+@dataclass(frozen=True)
+class LedgerView:
+    """The entries of one section of the paper."""
+
+    entries: tuple[EntryView, ...]
+
+
+@dataclass(frozen=True)
+class ErrataView:
+    """The entries with a slip, the grave ones first."""
+
+    entries: tuple[EntryView, ...]
+
+
+def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
+    """Set out the entries of one section, each theorem with a number."""
+    for name, entry in EQUATIONS.items():
+        if entry.section == block.section and entry.kind == "theorem":
+            composer.document.numbered(name)
+    return LedgerView(entries(composer, lambda entry, _: entry.section == block.section))
+
+
+def view_errata(_block: Errata, composer: Composer) -> ErrataView:
+    """Set out the entries with a slip, the grave ones first; a note that several share is said once."""
+    composer.document.errata = composer.slug
+    ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))
+    first = {entry.finding.note: entry.name for entry in reversed(ordered)}
+    once = (entry if first[entry.finding.note] == entry.name else replace(entry, note=None) for entry in ordered)
+    return ErrataView(tuple(once))

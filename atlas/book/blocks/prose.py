@@ -1,0 +1,61 @@
+"""Paragraphs, a remark set apart from them, and a notebook as paragraphs."""
+
+from dataclasses import dataclass
+from pathlib import PurePath
+
+from atlas.book.blocks.composer import Composer
+from atlas.book.schema import StrictStruct
+from atlas.errors import AtlasError
+from atlas.places import folder
+
+CELL = "```{code-cell} ipython3"
+"""How a cell with code begins."""
+
+
+class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
+    """Paragraphs in Markdown with TeX; ``@(67)`` cites an equation, ``@fig:ID`` a figure, ``@tab:ID`` a table.
+
+    ``@cell:ID-3-6`` is the number in row 3 and column 6 of a table, so that what a sentence says is what was computed.
+    """
+
+    text: str
+
+
+class Note(StrictStruct, frozen=True, tag_field="kind", tag="note"):
+    """A remark set apart from the text."""
+
+    text: str
+    title: str = "Remark"
+
+
+class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
+    """A notebook of the folder ``reports/`` in MyST Markdown, as paragraphs and code; what a cell prints is in it."""
+
+    file: str
+
+
+@dataclass(frozen=True)
+class ProseView:
+    """The number of its text, and of its heading if it has one."""
+
+    text: int
+    title: int | None = None
+
+
+def view_prose(block: Prose, composer: Composer) -> ProseView:
+    """Take in the text."""
+    return ProseView(composer.paragraphs(block.text))
+
+
+def view_notebook(block: Notebook, composer: Composer) -> ProseView:
+    """Take in the text. Raises AtlasError for a file that is not there."""
+    path = folder("reports") / PurePath(block.file).name
+    if not path.is_file():
+        raise AtlasError(f"{block.file}: there is no such notebook in {folder('reports')}.")
+    _, _, text = path.read_text(encoding="utf-8").removeprefix("---\n").partition("\n---\n")
+    return ProseView(composer.paragraphs(text.replace(CELL, "```python")))
+
+
+def view_note(block: Note, composer: Composer) -> ProseView:
+    """Take in the heading and the text."""
+    return ProseView(title=composer.text(block.title, inline=True), text=composer.paragraphs(block.text))

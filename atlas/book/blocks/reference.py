@@ -1,0 +1,90 @@
+"""What a reader looks up: the works that are cited, and public names of the package with what their docstrings say."""
+
+import re
+from dataclasses import dataclass
+
+from atlas.book.appendices import Described
+from atlas.book.blocks.composer import Composer
+from atlas.book.schema import StrictStruct
+from atlas.errors import AtlasError, unknown
+
+
+class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliography"):
+    """The works that the report cites, by author and year; once in a report that names a BibTeX file."""
+
+
+def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
+    """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
+    document = composer.document
+    if not document.report.bibliography:
+        raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
+    if document.listed_on:
+        raise AtlasError("the works are listed already: a report has one list.")
+    document.listed_on = composer.slug
+    return block
+
+
+_CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
+_SIGN = re.compile(r"([!-/:-@\[-_{-~])")
+_ONCE = re.compile(
+    r"\s*Raises AtlasError for a time that is not finite or whose phases exceed 2\^50\.".replace(" ", r"\s+")
+)
+"""What a page with the reference says once, of all that takes a time."""
+
+
+class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
+    """Public names of the package, such as "Quadric", in their order."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class DescribedView:
+    """A name with its arguments, the number of its text, and the names inside it."""
+
+    name: str
+    arguments: str
+    text: int
+    members: tuple["DescribedView", ...] = ()
+
+
+@dataclass(frozen=True)
+class ReferenceView:
+    """The names that are described."""
+
+    entries: tuple[DescribedView, ...]
+
+
+def view_reference(block: Reference, composer: Composer) -> ReferenceView:
+    """Take in the docstrings of the names that a block lists."""
+    known = composer.recorded.reference
+
+    def described(name: str, thing: Described) -> DescribedView:
+        members = tuple(described(inner, what) for inner, what in thing.members.items())
+        return DescribedView(name, thing.arguments, composer.text(markdown(_ONCE.sub("", thing.docstring))), members)
+
+    for name in block.names:
+        if name not in known:
+            raise unknown("public name", name, known, "in atlas")
+    return ReferenceView(tuple(described(name, known[name]) for name in block.names))
+
+
+def outline(_block: Reference, _composer: Composer) -> None:
+    """Leave out the names, which nothing leads to."""
+
+
+def markdown(docstring: str) -> str:
+    """Return a docstring as Markdown: indented lines and what stands in backticks as code, all else as it is."""
+    paragraphs = []
+    for paragraph in docstring.split("\n\n"):
+        if all(line.startswith("    ") for line in paragraph.splitlines()):
+            paragraphs.append(paragraph)
+            continue
+        parts = _CODE.split(paragraph)  # text, backticks, code, text, ...
+        words = "".join(
+            f"`{piece}`" if place % 3 == 2 else _SIGN.sub(r"\\\1", piece)
+            for place, piece in enumerate(parts)
+            if place % 3 != 1
+        )
+        paragraphs.append(re.sub(r"^\\- ", "- ", words, flags=re.MULTILINE))
+    return "\n\n".join(paragraphs)

@@ -1,0 +1,197 @@
+"""A numbered table: of computed numbers, of recorded results, or written out in the report."""
+
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from atlas.book.blocks.composer import Composer
+from atlas.book.body_and_field import chosen
+from atlas.book.digits import Number, room
+from atlas.book.schema import Id, StrictStruct
+from atlas.book.tables import compute
+from atlas.book.tables.table import Column, Data, Request
+from atlas.errors import AtlasError, unknown
+
+MOST = 1000
+"""As many digits of a number as a table may ask for."""
+MANY = 12
+"""As many rows as a table may have that is not broken over pages of the PDF."""
+POWER = 5.75
+"""Widths of a digit that a power of ten takes."""
+COMMANDS = {
+    "trial": "atlas verify --record",
+    "bench": "make bench",
+    "stress": "make stress",
+    "machines": "sudo tests/machines",
+}
+"""The commands that make the recorded results."""
+
+
+class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
+    """A table of computed numbers."""
+
+    table: str
+    id: Id | None = None
+    body: str | None = None
+    bodies: tuple[str, ...] = ()
+    field: str | None = None
+    sets: tuple[str, ...] = ()
+    parameters: dict[str, Any] = msgspec.field(default_factory=dict)
+    caption: str | None = None
+    digits: Annotated[int, msgspec.Meta(ge=1, le=MOST)] = 10
+
+
+class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
+    """A table of words and formulas, written out in the file."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    caption: str
+    id: Id | None = None
+
+
+class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
+    """A table of recorded results, by its name there."""
+
+    source: Literal["trial", "bench", "stress", "machines"]
+    table: str
+    id: Id | None = None
+    caption: str | None = None
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell: words (the number of their text), or a number cut at its decimal point."""
+
+    text: int | None = None
+    whole: str = ""
+    fraction: str = ""
+    power: str = ""
+    proven: bool = True
+
+
+@dataclass(frozen=True)
+class ColumnView:
+    """A column's head, unit, and the room in digits' widths that its numbers take before and after the point."""
+
+    head: int
+    unit: int | None
+    numeric: bool
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class TableView:
+    """A table, of numbers or of words; `name` is that of a computed one, whose rows are single lines.
+
+    `command` is what makes recorded results.
+    """
+
+    number: int
+    id: str
+    columns: tuple[ColumnView, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    caption: int
+    note: int | None
+    name: str = ""
+    command: str = ""
+
+    @property
+    def tight(self) -> bool:
+        """Whether its rows are single lines, of numbers or in a long table."""
+        return bool(self.name) or len(self.rows) > MANY or all(column.numeric for column in self.columns[1:])
+
+    @property
+    def tall(self) -> bool:
+        """Whether it may be broken over pages: it would leave a hole where it does not fit."""
+        return len(self.rows) > MANY
+
+    @property
+    def words(self) -> bool:
+        """Whether it has words alone, whose lines can be broken."""
+        return not any(column.numeric for column in self.columns)
+
+    @property
+    def flows(self) -> bool:
+        """Whether it stands in its place in the text; others may go to the head or the foot of a page."""
+        return self.tall or self.words or not self.name
+
+
+def view_computed(block: Table, composer: Composer) -> TableView:
+    """Compute a table."""
+    request = Request(chosen(block, composer.parameters), block.parameters, block.digits)
+    data, named = compute(block.table, request), composer.parameters.fields.get(block.field or "")
+    if named and not block.caption and named.title not in data.caption:
+        data = replace(data, caption=f"{data.caption.rstrip('.')}; {named.title}.")
+    return _view(block, composer, data, name=block.table)
+
+
+def view_listing(block: Listing, composer: Composer) -> TableView:
+    """Set out a table of words."""
+    for row in block.rows:
+        if len(row) != len(block.columns):
+            raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
+    return _view(block, composer, Data(tuple(map(Column, block.columns)), block.rows, block.caption))
+
+
+def view_recorded(block: Recorded, composer: Composer) -> TableView:
+    """Set out a table of recorded results."""
+    tables, name = composer.recorded.tables, f"{block.source}: {block.table}"
+    if name not in tables:
+        raise unknown("recorded table", name, tables)
+    return _view(block, composer, tables[name], command=COMMANDS[block.source])
+
+
+def outline(block: Table | Recorded, composer: Composer) -> None:
+    """Give a table its number, and let citations lead to it."""
+    composer.tables += 1
+    composer.anchor("tab", block.id, "Table", composer.tables)
+
+
+def _view(
+    block: Table | Listing | Recorded, composer: Composer, data: Data, *, name: str = "", command: str = ""
+) -> TableView:
+    """Set a table out in columns, aligned on the decimal point."""
+    composer.tables += 1
+    words = f"Table {composer.tables}"
+    anchor = composer.anchor("tab", block.id, "Table", composer.tables)
+    columns = []
+    for place, column in enumerate(data.columns):
+        numbers = [cell.parts() for row in data.rows if isinstance(cell := row[place], Number)]
+        columns.append(
+            ColumnView(
+                composer.text(column.head, inline=True),
+                composer.text(column.unit, inline=True) if column.unit else None,
+                bool(numbers),
+                max((room(whole) for whole, _, _ in numbers), default=0.0),
+                max((room(fraction) + POWER * bool(power) for _, fraction, power in numbers), default=0.0),
+            )
+        )
+    rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)
+    for number, row in enumerate(data.rows, 1):
+        for place, value in enumerate(row, 1):
+            if isinstance(value, Number):
+                composer.target(f"cell:{anchor.removeprefix('tab-')}-{number}-{place}", anchor, value.words())
+    proven = all(cell.proven for row in data.rows for cell in row if isinstance(cell, Number))
+    sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
+    note = " ".join(filter(None, map(composer.once, sentences)))
+    caption = block.caption or data.caption
+    return TableView(
+        composer.tables,
+        anchor,
+        tuple(columns),
+        rows,
+        composer.caption(caption, anchor, words),
+        composer.caption(note, anchor, words) if note else None,
+        name,
+        composer.once(command),
+    )
+
+
+def _cell(value: str | Number, composer: Composer) -> Cell:
+    """Cut a number at its point, or take in the words."""
+    if isinstance(value, Number):
+        return Cell(None, *value.parts(), value.proven)
+    return Cell(composer.text(value, inline=True)) if value else Cell()

@@ -1,0 +1,206 @@
+"""The bodies and fields of a report: the form in which they are given, what the kernels take of them, and in print."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import msgspec
+import numpy as np
+
+from atlas.bodies.body import SHAPES, SymmetricBody
+from atlas.bodies.field import Field as PhysicalField
+from atlas.bodies.field import LaboratoryFrame
+from atlas.bodies.speeds import check_drift
+from atlas.bodies.units import System, charge_to_mass, system
+from atlas.book.digits import shown
+from atlas.book.schema import Pair, StrictStruct, Vector
+from atlas.errors import AtlasError, unknown
+
+DIMENSIONS = {
+    "mass": ("mass", "$m_0$", "kg"),
+    "radius": ("radius", "$r$", "m"),
+    "height": ("height", "$h$", "m"),
+    "length": ("length", "$l$", "m"),
+    "equatorial": ("equatorial semi-axis", "$a$", "m"),
+    "polar": ("polar semi-axis", "$c$", "m"),
+    "charge": ("charge", "$e$", "C"),
+}
+"""What a body may be given beside its ratio: in words, its letter, its unit in SI."""
+
+
+class Body(StrictStruct, frozen=True):
+    """A body: its ratio I = I3/I2, or both moments, or a shape with its dimensions (metres and kilograms in SI)."""
+
+    title: str
+    ratio: float | None = None
+    inertia: Pair | None = None
+    shape: str | None = None
+    mass: float | None = None
+    radius: float | None = None
+    height: float | None = None
+    length: float | None = None
+    equatorial: float | None = None
+    polar: float | None = None
+    charge: float | None = None
+
+
+class Field(StrictStruct, frozen=True):
+    """A field: the components (B2, B3) of B' in 1/s, or B itself with the system of units that it is given in."""
+
+    title: str
+    prime: Pair | None = None
+    B: Vector | None = None
+    E: Vector = (0.0, 0.0, 0.0)
+    axis: Vector = (0.0, 0.0, 1.0)
+    charge_to_mass: float | None = None
+    system: Literal["SI", "Gaussian"] = "SI"
+
+
+class BodiesAndFields(StrictStruct, frozen=True):
+    """The bodies, fields and sets of parameters that the blocks call by name."""
+
+    bodies: dict[str, Body] = msgspec.field(default_factory=dict)
+    fields: dict[str, Field] = msgspec.field(default_factory=dict)
+    sets: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class BodyAndField:
+    """A body in a field: `ratio` and `field` as every class of the atlas takes them, and where they come from.
+
+    `body` and `record` are the body and its record; `field` = (B2, B3), components of B' in 1/s. `physical`, `frame`
+    and `units` are there if the field was given as B.
+    """
+
+    body: SymmetricBody | None = None
+    body_record: Body | None = None
+    field: tuple[float, float] | None = None
+    field_record: Field | None = None
+    physical: PhysicalField | None = None
+    frame: LaboratoryFrame | None = None
+    units: System | None = None
+
+    @property
+    def exact(self) -> Any:
+        """The moments without rounding: of a shape, from its dimensions."""
+        from atlas.bodies.certified_body import Moments, shape_moments
+
+        record = self.body_record
+        if self.body is None or record is None:
+            raise AtlasError("this needs a body: name one with the key 'body'.")
+        if record.shape is None:
+            return Moments(self.body.I2, self.body.I3)
+        return Moments(*shape_moments(record.shape, **dimensions(record)))
+
+    @property
+    def components(self) -> tuple[float, float]:
+        """(B2, B3), where there must be a field."""
+        if self.field is None:
+            raise AtlasError("this needs a field: name one with the key 'field'.")
+        return self.field
+
+    @property
+    def ratio(self) -> float:
+        """The double nearest to the exact I = I3/I2, for figures."""
+        from atlas.bodies.certified_body import ratio_of
+
+        I = ratio_of(self.exact)
+        return int(I.p) / int(I.q)
+
+
+def body(record: Body) -> SymmetricBody:
+    """Return the body of a record: by its ratio, its moments, or its shape and dimensions."""
+    keys = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
+    if len(keys) != 1:
+        raise AtlasError(
+            f"the body {record.title!r} must have exactly one of ratio, inertia and shape, not {keys or 'none'}."
+        )
+    sizes = dimensions(record)
+    if record.shape is None:
+        if set(sizes) - {"mass"}:
+            raise AtlasError(f"the body {record.title!r} has dimensions, {', '.join(sizes)}, but no shape.")
+        return SymmetricBody(1.0, record.ratio) if record.ratio is not None else SymmetricBody(*(record.inertia or ()))
+    if record.shape not in SHAPES:
+        raise AtlasError(f"the body {record.title!r}: {unknown('shape', record.shape, SHAPES)}")
+    make, needed = SHAPES[record.shape]
+    if set(needed) != set(sizes):
+        raise AtlasError(
+            f"the body {record.title!r}: the shape {record.shape!r} takes {', '.join(needed)}, "
+            f"not {', '.join(sizes) or 'nothing'}."
+        )
+    made_body: SymmetricBody = make(**sizes)
+    return made_body
+
+
+def dimensions(record: Body) -> dict[str, float]:
+    """Return the dimensions that a body was given, and its mass."""
+    given = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
+    return {key: value for key, value in given.items() if value is not None}
+
+
+def chosen(block: Any, known: BodiesAndFields) -> tuple[BodyAndField, ...]:
+    """Return the bodies that a block names, each in the field that it names; either may be missing."""
+    field = known.fields[block.field] if block.field else None
+    bodies = block.bodies or ((block.body,) if block.body else (None,))
+    return tuple(body_and_field(known.bodies[name] if name else None, field) for name in bodies)
+
+
+def body_and_field(body_record: Body | None, field_record: Field | None) -> BodyAndField:
+    """Return a body in a field; either may be missing."""
+    symmetric_body = body(body_record) if body_record else None
+    if field_record is None:
+        return BodyAndField(symmetric_body, body_record)
+    if (field_record.prime is None) == (field_record.B is None):
+        raise AtlasError(f"the field {field_record.title!r} must have exactly one of prime and B.")
+    if field_record.prime is not None:
+        if field_record.charge_to_mass is not None:
+            raise AtlasError(
+                f"the field {field_record.title!r} is given by B', which has the charge-to-mass ratio in it."
+            )
+        return BodyAndField(symmetric_body, body_record, field_record.prime, field_record)
+    units = system(field_record.system)
+    mu = _charge_to_mass(body_record, field_record)
+    physical = PhysicalField(np.array(field_record.B), np.array(field_record.E), mu, units.c)
+    check_drift(physical.E, physical.B, units)
+    frame = physical.frame(field_record.axis)
+    return BodyAndField(symmetric_body, body_record, frame.field, field_record, physical, frame, units)
+
+
+def _charge_to_mass(body_record: Body | None, field_record: Field) -> float:
+    """Return the field's charge-to-mass ratio, or that of the body."""
+    if field_record.charge_to_mass is not None:
+        return field_record.charge_to_mass
+    if body_record is None or body_record.charge is None or body_record.mass is None:
+        raise AtlasError(f"the field {field_record.title!r} needs charge_to_mass, or a body with a charge and a mass.")
+    return charge_to_mass(body_record.charge, body_record.mass)
+
+
+def parameters(known: BodiesAndFields) -> list[str]:
+    """Return each body and field in a line of Markdown."""
+    records: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
+    return [f"{record.title}: {_written_out(record)}" for record in records]
+
+
+_UNITS = {
+    "SI": {
+        "B": "T",
+        "E": "V/m",
+        "charge_to_mass": "C/kg",
+        **{key: unit for key, (_, _, unit) in DIMENSIONS.items()},
+    },
+    "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g"},
+}
+_NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": "(I2, I3)"}
+
+
+def _written_out(record: Body | Field) -> str:
+    """Write out what a record was given, with units."""
+    units = _UNITS[getattr(record, "system", "SI")]
+    parts = []
+    for key in record.__struct_fields__:
+        value, omitted = getattr(record, key), getattr(type(record)(title=""), key)
+        if key in {"title", "system"} or value is None or (key in {"E", "axis"} and value == omitted):
+            continue
+        written = value.replace("_", " ") if isinstance(value, str) else shown(value)
+        unit = f"\u202f{units[key]}" if key in units else ""
+        parts.append(written if key == "shape" else f"{_NAMES.get(key, key)} = {written}{unit}")
+    return ", ".join(parts)

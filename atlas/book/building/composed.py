@@ -1,0 +1,136 @@
+"""A report composed with its figures drawn in some format: its data, and the same as LaTeX, without a page."""
+
+import gzip
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from atlas.book.building import figures
+from atlas.book.building.cache import Cache
+from atlas.book.building.figures import FigureBuild
+from atlas.book.building.publish import replace
+from atlas.book.files import find
+from atlas.errors import AtlasError
+from atlas.places import cache_folder
+from atlas.sources import Sources
+
+if TYPE_CHECKING:
+    from atlas.book.blocks.figure import FigureView, Picture
+    from atlas.book.document import Document
+
+Progress = Callable[[int, int, str], None]
+
+
+def composed(
+    name: str | Path,
+    out: Path,
+    kinds: "Callable[[Picture], tuple[str, ...]]",
+    progress: Progress,
+    jobs: int | None,
+    targets: tuple[str, ...] = (),
+    style: str | None = None,
+) -> "tuple[Document, dict[str, FigureBuild]]":
+    """Return a report, its tables computed, and its figures by the stems of their pictures, drawn in these formats.
+
+    `style`, or that of the report, is a style sheet of Matplotlib, a file or a name.
+
+    Each figure is made for the first of the targets that is wide enough.
+
+    Raises AtlasError for a mistake in the report and for a figure that fails.
+    """
+    from atlas import gl
+    from atlas.book.building.report import check_style, document_of
+    from atlas.book.load import load
+    from atlas.book.pictures import pictures
+
+    file = find(str(name))
+    report = load(file)
+    check_style(style := style or report.style or None)
+    cache, wanted = Cache(cache_folder(out)), pictures(report)
+    builds = {
+        FigureBuild(drawing.recipe, drawing.parameters, drawing.renderer, kinds(drawing), style, targets): drawing
+        for drawing in wanted.values()
+        if not drawing.failure
+    }
+    figures.find(list(builds), cache, Sources(cache), gl.library())
+    figures.draw(list(builds), cache, jobs or figures.cores(), progress)
+    for build in builds:
+        if build.failure:
+            raise AtlasError(f"the figure {build.name} failed: {build.failure}")
+    document = document_of(report, file, wanted, builds)
+    return document, {picture.stem: build for build, picture in builds.items()}
+
+
+OUT = Path("build/data")
+
+
+def build_data(
+    name: str | Path,
+    out: Path = OUT,
+    progress: Progress = lambda _done, _total, _what: None,
+    *,
+    jobs: int | None = None,
+    parquet: bool = True,
+    style: str | None = None,
+) -> Path:
+    """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
+
+    They are CSV, and Parquet if that is wanted.
+
+    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
+    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
+    written.
+    """
+    from atlas.book.data_package import DESCRIPTION, package
+
+    place = out / find(str(name)).stem
+    document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs, style=style)
+    views: list[FigureView] = document.listed("figure")
+    stems = {view.id: view.pictures[0].stem for view in views}
+    drawn = {
+        name: gzip.decompress(figures[stem].contents["csv.gz"]).decode()
+        for name, stem in stems.items()
+        if stem in figures
+    }
+    replace(place, package(document, drawn, parquet=parquet))
+    return place / DESCRIPTION
+
+
+TEX_OUT = Path("build/tex")
+TARGETS = ("aps", "aps-double")
+"""What the figures of a paper in REVTeX are made for: a column, or both."""
+
+
+def build_tex(
+    name: str | Path,
+    out: Path = TEX_OUT,
+    progress: Progress = lambda _done, _total, _what: None,
+    *,
+    jobs: int | None = None,
+    style: str | None = None,
+) -> Path:
+    """Write a report as LaTeX into `out`/NAME, and return the place of the paper.
+
+    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
+    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
+    written.
+    """
+    from atlas.book.latex import PAPER, sources
+
+    place = out / find(str(name)).stem
+    document, figures = composed(
+        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS, style
+    )
+    document.set(
+        "latex", "typst"
+    )  # what print cannot read is refused here, too: no \input, no \write reaches the paper
+    pictures = {}
+    views: list[FigureView] = document.listed("figure")
+    for view in views:
+        for number, picture in enumerate(view.pictures, 1):
+            if picture.stem in figures:
+                ((kind, content),) = figures[picture.stem].contents.items()
+                more = f"-{number}" if len(view.pictures) > 1 else ""
+                pictures[f"figures/{view.id.removeprefix('fig-')}{more}.{kind}"] = content
+    replace(place, sources(document, pictures))
+    return place / PAPER

@@ -1,0 +1,300 @@
+"""Figures: what each depends on, taken from the cache or drawn by worker processes side by side."""
+
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from atlas import files, processes
+from atlas.arithmetic.machine import processors
+from atlas.book.building import worker
+from atlas.book.building.cache import Cache
+from atlas.book.building.publish import publish
+from atlas.errors import AtlasError
+from atlas.libraries import versions
+from atlas.places import cache_folder, folder, settle_matplotlib
+from atlas.sources import PACKAGE, Sources, digest
+
+OUT = Path("build/figures")
+FORMATS = ("svg", "pdf", "png")
+MOST = 8
+"""As many workers as there may be when the user does not say how many."""
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass(eq=False)
+class FigureBuild:
+    """A figure that is wanted in some kinds of files, and what became of it.
+
+    The recipe is a name, or the place of a file.
+
+    The kinds are svg, pdf, png, pgf, csv, csv.gz, and two that may be empty: narrow, an SVG for a narrow screen, a PNG
+    of what is shaded, where the figure itself won't do; and scene, a script for the viewer of the pages, and moves, one
+    that tells how it moves.
+
+    It is made for the first of its `targets` that is wide enough, see `atlas.pictures.arrange.suited`.
+
+    `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
+    """
+
+    recipe: str
+    parameters: Mapping[str, Any]
+    renderer: str
+    kinds: tuple[str, ...]
+    style: str | None = None
+    targets: tuple[str, ...] = ()
+    parts: Mapping[str, str] = field(default_factory=dict)
+    keys: Mapping[str, str] = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    new: bool = False
+    why: str = "nothing it depends on has changed"
+    failure: str = ""
+
+    @property
+    def stem(self) -> str:
+        """The recipe's name, without the folder where its file may be."""
+        return Path(self.recipe).stem
+
+    @property
+    def name(self) -> str:
+        """The recipe's name and what distinguishes this figure, for people."""
+        from atlas.book.digits import shown
+
+        settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
+        where = f" for {' or '.join(self.targets)}" if self.targets else ""
+        return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "") + where
+
+    @property
+    def reason(self) -> str:
+        """Say whether it was drawn or taken, and why."""
+        return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
+
+    def missing(self) -> dict[str, str]:
+        """Return the keys of all files by kind if one of them is not there yet: they are drawn together."""
+        return {} if self.contents else dict(self.keys)
+
+    def take(self, cache: Cache) -> None:
+        """Take the files from the cache if it has all of them."""
+        entries = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
+        if entries.keys() == self.keys.keys():
+            for kind, entry in entries.items():
+                self.facts, self.contents[kind] = worker.read(entry)
+
+
+def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str, str]:
+    """Return what a figure depends on, each part as a digest under its name."""
+    from atlas.pictures import recipes
+
+    drawing = [path for path in (PACKAGE / "pictures" / "drawing").rglob("*") if path.suffix not in {".py", ".pyc"}]
+    try:
+        records = recipes.load(figure.recipe).records
+    except AtlasError:
+        records = ()  # it can't be drawn, which is told when that is tried
+    return {
+        "parameters": digest(figure.parameters),
+        "recipe and kernels": sources.closure([recipes.source(figure.recipe)]),
+        "records": sources.closure(folder("reports") / "data" / name for name in records),
+        "drawing code": sources.closure([PACKAGE / "book" / "building" / "worker.py", *filter(Path.is_file, drawing)]),
+        "style": sources.named(figure.style),
+        "target": digest(figure.targets),
+        "libraries": digest(sys.version_info[:2], versions()),
+        "renderer": digest(figure.renderer, gl if figure.renderer == "shaded" else None),
+    }
+
+
+def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str | None) -> None:
+    """Take from the cache what there is of some figures, and note why the rest must be drawn."""
+    for figure in figures:
+        figure.parts = parts_of(figure, sources, gl)
+        figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}
+        figure.take(cache)
+        if figure.missing():
+            before = cache.load(figure.name)
+            changed = [name for name, value in figure.parts.items() if before.get(name) != value]
+            figure.why = f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
+            figure.why = figure.why if before else "it was never drawn here"
+        cache.save(figure.name, figure.parts)
+    sources.save()
+
+
+def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Progress) -> None:
+    """Draw what is missing of some figures: a single one in this process, several by as many workers as `jobs`.
+
+    What is shaded is drawn first, for it takes longest. Raises OSError when the cache can't be written.
+    """
+    wanted = sorted((one for one in figures if one.missing()), key=lambda one: one.renderer != "shaded")
+    for done, (figure, failure) in enumerate(_drawn(wanted, cache, jobs), len(figures) - len(wanted) + 1):
+        figure.new, figure.failure = True, failure
+        figure.take(cache)
+        if figure.missing() and not failure:
+            raise OSError(f"what was drawn is not in {cache.folder}; was it removed?")
+        progress(done, len(figures), figure.stem)
+
+
+def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
+    """Draw figures, and go through them as they are finished, each with the reason if it failed.
+
+    If a worker dies, what was not finished is drawn again by a single one, which is no fork, so that it is known which
+    figure it is that kills its process; the others are drawn.
+    """
+    settle_matplotlib()
+    waiting = {
+        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.missing(), cache.folder, one.targets)
+        for one in figures
+    }
+    several, workers = len(figures) > 1, min(jobs, len(waiting))
+    begin, context = partial(worker.begin, {**os.environ}), processes.prepare(processes.DRAWING) if several else ""
+    while waiting:
+        pool = processes.pool(workers, begin, context) if several else None
+        if pool is None:
+            yield from ((figure, worker.draw(task)) for figure, task in waiting.items())
+            return
+        broken = False
+        try:
+            futures: dict[Future[str], FigureBuild] = {}
+            try:
+                for figure, task in waiting.items():
+                    futures[pool.submit(worker.draw, task)] = figure
+            except BrokenProcessPool:
+                broken = True
+            for future in as_completed(futures):
+                try:
+                    failure = future.result()
+                except BrokenProcessPool:
+                    broken = True
+                else:
+                    del waiting[futures[future]]
+                    yield futures[future], failure
+        finally:
+            pool.shutdown(cancel_futures=True)
+        if broken and workers == 1 and context == "spawn":
+            figure = next(iter(waiting))
+            del waiting[figure]
+            yield figure, "the process that drew it came to a sudden end"
+        workers, context = 1, "spawn"
+
+
+def cores() -> int:
+    """Return how many workers there are when the user does not say: one a core, within reason."""
+    return min(processors(), MOST)
+
+
+@dataclass(frozen=True)
+class Files:
+    """What became of a figure by itself: its files, what drew them, a line for the user, and why; or its failure.
+
+    `edited` says which files stand beside those that were not written here, or edited since.
+    """
+
+    name: str
+    files: tuple[Path, ...] = ()
+    renderer: str = ""
+    note: str = ""
+    reason: str = ""
+    failure: str = ""
+    edited: str = ""
+
+
+def build_figures(
+    names: Sequence[str],
+    formats: Sequence[str] = FORMATS,
+    out: Path = OUT,
+    *,
+    renderer: str = "vector",
+    parameters: Mapping[str, Any] | None = None,
+    style: str | None = None,
+    target: str | None = None,
+    jobs: int | None = None,
+    progress: Progress = lambda _done, _total, _name: None,
+) -> list[Files]:
+    """Put each of the recipes into out/NAME.FORMAT for each format, each file whole or not at all.
+
+    With a target, see `atlas.targets`, each is laid out anew for it and put into out/NAME-TARGET.FORMAT.
+
+    A name with the ending .py is that of a recipe's file, wherever it is.
+    `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
+    drawn at once, one a core when it is not given. What the cache has is not drawn again. The format csv is
+    the data of the figure, see `atlas.pictures.data`. A figure that fails does not stop the others. Raises AtlasError
+    for a shaded figure that is neither PNG nor CSV.
+    """
+    other = [kind for kind in formats if kind not in {"png", "csv"}]
+    if renderer == "shaded" and other:
+        raise AtlasError(f"a shaded figure is a PNG; {other[0]!r} is drawn by the vector renderer")
+    from atlas import gl
+
+    cache = Cache(cache_folder(out))
+    cache.prune()
+    places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names]
+    targets = () if target is None else (target,)
+    figures = [FigureBuild(place, parameters or {}, renderer, tuple(formats), style, targets) for place in places]
+    find(figures, cache, Sources(cache), gl.library())
+    draw(figures, cache, jobs or cores(), progress)
+    return [_put(figure, out) for figure in figures]
+
+
+def _put(figure: FigureBuild, out: Path) -> Files:
+    """Put the files of a figure in their places; what is there and is not as it was written stays."""
+    name = figure.stem
+    if figure.failure:
+        return Files(name, reason=figure.reason, failure=figure.failure)
+    stem = "-".join([name, *figure.targets])
+    files = {"": {f"{stem}.{kind}": figure.contents[kind] for kind in figure.kinds}}
+    paths, edited = tuple(out / path for path in files[""]), ""
+    try:
+        publish(files, out, stem)
+    except AtlasError as error:
+        edited = str(error)
+    return Files(name, paths, figure.facts["renderer"], figure.facts["note"], figure.reason, edited=edited)
+
+
+HEADING = ("scene", "from", "points", "faces", "compute [CPU ms]", "draw [CPU ms]", "peak [MB]", "kB")
+
+
+def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Mapping[str, float], jobs: int) -> Path:
+    """Write the costs of a build as JSON; `times` are the clock's readings at the end of each step, in order."""
+    steps = {
+        step: round(end - start, 4) for (step, end), start in zip([*times.items()][1:], times.values(), strict=False)
+    }
+    record = {
+        "report": name,
+        "jobs": jobs,
+        "seconds": round(sum(steps.values()), 4),
+        "steps": steps,
+        "scenes": [_costs(figure) for figure in figures],
+    }
+    files.write(path, json.dumps(record, ensure_ascii=False, indent=1) + "\n")
+    return path
+
+
+def rows_of_costs(path: Path) -> list[list[str]]:
+    """Return the rows of a table of the costs, below `HEADING`."""
+    return [
+        [entry["scene"], "failed", *[""] * 6]
+        if entry["from"] == "failed"
+        else [
+            entry["scene"],
+            entry["from"],
+            str(entry["points"]),
+            str(entry["faces"]),
+            f"{1e3 * entry['compute_s']:.0f}",
+            f"{1e3 * entry['draw_s']:.0f}",
+            f"{entry['memory_mb']:.0f}",
+            f"{entry['bytes'] / 1024:.0f}",
+        ]
+        for entry in json.loads(path.read_text(encoding="utf-8"))["scenes"]
+    ]
+
+
+def _costs(figure: FigureBuild) -> dict[str, Any]:
+    """Return the entry of one figure; what it cost when it was drawn, if it comes from the cache."""
+    if figure.failure:
+        return {"scene": figure.name, "from": "failed", "reason": figure.failure}
+    drawn = "drawn" if figure.new else "cache"
+    return {"scene": figure.name, "from": drawn, "reason": figure.reason, **figure.facts["cost"]}

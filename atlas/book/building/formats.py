@@ -1,0 +1,166 @@
+"""A composed report in each format: its texts set, its pages, the one file, the PDF."""
+
+import re
+from base64 import b64encode
+from collections.abc import Mapping, Sequence
+from functools import partial
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from atlas.book.building.cache import Cache
+from atlas.book.texts import title_words
+from atlas.errors import AtlasError
+from atlas.sources import PACKAGE, Sources, digest
+
+if TYPE_CHECKING:
+    from atlas.book.blocks.figure import Picture
+    from atlas.book.building.figures import FigureBuild
+    from atlas.book.document import Document
+    from atlas.book.pandoc import Target
+
+
+MANIFEST = "manifest.json"
+"""By it a folder is known to be of a report, which may be built anew."""
+LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst", "single": "html"}
+"""In which language the texts of each format are set; `single` is one page as one file, if it is asked for."""
+
+
+TYPES = {
+    "svg": "image/svg+xml", "png": "image/png", "pdf": "application/pdf", "gz": "application/gzip",
+    "woff": "font/woff",
+}  # fmt: skip
+HANDED_OVER = """
+// What this page would fetch by a script element stands in it as a block of data.
+document.head.append = (...nodes) => {
+  for (const node of nodes) {
+    const inside = node.localName === "script" && document.querySelector(`script[data-file="${node.getAttribute("src")}"]`);
+    if (inside) { node.removeAttribute("src"); node.text = inside.textContent; }
+  }
+  Element.prototype.append.apply(document.head, nodes);
+};
+"""  # noqa: E501  a line of a script
+INDEX = "index.html"
+_SCRIPT = re.compile(r'<script src="([^"]+)" defer></script>\n?')
+
+
+def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
+    """Set the texts of a document; those that were set before are in the cache."""
+    # pages of one object have most of their texts in common
+    which = "a page" if len(document.pages) == 1 else document.report.name
+    name = f"texts of {which} by {sources.closure([PACKAGE / 'book' / 'texts.py'])}"
+    document.texts.memory = cache.load(name)
+    document.set(*dict.fromkeys(LANGUAGES[form] for form in formats))
+    cache.save(name, document.texts.used)
+
+
+def manifest_of(document: "Document") -> bytes:
+    """Return the manifest of a report as JSON; it depends on the report and on the versions alone."""
+    from atlas.book.templates import versions
+
+    report = document.report
+    manifest = {"report": report.name, "title": title_words(report.title), "versions": versions()}
+    return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
+
+
+def _pages(
+    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
+) -> dict[str, bytes]:
+    """Return the pages of a report with what belongs to them, by their places."""
+    from atlas.book import fonts, html
+
+    code = sources.closure([PACKAGE / "book" / "fonts.py"])
+    pages = html.pages(document)
+    drawn = {
+        name: figure.contents[kind]
+        for figure, picture in figures.items()
+        for kind, name in (*picture.files.items(), *picture.beside.items())
+    }
+    files = {name: page.encode() for name, page in pages.items()} | drawn
+    cutting = sources.closure([PACKAGE / "book" / "html.py"])
+    if len(cards := html.cards(document)) > 1:
+        for card in cards:
+            png = drawn[card.figure.pictures[0].files["png"]]
+            files[card.file] = cache.recall(
+                digest("card", cutting, png, card.cut), partial(html.thumbnail, png, card.cut)
+            )
+    texts = (text for name, text in pages.items() if name.endswith(".html"))
+    files |= fonts.all_subsets(texts, lambda parts, make: cache.recall(digest("font", code, parts), make))
+    files[MANIFEST] = manifest_of(document)
+    return {f"{document.report.name}/{name}": content for name, content in files.items()}
+
+
+def _single(
+    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
+) -> dict[str, bytes]:
+    """Return the page of a report with all that belongs to it in one file."""
+    name = document.report.name
+    files = _pages(document, figures, cache, sources)
+    return {f"{name}.html": single({place.removeprefix(f"{name}/"): files[place] for place in files}, name)}
+
+
+def single(files: Mapping[str, bytes], name: str) -> bytes:
+    """Put the files of a report of one page into one page. Raises AtlasError for a report of several.
+
+    `files` has the page, index.html, and what belongs to it, by their places; `name` is that of the report, whose PDF
+    may lie beside the page. Figures can be saved from it; its policy lets it run the scripts in it, by their digests.
+    """
+    pages = [file for file in files if file.endswith(".html")]
+    if pages != [INDEX]:
+        raise AtlasError(f"one file holds one page, but the report has {len(pages)}: leave out the format 'single'.")
+
+    def data(place: str) -> str:
+        kind = TYPES[place.rpartition(".")[2]]
+        return f"data:{kind};base64,{b64encode(files[place]).decode()}"
+
+    page = files[INDEX].decode()
+    style = re.sub(r'url\("?([^")]+)"?\)', lambda matched: f'url("{data(matched[1])}")', files["style.css"].decode())
+    first = _SCRIPT.findall(page)
+    later = [file for file in files if file.endswith(".js") and file not in first]
+    scripts = {file: _inline(files[file].decode()) for file in (*later, *first)}
+    scripts |= {"index.js": scripts["index.js"].replace(f'"{INDEX}"', '""')}
+    page = _SCRIPT.sub("", page)
+    page = page.replace('<link rel="stylesheet" href="style.css">', f"<style>\n{style}</style>")
+    # a browser saves the picture itself: no second copy of it
+    page = re.sub(r'<a href="figures/[^"]+\.svg" aria-label[^>]*>SVG</a> ', "", page)
+    page = re.sub(r'(<figure id="([^"]+)">\s*<div class="pictures">\s*<a href=")[^"]+', r"\1#\2", page)
+    page = re.sub(r'<a href="(figures/([^"]+))"', lambda x: f'<a download="{x[2]}" href="{data(x[1])}"', page)
+    page = re.sub(r'(src|srcset)="(figures/[^"]+\.(?:svg|png))"', lambda x: f'{x[1]}="{data(x[2])}"', page)
+    page = re.sub(rf'href="{INDEX}(#[^"]*)?"', lambda matched: f'href="{matched[1] or "#page-index"}"', page)
+    page = page.replace(f'href="../{name}.pdf"', f'href="{name}.pdf"')
+    run = [HANDED_OVER, *(scripts[file] for file in first)]
+    blocks = [f'<script type="text/plain" data-file="{file}">{scripts[file]}</script>' for file in later]
+    blocks += [f"<script>{text}</script>" for text in run]
+    page = page.replace("</body>", "\n".join([*blocks, "</body>"]))
+    allowed = (sha256(text.encode()).digest() for text in (*run, *(scripts[file] for file in later)))
+    digests = " ".join(f"'sha256-{b64encode(digest).decode()}'" for digest in allowed)
+    policy = (
+        f"default-src 'none'; img-src data:; font-src data:; style-src 'unsafe-inline'; script-src {digests}; "
+        "base-uri 'none'; form-action 'none'"
+    )
+    return re.sub(r'(http-equiv="Content-Security-Policy" content=")[^"]*', rf"\g<1>{policy}", page).encode()
+
+
+def _inline(script: str) -> str:
+    """Return a script in which nothing ends or hides the element that it stands in."""
+    return script.replace("</script", r"<\/script").replace("<!--", r"<\!--")
+
+
+def _pdf(
+    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, _sources: Sources
+) -> dict[str, bytes]:
+    """Return the PDF of a report."""
+    from atlas.book import bibliography, pdf
+
+    with cache.temporary() as work:
+        (work / "figures").mkdir()
+        for figure, picture in figures.items():
+            if not picture.failure:
+                (work / picture.printed).write_bytes(figure.contents[picture.printed.rpartition(".")[2]])
+        (work / bibliography.NAME).write_text(document.bibliography.source, encoding="utf-8")
+        source = pdf.source(document)
+        return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
+
+
+MAKERS = {"html": _pages, "pdf": _pdf, "single": _single}

@@ -1,0 +1,282 @@
+"""One report from its TOML file to pages and PDF: only what depends on something new is made, and all is written whole.
+
+The order: is anything new at all; which figures are missing; draw them; compute the tables and set the texts; set the
+pages and the PDF; write them beside their places, and rename them.
+"""
+
+import hashlib
+import os
+import sys
+import time
+from collections.abc import Callable, Container, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from atlas.book.building.cache import Cache
+from atlas.book.building.formats import LANGUAGES, MAKERS, set_texts
+from atlas.book.building.publish import publish
+from atlas.book.files import find, related_to
+from atlas.errors import AtlasError
+from atlas.files import digest_of
+from atlas.libraries import versions
+from atlas.places import cache_folder, folder
+from atlas.sources import DISTURBED, PACKAGE, Sources, digest
+
+if TYPE_CHECKING:
+    from atlas.book.blocks.figure import Picture
+    from atlas.book.building.figures import FigureBuild
+    from atlas.book.definition import Report
+    from atlas.book.document import Document
+
+OUT = Path("build/report")
+FORMATS = ("html", "pdf")
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True)
+class Built:
+    """What a build made or found, which figures failed and why, lines to tell the user, and why each part was made."""
+
+    name: str
+    index: Path
+    pdf: Path
+    pages: int
+    figures: int
+    failures: tuple[tuple[str, str], ...] = ()
+    notes: tuple[str, ...] = ()
+    reasons: tuple[tuple[str, str, str], ...] = ()
+    costs: Path | None = None
+
+    @property
+    def single(self) -> Path:
+        """Where the one file is."""
+        return self.pdf.with_name(f"{self.name}.html")
+
+    @property
+    def ok(self) -> bool:
+        """Whether every figure is there."""
+        return not self.failures
+
+
+def build_report(
+    name: str | Path,
+    out: Path = OUT,
+    progress: Progress = lambda _done, _total, _what: None,
+    *,
+    formats: Sequence[str] = FORMATS,
+    style: str | None = None,
+    jobs: int | None = None,
+) -> Built:
+    """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
+
+    `progress` is called with the steps done, their number, and what comes next; `formats` may leave out the pages or
+    the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all that belongs to it; `style`
+    is a style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw
+    them, one a core when it is not given. A figure that fails leaves a framed note in its place and an entry in
+    `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something
+    can't be written; then the last report stays.
+    """
+    file, formats = find(str(name)), [form for form in LANGUAGES if form in formats]
+    cache = Cache(cache_folder(out))
+    sources = Sources(cache)
+    try:
+        key = key_of(file, sources, style) if cache.load(_noted(file.stem, out)) else None
+        unchanged = None if key is None else _unchanged(file.stem, out, formats, cache, key)
+        return unchanged or _build(file, out, formats, style, jobs, cache, sources, key, progress)
+    except OSError as error:
+        where = f": {error.filename}" if error.filename else ""
+        raise OSError(f"the build in {out} stopped: {error.strerror or error}{where}.") from error
+
+
+def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
+    """Return the digest of all that a report depends on: its file, code, recipes, templates, records and libraries."""
+    from atlas import gl
+
+    text = file.read_bytes()
+    near = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
+    beside = (path for path in near if os.fsencode(path.name) in text)
+    code = [PACKAGE / "book" / "building" / "report.py", *folder("figures").glob("*.py"), *beside]
+    places = folder("templates"), folder("reports") / "data", PACKAGE
+    extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
+    related = [find(name) for name in related_to(file)]
+    parts = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
+    sources.save()
+    return digest(parts, sources.named(style), sys.version_info[:2], versions(), gl.library())
+
+
+def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
+    """Return the report that is there, if it was made from the same and its files are as they were written."""
+    last = cache.load(_noted(name, out))
+    for form in formats:
+        record = last.get(form, {"key": None})
+        if record["key"] != key or any(digest_of(out / file) != there for file, there in record["files"].items()):
+            return None
+    reasons = (("report", name, "taken: nothing it depends on has changed"),)
+    return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
+
+
+def _noted(name: str, out: Path) -> str:
+    """Return the name under which the cache notes what was built in a folder."""
+    return f"report {name} in {out.resolve()}"
+
+
+def _build(
+    file: Path,
+    out: Path,
+    formats: Sequence[str],
+    style: str | None,
+    jobs: int | None,
+    cache: Cache,
+    sources: Sources,
+    key: str | None,
+    progress: Progress,
+) -> Built:
+    """Build a report, and note in the cache from what and with which files.
+
+    The key of one that was never built is found out while its figures are drawn.
+    """
+    from atlas import gl
+    from atlas.book.building import figures
+    from atlas.book.load import load
+    from atlas.book.pictures import on_cards, pictures
+
+    times = {"start": time.perf_counter()}
+    sources.closure([file])  # as it is read now
+    report = load(file)
+    _check(report.name, file)
+    check_style(style := style or report.style or None)
+    cache.prune()
+    drawings = pictures(report)
+    cards = on_cards(report) if "html" in formats and len(report.pages) > 1 else ()
+    wanted = _figures(drawings, formats, style, gl.library(), cards)
+    figures.find(list(wanted), cache, sources, gl.library())
+    times["look"] = time.perf_counter()
+    steps, jobs = len(wanted) + 2, jobs or figures.cores()
+    with ThreadPoolExecutor(1) as beside:
+        found_out = beside.submit(lambda: key or key_of(file, sources, style))
+        if DISTURBED:  # by Matplotlib, which parses its style sheets
+            found_out.result()
+        figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
+    key = found_out.result()
+    times["figures"] = time.perf_counter()
+    progress(steps - 2, steps, "texts")
+    document = document_of(report, file, drawings, wanted)
+    times["tables"] = time.perf_counter()
+    set_texts(document, formats, cache, sources)
+    times["texts"] = time.perf_counter()
+    progress(steps - 1, steps, "pages")
+    contents = {form: MAKERS[form](document, wanted, cache, sources) for form in formats}
+    last: dict[str, Any] = cache.load(_noted(report.name, out))
+    noted = [item for form in LANGUAGES for item in last.get(form, {"files": {}})["files"].items()]
+    publish(contents, out, report.name, [f"{there}  {path}" for path, there in noted])
+    times["pages"] = time.perf_counter()
+    progress(steps, steps, "done")
+    failures = [figure for figure in wanted if figure.failure]
+    for form, files in contents.items():
+        digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        last[form] = {"key": None if failures else key, "files": digests}
+    cache.save(_noted(report.name, out), last | {"pages": len(document.pages), "figures": len(wanted) - len(failures)})
+    return Built(
+        report.name,
+        *_places(out, report.name),
+        len(document.pages),
+        len(wanted) - len(failures),
+        failures=tuple((figure.stem, figure.failure) for figure in failures),
+        notes=tuple(dict.fromkeys(note for figure in wanted if (note := figure.facts.get("note")))),
+        reasons=tuple(("figure", figure.name, figure.reason) for figure in wanted),
+        costs=figures.write_costs(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),
+    )
+
+
+def document_of(
+    report: "Report", file: Path, drawings: "Mapping[str, Picture]", drawn: "Mapping[FigureBuild, Picture]"
+) -> "Document":
+    """Return a report with its tables computed and what its figures say, some of them drawn."""
+    from atlas.book import bibliography
+    from atlas.book.building.records import gather
+    from atlas.book.compose import compose
+
+    for figure, picture in drawn.items():
+        describe(figure, picture)
+    works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
+    return compose(report, drawings, gather(report), works, outlines(report))
+
+
+def outlines(report: "Report") -> "dict[str, Document]":
+    """Return the reports beside this one in outline: the numbers and places of what they have."""
+    from atlas.book.compose import compose
+    from atlas.book.load import load
+    from atlas.book.pictures import pictures
+
+    beside = (load(find(name)) for name in report.related)
+    return {other.name: compose(other, pictures(other), outline=True) for other in beside}
+
+
+def _places(out: Path, name: str) -> tuple[Path, Path]:
+    """Return the first page of a report and its PDF."""
+    return out / name / "index.html", out / f"{name}.pdf"
+
+
+def _check(name: str, file: Path) -> None:
+    """Refuse a name that is not that of the file."""
+    if name.startswith("."):
+        raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
+    if name != file.stem:
+        raise AtlasError(f"{file}: the report's name is {name!r}, and must be that of its file, {file.stem!r}.")
+
+
+def check_style(style: str | None) -> None:
+    """Refuse a style sheet that can't be used before anything is drawn."""
+    if style is not None:
+        from atlas.pictures.drawing.style import context
+
+        with context(style):
+            pass
+
+
+def _figures(
+    pictures: "Mapping[str, Picture]",
+    formats: Sequence[str],
+    style: str | None,
+    library: str | None,
+    cards: Container[str] = (),
+) -> "dict[FigureBuild, Picture]":
+    """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
+
+    The pages offer each figure as PDF too, and its data as CSV; they stack its panels on a narrow screen, and turn
+    those in space. What `cards` are cut from, pictures by their keys, is drawn as PNG as well.
+    """
+    from atlas.book.building.figures import FigureBuild
+
+    shown = ("csv.gz", "narrow", "scene", "moves") if {"html", "single"} & set(formats) else ()
+
+    def kinds(key: str, renderer: str) -> tuple[str, ...]:
+        if renderer == "shaded" and library:
+            return "png", *shown
+        return *(("svg",) if shown else ()), "pdf", *(("png",) if key in cards else ()), *shown
+
+    return {
+        FigureBuild(picture.recipe, picture.parameters, picture.renderer, kinds(key, picture.renderer), style): picture
+        for key, picture in pictures.items()
+        if not picture.failure
+    }
+
+
+def describe(figure: "FigureBuild", picture: "Picture") -> None:
+    """Let a report know what a figure says and how large it is, or why there is none."""
+    from atlas.book.digits import shown
+
+    picture.failure = figure.failure
+    if not figure.failure:
+        facts = figure.facts
+        picture.tables = tuple(facts["commands"])
+        picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
+        picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
+        kind, place = "svg" if "pdf" in figure.kinds else "png", f"figures/{picture.stem}"
+        picture.file = f"{place}.{kind}"
+        beside = {"narrow": f"{place}-narrow.{kind}", "scene": f"{place}.js", "moves": f"{place}-moves.js"}
+        picture.beside = {name: file for name, file in beside.items() if figure.contents.get(name)}
+        picture.files = {name: f"{place}.{name}" for name in figure.kinds if name not in beside}
+        picture.remark = "Drawn by the vector renderer." if facts["note"] else ""

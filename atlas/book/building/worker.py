@@ -1,0 +1,156 @@
+"""What a worker process does: it computes the scene of a figure, draws it, and puts the files into the cache."""
+
+import gzip
+import json
+import os
+import resource
+import sys
+import time
+import warnings
+from collections.abc import Mapping
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from atlas.book.building.cache import Cache
+from atlas.errors import AtlasError
+from atlas.pictures import Curve, Image, Points, Region, Scene, Surface, data, recipes
+from atlas.pictures.arrange import arranged, narrowed, suited
+from atlas.places import settle_matplotlib
+from atlas.targets import find
+
+
+@dataclass(frozen=True)
+class Task:
+    """A figure to be drawn: recipe, parameters, style and targets, and for each kind of file its key in the cache."""
+
+    recipe: str
+    parameters: Mapping[str, Any]
+    renderer: str
+    style: str | None
+    keys: Mapping[str, str]
+    cache: Path
+    targets: tuple[str, ...] = ()
+
+
+def draw(task: Task) -> str:
+    """Draw a figure into the cache; return in a sentence why that is not possible, or nothing.
+
+    Raises OSError when the cache can't be written: that is no fault of the figure.
+    """
+    try:
+        with redirect_stdout(sys.stderr):  # what a recipe or a library prints is no result
+            _draw(task)
+    except OSError:
+        raise
+    except AtlasError as error:
+        return " ".join(str(error).split())
+    except SystemExit as error:
+        return f"its recipe ended with exit status {error}"
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        return f"{type(error).__name__}: {error}"
+    return ""
+
+
+def _draw(task: Task) -> None:
+    settle_matplotlib()
+    from atlas.pictures.drawing.files import FORMATS, choose, save
+
+    start = time.process_time()
+    scene = recipes.load(task.recipe).scene(**task.parameters)
+    computed = time.process_time()
+    cache = Cache(task.cache)
+    renderer, note = choose(scene, task.renderer)
+    target = suited(scene, [find(name) for name in task.targets]) if task.targets else None
+    with cache.temporary() as folder:
+        paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind in FORMATS}
+        small, drawn = narrowed(scene), {}
+        if paths:
+            kinds = {path: kind for kind, path in paths.items()}
+            drawn[scene] = save(scene, kinds, task.renderer, task.style, target)
+        if "narrow" in task.keys:
+            paths["narrow"] = folder / "narrow"
+            paths["narrow"].touch()
+            if small:
+                kind = "png" if renderer == "shaded" else "svg"
+                drawn[small] = save(small, {paths["narrow"]: kind}, renderer, task.style)
+        contents = {kind: path.read_bytes() for kind, path in paths.items()}
+    whole = not target and {*drawn} >= {version for version in (scene, small) if version}
+    figures = list(drawn.values()) if whole else []
+    contents |= _beside(task, scene, figures)
+    facts = {
+        "title": scene.title,
+        "caption": scene.caption,
+        "commands": list(scene.commands),
+        "alt": scene.alt,
+        "size": arranged(scene, target).size if target else scene.size,
+        "parameters": scene.parameters,
+        "renderer": renderer,
+        "note": note,
+        "cost": {
+            **counted(scene),
+            "compute_s": computed - start,
+            "draw_s": time.process_time() - computed,
+            "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+            "bytes": sum(map(len, contents.values())),
+        },
+    }
+    for kind, key in task.keys.items():
+        cache.put(key, json.dumps(facts).encode() + b"\n" + contents[kind])
+
+
+def _beside(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
+    """Return what was asked for beside pictures: what turns a scene or moves it in a page, and its points."""
+    contents = {}
+    if "scene" in task.keys:
+        from atlas.pictures.drawing import viewer
+
+        contents["scene"] = viewer.script(scene, task.style, figures).encode()
+    if "moves" in task.keys:
+        from atlas.pictures.drawing import moves
+
+        contents["moves"] = moves.script(scene, task.style, figures).encode()
+    if "csv" in task.keys:
+        contents["csv"] = data.table(scene).encode()
+    if "csv.gz" in task.keys:
+        contents["csv.gz"] = _compressed(data.table(scene).encode())
+    return contents
+
+
+def _compressed(content: bytes) -> bytes:
+    """Return a file of gzip, the same bytes with every Python: `gzip.compress` writes another header from 3.13 on."""
+    buffer = BytesIO()
+    with gzip.GzipFile(fileobj=buffer, mode="wb", compresslevel=6, mtime=0) as file:
+        file.write(content)
+    return buffer.getvalue()
+
+
+def counted(scene: Scene) -> dict[str, int]:
+    """Return how many points of curves, regions and marks a scene holds, and faces of surfaces and cells of maps."""
+    points = faces = 0
+    for layer in (layer for panel in scene.panels for layer in panel.layers):
+        if isinstance(layer, Curve | Points | Region):
+            points += len(layer.points)
+        elif isinstance(layer, Surface):
+            points += sum(map(len, (*layer.wires, *layer.rims)))
+            faces += sum((grid.shape[0] - 1) * (grid.shape[1] - 1) for grid in layer.grids)
+        elif isinstance(layer, Image):
+            faces += int(layer.values.size)
+    return {"points": points, "faces": faces}
+
+
+def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
+    """Return what is noted of a figure, and the file, from its entry in the cache."""
+    facts, _, content = entry.partition(b"\n")
+    return json.loads(facts), content
+
+
+def begin(environment: Mapping[str, str]) -> None:
+    """Give a worker process the caller's environment, which may have changed since the fork server was started."""
+    os.environ.clear()
+    os.environ.update(environment)
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    if not sys.warnoptions:  # as on the command line: a float that overflows is told by what shows it
+        warnings.simplefilter("ignore", RuntimeWarning)

@@ -1,0 +1,116 @@
+"""From a report file to what the templates see: blocks numbered, tables computed, texts and citations collected."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from itertools import count, product
+from string import ascii_uppercase
+from typing import Any
+
+from atlas.book.appendices import Appendices
+from atlas.book.bibliography import Bibliography
+from atlas.book.blocks import KINDS, kind_of
+from atlas.book.blocks.composer import Composer
+from atlas.book.blocks.figure import Picture
+from atlas.book.blocks.ledger import SECTIONS, Ledger
+from atlas.book.body_and_field import parameters
+from atlas.book.definition import Page, Report
+from atlas.book.document import THEOREMS, Document, PageView
+from atlas.book.texts import citations, title, title_words
+from atlas.errors import AtlasError, unknown
+from atlas.trial.ledger import EQUATIONS
+
+
+def compose(
+    report: Report,
+    pictures: Mapping[str, Picture],
+    recorded: Appendices | None = None,
+    bibliography: Bibliography | None = None,
+    related: Mapping[str, Document] | None = None,
+    *,
+    outline: bool = False,
+) -> Document:
+    """Give the blocks of a report their numbers, compute its tables, and collect its texts.
+
+    `pictures` are those of `atlas.book.pictures.pictures`, `recorded` holds the recorded results that its blocks
+    show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
+    that, else to the first display of the equation, else to one of the reports `related` to this one. An `outline` has
+    the numbers and places of everything, and computes no table. A picture that failed keeps its place with the reason;
+    anything else that is wrong raises AtlasError.
+    """
+    document = Document(
+        report,
+        pictures,
+        ledger=_pages_of(report),
+        equations=dict(THEOREMS),
+        bibliography=bibliography or Bibliography(),
+        related=related or {},
+    )
+    for name, one in document.related.items():
+        for used, uses in one.uses.items():
+            document.uses[used] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
+    document.title = document.texts.add(title(report.title), "the title", inline=True)
+    document.subtitle = document.texts.add(title(report.subtitle), "the subtitle", inline=True)
+    document.abstract = document.texts.add(report.abstract, "the abstract")
+    document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
+    composer = Composer(document, recorded or Appendices())
+    chapters = map(str, count(1))
+    appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
+    for page in report.pages:
+        composer.begin(page.slug, title_words(page.title))
+        composer.where = f"{report.place(page)}, its title"
+        heading = composer.text(title(page.title), inline=True)
+        blocks = tuple(_views(composer, page, outline=outline))
+        document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
+        templates = tuple(KINDS[kind_of(block)].template for block in page.blocks)
+        document.pages.append(
+            PageView(
+                next(appendices if page.appendix else chapters),
+                *(page.slug, composer.title, heading, blocks, templates, page.part, page.appendix),
+            )
+        )
+    _cite_formulas(composer)
+    _explain_symbols(composer)
+    return document
+
+
+def _pages_of(report: Report) -> dict[str, str]:
+    """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
+    pages: dict[str, str] = {}
+    for page in report.pages:
+        for place, block in enumerate(page.blocks):
+            if isinstance(block, Ledger):
+                if block.section not in SECTIONS:
+                    error = unknown("section", block.section, SECTIONS, "in the ledger")
+                    raise AtlasError(f"{report.place(page, place)}: {error}")
+                pages |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
+    return pages
+
+
+def _views(composer: Composer, page: Page, *, outline: bool) -> Iterator[Any]:
+    """Yield the views of the blocks of a page; an error says which of them it is about."""
+    for place, block in enumerate(page.blocks):
+        composer.where, kind = composer.document.report.place(page, place), KINDS[kind_of(block)]
+        try:
+            yield (kind.outline if outline and kind.outline else kind.view)(block, composer)
+        except AtlasError as error:
+            raise AtlasError(f"{composer.where}: {error}") from error
+
+
+def _cite_formulas(composer: Composer) -> None:
+    """Take in the formulas of the equations that are cited and stand on no page of this report."""
+    document, composer.where = composer.document, "the equations cited"
+    for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
+        if name in EQUATIONS and name not in document.targets and name not in document.ledger:
+            document.formulas[name] = composer.text(f"$${EQUATIONS[name].tex.strip()}$$")
+
+
+def _explain_symbols(composer: Composer) -> None:
+    """Take in the symbols of the index. AtlasError for one that is explained nowhere in this report."""
+    document, composer.where = composer.document, "the index"
+    for symbol in document.report.index.symbols:
+        anchors = composer.anchors(symbol.at)
+        if not anchors:
+            raise AtlasError(
+                f"{composer.where}: {symbol.tex} is explained nowhere in this report, only in one beside it."
+            )
+        document.symbols.append((composer.text(f"${symbol.tex}$", inline=True), anchors))

@@ -1,0 +1,106 @@
+"""A report file as typed records: what a user may write, and nothing else; the blocks are in `atlas.book.blocks`."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import msgspec
+
+from atlas.book.blocks import Block, kind_of
+from atlas.book.body_and_field import BodiesAndFields
+from atlas.book.schema import Id, Pair, Slug, StrictStruct
+
+
+class Thumbnail(StrictStruct, frozen=True):
+    """A cut of a figure of a page, the first if none is named: enlarged ``zoom`` times about the place ``at``.
+
+    The place is given in parts of width and height.
+    """
+
+    figure: Id = ""
+    at: Pair = (0.5, 0.5)
+    zoom: Annotated[float, msgspec.Meta(gt=0.0)] = 1.0
+
+
+class Page(StrictStruct, frozen=True):
+    """One page of the HTML, one chapter of the PDF; pages of one part stand together in the contents.
+
+    An appendix is lettered and set in small type. ``thumbnail`` stands for the page on the front page. Formulas between
+    dollars are set in titles; all else in them is plain words.
+    """
+
+    slug: Slug
+    title: str
+    blocks: tuple[Block, ...]
+    part: str = ""
+    appendix: bool = False
+    thumbnail: Thumbnail = Thumbnail()
+
+
+class Symbol(StrictStruct, frozen=True):
+    """A symbol of the index: its TeX, and the equations, figures, tables or pages where it is explained."""
+
+    tex: str
+    at: tuple[str, ...]
+
+
+class Index(StrictStruct, frozen=True):
+    """The index of the PDF: words, whose pages are found there, and symbols."""
+
+    words: tuple[str, ...] = ()
+    symbols: tuple[Symbol, ...] = ()
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file of a report, and the lines on which its pages begin, by (page,), and its blocks, by (page, block).
+
+    Both are counted from 0. A file in TOML has no lines here.
+    """
+
+    file: str = ""
+    lines: Mapping[tuple[int, ...], int] = field(default_factory=dict)
+
+
+SHORT = 2
+"""So many pages have no cover of their own."""
+
+
+class Report(StrictStruct, frozen=True):
+    """The whole file.
+
+    ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
+    this one: the contents lead to them, and so do citations of what they have and this one has not.
+    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is a
+    style sheet of Matplotlib for the figures, a name or a file beside this one. Without
+    ``front_matter``, as in a report of one or two pages that does not ask for it, the PDF has no cover, contents and
+    lists: its title stands above the text, whose heads have no
+    numbers, and a single page has no head of its own.
+    """
+
+    name: str
+    title: str
+    pages: tuple[Page, ...]
+    subtitle: str = ""
+    authors: tuple[str, ...] = ()
+    abstract: str = ""
+    cover: Id | None = None
+    front_matter: bool | None = None
+    style: str = ""
+    related: dict[str, str] = msgspec.field(default_factory=dict)
+    bibliography: str = ""
+    parameters: BodiesAndFields = BodiesAndFields()
+    index: Index = Index()
+    source: Source = Source()
+
+    def place(self, page: Page, block: int | None = None) -> str:
+        """Return what a message begins with: file, line, page, and the block of that number, from 0, with its kind."""
+        number = self.pages.index(page)
+        line = self.source.lines.get((number,) if block is None else (number, block))
+        there = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"
+        return there if block is None else f"{there}, block {block + 1} ({kind_of(page.blocks[block])})"
+
+    @property
+    def bound(self) -> bool:
+        """Whether the PDF has a cover, contents and lists."""
+        return len(self.pages) > SHORT if self.front_matter is None else self.front_matter

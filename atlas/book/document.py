@@ -1,0 +1,206 @@
+"""A report ready to be set: its pages, pictures and texts, and where each citation leads."""
+
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import Any
+
+from atlas.book.bibliography import Bibliography
+from atlas.book.blocks.composer import Use
+from atlas.book.blocks.figure import Figure, Picture
+from atlas.book.blocks.ledger import Errata, Ledger
+from atlas.book.definition import Report
+from atlas.book.pandoc import Target
+from atlas.book.pictures import keys
+from atlas.book.texts import Link, Texts, citations
+from atlas.errors import AtlasError, unknown
+from atlas.lazy import cached_property
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.equation import slug
+from atlas.trial.ledger.plain import plain
+
+THEOREMS = {
+    name: f"(T{number})"
+    for number, name in enumerate((name for name, one in EQUATIONS.items() if one.kind == "theorem"), 1)
+}
+"""The numbers of what the paper does not have, in the order of the ledger."""
+
+
+@dataclass(frozen=True)
+class PageView:
+    """A page: its place in the contents, the views of its blocks and the names of their templates.
+
+    `number` is that of the chapter, or the letter of the appendix; `title` is in plain words, `heading` the number of
+    the text that is set.
+    """
+
+    number: str
+    slug: str
+    title: str
+    heading: int
+    blocks: tuple[Any, ...]
+    templates: tuple[str, ...]
+    part: str = ""
+    appendix: bool = False
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return f"{self.slug}.html"
+
+    @property
+    def placed(self) -> list[tuple[str, Any]]:
+        """Template and view of each block, in their order."""
+        return list(zip(self.templates, self.blocks, strict=True))
+
+    @property
+    def floated(self) -> list[tuple[str, Any]]:
+        """Template and view of each block, a figure before the prose that speaks of it: so it floats to that page."""
+        floated: list[tuple[str, Any]] = []
+        for template, view in self.placed:
+            place = len(floated)
+            if template == "figure":
+                while place and floated[place - 1][0] in {"figure", "table"}:
+                    place -= 1
+                if place and floated[place - 1][0] == "prose":
+                    place -= 1
+                else:
+                    place = len(floated)
+            floated.insert(
+                place if place == len(floated) or floated[place][0] == "prose" else len(floated), (template, view)
+            )
+        return floated
+
+
+@dataclass
+class Document:
+    """A report ready to be set: its pages, pictures, texts, and where each citation leads.
+
+    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
+    that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
+    ledger; `errata` the page of the errata; `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas`, the
+    equations that are cited here and stand in no page of this report, are numbers of texts. `related` holds the reports
+    beside this one, in outline; a citation of what is not here leads there. `bibliography` holds the works that can be
+    cited, `listed_on` is the page of their list.
+    """
+
+    report: Report
+    pictures: Mapping[str, Picture]
+    texts: Texts = field(default_factory=Texts)
+    pages: list[PageView] = field(default_factory=list)
+    targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    title: int = 0
+    subtitle: int = 0
+    abstract: int = 0
+    given: list[int] = field(default_factory=list)
+    symbols: list[tuple[int, list[str]]] = field(default_factory=list)
+    equations: dict[str, str] = field(default_factory=dict)
+    ledger: dict[str, str] = field(default_factory=dict)
+    errata: str = ""
+    bibliography: Bibliography = field(default_factory=Bibliography)
+    listed_on: str = ""
+    written: dict[Target, list[str]] = field(default_factory=dict)
+    related: "Mapping[str, Document]" = field(default_factory=dict)
+    uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
+    formulas: dict[str, int] = field(default_factory=dict)
+
+    def set(self, *targets: Target) -> None:
+        """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
+        self.texts.read()
+        with ThreadPoolExecutor(len(targets)) as threads:
+            texts = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
+            self.written = dict(zip(targets, texts, strict=True))
+
+    def cite(self, target: Target) -> Callable[[str, str], Link]:
+        """Return the function that finds what a citation says and where it leads, given its name and place."""
+
+        def link(name: str, where: str) -> Link:
+            says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
+            if here := self.place(name):
+                file, anchor, words = here
+                return Link(words, file if target == "html" else "", anchor, says)
+            beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
+            if beside:
+                return beside._replace(says=says) if target == "html" else Link(beside.words)
+            if name in EQUATIONS:
+                return Link(self.number(name))
+            if name in self.bibliography.named:
+                if not self.listed_on:
+                    raise AtlasError(f"{where}: @{name} is cited, but no block of the kind 'bibliography' lists it.")
+                page = f"{self.listed_on}.html" if target == "html" else ""
+                return Link(self.bibliography.named[name], page, f"work-{name}", "", self.bibliography.bracketed[name])
+            raise AtlasError(f"{where}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
+
+        return link
+
+    def from_beside(self, name: str) -> Link | None:
+        """Return what a citation in a report beside this one says and where it leads, None if the name is not here."""
+        folder, title = f"../{self.report.name}", self.report.title
+        if name == f"report:{self.report.name}":
+            return Link(title, f"{folder}/index.html", "page-index")
+        here = self.place(name)
+        if here is None:
+            return None
+        file, anchor, words = here
+        counted = name.startswith(("fig:", "tab:"))
+        return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
+
+    def place(self, name: str) -> tuple[str, str, str] | None:
+        """Return the page, the anchor and the words of a name in this report: in its ledger, else where it is shown."""
+        if name in self.ledger:
+            return f"{self.ledger[name]}.html", f"ledger-{slug(name)}", self.number(name)
+        return self.targets.get(name)
+
+    def entry(self, name: str) -> str:
+        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
+        beside = ((folder, related.ledger) for folder, related in self.related.items())
+        there = next((f"../{folder}/{ledger[name]}" for folder, ledger in beside if name in ledger), "")
+        return self.ledger.get(name, there)
+
+    def number(self, name: str) -> str:
+        """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
+        return name if name.startswith("(") else self.equations.get(name, f"({name})")
+
+    def numbered(self, name: str) -> str:
+        """Return the number of an equation; one that has none in the paper gets the next of our own."""
+        if not name.startswith("("):
+            own = len(self.equations) - len(THEOREMS) + 1
+            self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{own})")
+        return self.number(name)
+
+    @cached_property
+    def displays_the_paper(self) -> bool:
+        """Whether numbers of our own must not be taken for those of the paper, whose equations stand beside them."""
+        blocks = [block for page in self.report.pages for block in page.blocks]
+        return any(getattr(block, "name", "").startswith("(") or isinstance(block, Ledger | Errata) for block in blocks)
+
+    def pictures_of(self, block: Figure) -> list[Picture]:
+        """Return the pictures of a figure block."""
+        return [self.pictures[key] for key in keys(block, self.report)]
+
+    @property
+    def cover(self) -> Picture | None:
+        """The picture of the cover."""
+        blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
+        chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
+        return self.pictures_of(chosen)[0] if chosen else None
+
+    def listed(self, template: str) -> list[Any]:
+        """Return the figures or the tables, by the name of their template, in their order."""
+        return [block for page in self.pages for name, block in page.placed if name == template]
+
+    def flows_after(self, table: Any) -> bool:
+        """Whether the table after one stands in its place in the text."""
+        return any(other.flows for other in self.listed("table")[table.number : table.number + 1])
+
+    @property
+    def citable(self) -> list[str]:
+        """All names that can be cited."""
+        return [f"@{name}" for name in (*self.targets, *EQUATIONS, *self.bibliography.named)]
+
+    @property
+    def works(self) -> dict[str, str]:
+        """The entries of the works that are cited, by key, in the order of the list."""
+        names = {name for text in self.texts.texts for name in citations(text.markdown)}
+        return {key: entry for key, entry in self.bibliography.entries.items() if key in names}

@@ -1,0 +1,71 @@
+"""Report files: which there are, and what their heads say."""
+
+from pathlib import Path
+from typing import Any
+
+from atlas.book import toml
+from atlas.errors import AtlasError, unknown
+from atlas.places import folder
+
+RULE = "+++"
+"""The line above and the line below the head of a report in Markdown."""
+SUFFIXES = (".md", ".toml")
+
+
+def files() -> dict[str, Path]:
+    """Return the reports of the folder ``reports/`` by name; Markdown without a head of TOML is none."""
+    paths = sorted(path for suffix in SUFFIXES for path in folder("reports").glob(f"*{suffix}"))
+    return {path.stem: path for path in paths if path.suffix == ".toml" or text_of(path).startswith(RULE)}
+
+
+def names() -> list[str]:
+    """List the names of the reports of the folder ``reports/``."""
+    return list(files())
+
+
+def find(name: str) -> Path:
+    """Return the file of a report, given its name or its path. Raises AtlasError if there is none."""
+    path = Path(name)
+    if path.suffix in SUFFIXES:
+        if path.is_file():
+            return path
+        raise AtlasError(f"There is no report file {name}.")
+    known = files()
+    if name in known:
+        return known[name]
+    if path.is_file():
+        raise AtlasError(f"{name} is no report: a report is a .md or a .toml file.")
+    raise unknown("report", name, known)
+
+
+def beside(name: str, folder: Path) -> Path | None:
+    """Return a file in the folder of a report or below, None where there is none; a link that leads out is none."""
+    file = folder / name
+    return file if file.resolve().is_relative_to(folder.resolve()) and file.is_file() else None
+
+
+def text_of(path: Path) -> str:
+    """Return the text of a report file. Raises AtlasError for one that is no UTF-8."""
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise AtlasError(f"{path} is not a text in UTF-8: {error.reason} at byte {error.start}.") from error
+
+
+def head(path: Path) -> dict[str, Any]:
+    """Return what stands above the pages of a report. Raises AtlasError for what is no TOML."""
+    text = text_of(path)
+    try:
+        return toml.loads(text.split(f"\n{RULE}")[0].removeprefix(RULE) if path.suffix == ".md" else text)
+    except ValueError as error:
+        raise AtlasError(f"{path} is not TOML: {error}.") from error
+
+
+def related_to(file: Path) -> list[str]:
+    """Return the names of the reports that stand beside that of a file; none where the file can't be read."""
+    try:
+        related = head(file).get("related", {})
+    except AtlasError:
+        return []
+    known = names()
+    return [name for name in related if name in known] if isinstance(related, dict) else []

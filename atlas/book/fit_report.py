@@ -1,0 +1,217 @@
+"""The report of a fit: parameters with errors, what data do not see, residuals, the motion, and how to repeat it."""
+
+import re
+import shlex
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import PurePath
+from pprint import pformat
+from typing import Any
+
+import numpy as np
+
+from atlas.book.digits import MINUS
+from atlas.book.markdown import written
+from atlas.book.page import Asked, figures_of, headed, name_of
+
+STRONG = 0.5
+"""Correlations that are told."""
+
+AHEAD = {1: "that of a measurement", 10: "ten times that of a measurement"}
+"""Errors of a prediction, in those of a measurement, for which it is said how long it is that good."""
+
+NBSP = "\N{NO-BREAK SPACE}"
+
+MEANINGS = {
+    "ratio": (r"$I_3/I_2$", ""), "I1": (r"$I_1/I_2$", ""), "I3": (r"$I_3/I_2$", ""),
+    "B": (r"the field $\mathbf{B}'$ in the laboratory", "1/time"), "b": (r"$|\mathbf{B}'|$", "1/time"),
+    "omega": (r"$\boldsymbol\Omega$ in the body at the epoch", "1/time"),
+    "a": ("attitude at the epoch, a rotation vector", "rad"), "n": ("direction of the field", ""),
+    "k": ("coupling to the field, over $I_2$", "1/time"),
+    "linear": (r"linear part of the potential, over $I_2$", "1/time^2^"),
+    "quadratic": (r"quadratic part of the potential, over $I_2$", "1/time^2^"), "z": ("the elliptic motion", ""),
+    "branch": ("sign of $v$", ""),
+}  # fmt: skip
+"""What parameters are, by their names with or without the number, and their units; moments are in those of I2."""
+
+
+ENDS = {float("inf"): "any time", -float("inf"): "nowhere"}
+"""What is said of a horizon that has no end, or no beginning."""
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A page of a fit.
+
+    fit       an `atlas.fit`, of the data in `file`, a path from the folder of the page; `digest` of what it holds
+    options   the options of the command that makes the page, each with what was typed, by name
+    given     arguments of `fit_file` by which it is made, from values that were found before
+    motion    what a page of the fitted motion is asked for
+    ahead     lines on what was asked of the time to come
+    """
+
+    fit: Any
+    file: str
+    digest: str
+    options: Mapping[str, tuple[str, ...]]
+    given: Mapping[str, Any]
+    motion: Asked
+    ahead: tuple[str, ...] = ()
+    title: str = ""
+    called: str = ""
+
+    @property
+    def words(self) -> list[str]:
+        """The options, as they are typed."""
+        return [word for name, texts in self.options.items() for word in (f"--{name}", *texts)]
+
+    @property
+    def command(self) -> str:
+        """The command that makes the page."""
+        return shlex.join(["atlas", "page", *self.words, *(["--name", self.called] if self.called else [])])
+
+    @property
+    def name(self) -> str:
+        """The name of its files, made of what was typed."""
+        return self.called or name_of(["fit", PurePath(self.words[1]).stem, *self.words[2:]])
+
+    @property
+    def _file(self) -> str:
+        """The name of the data's file, without what is Markdown."""
+        return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
+
+    def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
+        """Return the report file and the recipe of its picture, by their names."""
+        return {
+            f"{self.name}.md": headed(self, written(self.definition(there))),
+            f"{self.name}.py": headed(self, self._recipe()),
+        }
+
+    def definition(self, there: Callable[[str], bool]) -> dict[str, Any]:
+        """Return the report as the values of its file."""
+        left_out, motion = list[str](), self.motion
+        blocks = [
+            _prose(self._verdict()),
+            self._parameters(),
+            {"kind": "figure", "recipe": f"./{self.name}.py", "id": "data"},
+            *self._correlations(),
+            *([] if self.fit.warnings else [self._horizons()]),
+            *([_prose("What was asked of the time to come:", "", "```", *self.ahead, "```")] if self.ahead else []),
+            *self._motion(left_out, there),
+            _prose(
+                "## The same again", "", "This page, and its numbers with all covariances:", "", "```console",
+                f"$ {self.command}", f"$ {shlex.join(['atlas', 'fit', *self.words[1:], '--json'])}", "```",
+            ),
+            *([_prose("\n- ".join(["## Left out\n", *left_out]))] if left_out else []),
+        ]  # fmt: skip
+        records = (("bodies", "body", motion.body), ("fields", "field", motion.field))
+        return {
+            "name": self.name,
+            "title": self.title or f"The motion in {self._file}",
+            "subtitle": f"{self.fit.family} motion, {self.fit.t.size} times of {self.fit.kind.replace('_', ' ')}",
+            "abstract": "Errors are standard errors, of first order. The numbers of a fit are estimates: no digit is "
+            "proven. Times are in the unit of the file, in s if its heading has one, moments of inertia in that of "
+            "$I_2$.",
+            "parameters": {kind: {name: record} for kind, name, record in records if record},
+            "pages": [{"slug": "index", "title": "Fit", "blocks": blocks}],
+        }  # fmt: skip
+
+    def _verdict(self) -> str:
+        """Say how good the fit is, what it does not tell, and what speaks against it."""
+        fit = self.fit
+        expected = f"where 1 ± {(2 / fit.nfree) ** 0.5:.2g} is expected"
+        lines = [
+            f"The reduced chi square is {fit.redchi:.4g}, {expected}. The standard error of a measurement was given, "
+            f"{fit.noise}."
+            if fit.known
+            else f"The standard error of a measurement, which makes the reduced chi square 1, is {fit.noise}."
+        ]
+        lines += [] if fit.warnings else ["Nothing in the residuals speaks against this motion."]
+        for head, sentences in (
+            ("What speaks against this motion:", fit.warnings),
+            ("What the data do not determine:", fit.undetermined),
+            ("Alternatives:", fit.others),
+        ):
+            lines += ["", head, "", *(f"- {_marked(sentence)}" for sentence in sentences)] if sentences else []
+        return "\n".join(lines)
+
+    def _parameters(self) -> dict[str, Any]:
+        rows = []
+        for name, value, error, note in self.fit.rows()[1]:
+            what, unit = MEANINGS.get(name) or MEANINGS[name.rstrip("123")]
+            number = (
+                f"{value}{NBSP}±{NBSP}{error}"
+                if error != "-"
+                else f"{value}, fixed"
+                if note == "fixed"
+                else "not determined"
+            )
+            rows.append([f"`{name}`", what, number.replace("-", MINUS), unit])
+        return {
+            "kind": "listing", "id": "parameters", "rows": rows, "columns": ["Name", "What it is", "Value", "Unit"],
+            "caption": f"Parameters at the time {self.fit.epoch:g}, with their standard errors.",
+        }  # fmt: skip
+
+    def _correlations(self) -> Iterator[dict[str, Any]]:
+        """Yield the table of strong correlations, or the sentence that there are none."""
+        pairs = {
+            frozenset((name, other)): size
+            for name, p in self.fit.parameters.items()
+            for other, size in (p.correl or {}).items()
+            if abs(size) >= STRONG
+        }
+        if pairs:
+            rows = [
+                [", ".join(f"`{name}`" for name in self.fit.names if name in pair), f"{size:.3f}".replace("-", MINUS)]
+                for pair, size in sorted(pairs.items(), key=lambda item: -abs(item[1]))
+            ]
+            yield {
+                "kind": "listing", "id": "correlations", "columns": ["Parameters", "Correlation"], "rows": rows,
+                "caption": f"Correlations of errors, from {STRONG:g} on: what one gains the other one pays.",
+            }  # fmt: skip
+
+    def _horizons(self) -> dict[str, Any]:
+        """Return how far ahead a prediction is good."""
+        fit = self.fit
+        unit, size = " rad" * (fit.kind in ("rotation", "axis")), float(np.max(fit.sigma))
+        rows = [
+            [f"{factor * size:.3g}{unit}", words, ENDS.get(until, f"{until:.6g}")]
+            for factor, words in AHEAD.items()
+            for until in [fit.horizon(factor * size)]
+        ]
+        return {
+            "kind": "listing", "id": "horizon", "rows": rows, "columns": ["Error", "", "Until"],
+            "caption": "How far ahead a prediction of what was measured is good: the time until which its largest "
+            f"standard error is smaller. The data end at {fit.t.max():.6g}.",
+        }  # fmt: skip
+
+    def _motion(self, left_out: list[str], there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
+        """Yield the figures of the motion, and where its own page is."""
+        own = self.motion
+        where = f"[`{own.command}`]({own.name}.html)" if there(own.name) else f"`{own.command}`"
+        yield _prose(
+            "## The motion", "", f"With these values and R(0) = 1; {where} makes its own page, with its rates."
+        )
+        yield from figures_of(own, left_out)
+
+    def _recipe(self) -> str:
+        """Return the recipe that draws data, curve and residuals."""
+        return "\n".join(
+            [
+                f'"""Data, fitted motion and residuals, of data with the digest {self.digest}."""', "",
+                "from pathlib import Path", "", "from atlas.fitting import fit_file", "",
+                f"FILE = Path(__file__).parent / {self.file!r}",
+                f"OPTIONS = {pformat(dict(self.given), sort_dicts=False)}", "", "",
+                "def scene():", '    """Fit again, from what was found, and draw."""',
+                "    return fit_file(FILE, **OPTIONS).scene()", "",
+            ]
+        )  # fmt: skip
+
+
+def _marked(sentence: str) -> str:
+    """Return a sentence for the terminal as Markdown."""
+    return re.sub(r"(--\w+)", r"`\1`", sentence).replace("+-", "±")
+
+
+def _prose(*lines: str) -> dict[str, Any]:
+    return {"kind": "prose", "text": "\n".join(lines)}

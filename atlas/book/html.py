@@ -1,0 +1,242 @@
+"""The pages: plain HTML with MathML, one stylesheet, embedded fonts, small scripts; nothing from the network."""
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from html import escape as escaped
+from html import unescape
+from io import BytesIO
+from itertools import pairwise
+from typing import Any, NamedTuple
+from unicodedata import normalize
+from xml.etree import ElementTree as ET
+
+from markupsafe import Markup, escape
+
+from atlas.book.blocks.equation import EquationView
+from atlas.book.blocks.figure import FigureView
+from atlas.book.blocks.ledger import LedgerView
+from atlas.book.definition import Thumbnail
+from atlas.book.document import Document, PageView
+from atlas.book.fonts import FACES
+from atlas.book.scripts import script
+from atlas.book.templates import templates
+from atlas.book.texts import title_words
+from atlas.errors import AtlasError, unknown
+from atlas.pictures.style import STYLES
+from atlas.trial.ledger.equation import slug
+from atlas.trial.ledger.plain import plain
+
+SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
+"""The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
+turns figures in space, what lets figures move in time, and motions with sliders."""
+CARD = (400, 250)
+"""The size of a small picture in pixels."""
+
+
+class Card(NamedTuple):
+    """A figure that stands for a page on the front page, and how it is cut."""
+
+    page: PageView
+    figure: FigureView
+    cut: Thumbnail = Thumbnail()
+
+    @property
+    def file(self) -> str:
+        """The place of its small picture in the report."""
+        return f"cards/{self.page.slug}.webp"
+
+
+def pages(document: Document) -> dict[str, str]:
+    """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
+    environment = templates("html", plain=plain, title_words=title_words)
+    texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
+    template = environment.get_template("page.html")
+    common: dict[str, Any] = {
+        "document": document,
+        "texts": texts,
+        "report": document.report,
+        "cover": _cover(document),
+        "cards": cards(document),
+    }
+    there = document.pages
+    set_pages = {
+        page.file: anchored(template.render(page=page, before=before, after=after, **common))
+        for before, page, after in zip([None, *there], there, [*there[1:], None], strict=False)
+    }
+    if len(set_pages) == 1:
+        set_pages = {name: _with_sections(page) for name, page in set_pages.items()}
+    style = environment.get_template("style.css").render(faces=FACES, looks=STYLES)
+    scripts = {name: script(name) for name in SCRIPTS}
+    return {"style.css": style, **scripts, "index.js": index(document, set_pages, texts), **set_pages}
+
+
+def whole(text: str) -> str:
+    """Keep the options in inline code on one line: a browser breaks them behind their hyphens."""
+    option = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
+    return re.sub("<code>[^<]*</code>", lambda code: option.sub(r'<span class="option">\g<0></span>', code[0]), text)
+
+
+def anchored(page: str) -> str:
+    """Give each heading inside a page an anchor made of its words, and a link to it."""
+    seen: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
+
+    def heading(match: re.Match[str]) -> str:
+        words = unescape(re.sub(r"<math.*?</math>|<[^>]+>", " ", match[2], flags=re.DOTALL))
+        name = "-".join(re.findall(r"[a-z0-9]+", words.lower())) or "section"
+        seen[name] += 1
+        name = name if seen[name] == 1 else f"{name}-{seen[name]}"
+        link = f'<a class="anchor" href="#{name}" aria-label="Link to {escape(" ".join(words.split()))}">#</a>'
+        return f'<h{match[1]} id="{name}">{match[2]} {link}</h{match[1]}>'
+
+    return re.sub(r"<h([23])>(.*?)</h\1>", heading, page, flags=re.DOTALL)
+
+
+def _with_sections(page: str) -> str:
+    """Let the contents of a report of one page be its sections."""
+    sections = re.findall(r'<h2 id="([^"]+)">(.*?) <a class="anchor"', page)
+    items = "\n".join(f'<li><span></span><a href="#{anchor}">{words}</a></li>' for anchor, words in sections)
+    return re.sub(
+        r'(<li class="here">.*?</li>\n)', lambda matched: f"{matched[1]}{items}\n", page, count=1, flags=re.DOTALL
+    )
+
+
+def _figures(document: Document) -> list[Card]:
+    """Return the figures, in their order."""
+    return [Card(page, block) for page in document.pages for block in page.blocks if isinstance(block, FigureView)]
+
+
+def cards(document: Document) -> list[Card]:
+    """Return the cards of the pages: of the figures `pictures.on_cards`, those that are drawn."""
+    figures, cards = _figures(document), []
+    cuts = {one.slug: one.thumbnail for one in document.report.pages}
+    for page in document.pages:
+        wanted = cuts.get(page.slug, Thumbnail())
+        fits = (
+            one for one in figures if (one.figure.id == f"fig-{wanted.figure}" if wanted.figure else one.page is page)
+        )
+        chosen = next(fits, None)
+        if chosen and not chosen.figure.failure:
+            cards.append(Card(page, chosen.figure, wanted))
+        elif wanted.figure:
+            raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn in this report.")
+    return cards
+
+
+def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
+    """Cut a picture about a place, `CARD` pixels large, as WebP."""
+    from PIL import Image
+
+    with Image.open(BytesIO(png)) as picture:
+        scale = cut.zoom * max(want / size for want, size in zip(CARD, picture.size, strict=True))
+        seen = [want / scale for want in CARD]
+        left, top = (place * (size - share) for place, size, share in zip(cut.at, picture.size, seen, strict=True))
+        white = Image.new("RGBA", picture.size, "white")
+        white.alpha_composite(picture.convert("RGBA"))
+        box = (left, top, left + seen[0], top + seen[1])
+        small = white.convert("RGB").resize(CARD, Image.Resampling.LANCZOS, box, reducing_gap=3.0)
+    out = BytesIO()
+    small.save(out, "webp", quality=82, method=4)
+    return out.getvalue()
+
+
+def _cover(document: Document) -> Card | None:
+    """Return the figure of the front page: the one that the report names."""
+    if document.report.cover is None:
+        return None
+    anchor = f"fig-{document.report.cover}"
+    if f"fig:{document.report.cover}" not in document.targets:
+        raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
+    drawn = (card for card in _figures(document) if card.figure.id == anchor and not card.figure.failure)
+    return next(drawn, None)
+
+
+_START = re.compile(
+    r'<(?:h[23]|figure|section)\b[^>]*? id="([^"]+)"[^>]*>|<div class="equation" id="([^"]+)">'
+    r'|<main id="([^"]+)">|</main>'
+)
+_TITLE = re.compile(r"<h[123][^>]*>(.*?)</h[123]>|(?:<figcaption[^>]*>)<b>(.*?)</b>", re.DOTALL)
+_REST_OF_HEADING = re.compile(r"(.*?)</h[23]>", re.DOTALL)
+_MARKUP = re.compile(r"<[^>]+>")
+_INLINE = re.compile(r"</?(?:a|b|i|em|strong|span|code|sup|sub)\b[^>]*>")
+_RELATION = re.compile(r"\s*([=≤≥≈≠])\s*")
+_ACCENTS = {"′": "'", "−": "-", "\u2061": "", "\u2062": "", "⃗": ""}
+_TAG = re.compile(r'<div class="tag">(.*?)</div>', re.DOTALL)
+
+
+def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) -> str:
+    """Return the index of a report as a script, which a page opened from disk can load: ``atlasIndex({...})``.
+
+    ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order of
+    the pages, ``equations`` the formula of each name as HTML. Formulas are words on one line: Ω3=ω1B'2, I=3/2.
+    """
+    rows = [
+        row for page in document.pages for row in sections(page.file, f"{page.number} {page.title}", pages[page.file])
+    ]
+    content = json.dumps({"sections": rows, "equations": _equations(document, texts)}, ensure_ascii=False)
+    return f"atlasIndex({content});\n"
+
+
+def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
+    """Cut a page at its anchors."""
+    starts = list(_START.finditer(html))
+    for start, end in pairwise(starts):
+        anchor = next(filter(None, start.groups()))
+        content = html[start.end() : end.start()]
+        tag = _TAG.search(content)
+        title = _REST_OF_HEADING.match(content) if start[0].startswith("<h") else _TITLE.search(content)
+        if anchor.startswith("eq-") and tag:
+            yield file, anchor, f"Equation {_words(tag[1])}", page
+        else:
+            head = _words(next(filter(None, title.groups()), "")).removesuffix(".") if title else page
+            yield file, anchor, page if anchor.startswith("page-") else f"{head} — {page}", _words(content)
+
+
+def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
+    """Return the formulas by the names in their anchors: of the ledger, of the displays, and others that are cited."""
+    equations = {slug(name): texts[number] for name, number in document.formulas.items()}
+    for page in document.pages:
+        for block in page.blocks:
+            if isinstance(block, EquationView):
+                equations[slug(block.name)] = texts[block.text]
+            elif isinstance(block, LedgerView):
+                equations |= {slug(entry.name): texts[entry.formula] for entry in block.entries}
+    return equations
+
+
+def _words(html: str) -> str:
+    """Return the words of a piece of HTML, its formulas on one line."""
+    html = re.sub(r'<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
+    html = re.sub(r"<math.*?</math>", lambda matched: escaped(linear(matched[0])), html, flags=re.DOTALL)
+    return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))
+
+
+def linear(mathml: str) -> str:
+    """Return a formula on one line, in plain letters: ω'2 for an index, x^2 for a power, 3/2 for a fraction."""
+    return _joined("".join(_line(ET.fromstring(mathml)).split()))  # noqa: S314  what pandoc has written
+
+
+def _line(node: ET.Element) -> str:
+    """Return what a node of MathML says."""
+    tag = node.tag.rpartition("}")[2]
+    if tag in {"annotation", "annotation-xml", "mspace"}:
+        return ""
+    parts = [_line(child) for child in node]
+    text = "".join(_ACCENTS.get(letter, letter) for letter in normalize("NFKC", node.text or ""))
+    if tag == "mfrac":
+        return "/".join(factor if factor.isalnum() else f"({factor})" for factor in parts)
+    if tag in {"msup", "mover"}:
+        base, above = parts
+        return base + above if above in {"'", "''", "˙", "^", "¨", "~", "¯", ""} else f"{base}^{above}"
+    if tag == "msubsup":
+        base, below, above = parts
+        return f"{base}'{below}" if above == "'" else f"{base}{below}^{above}"
+    if tag == "msqrt":
+        return f"sqrt({''.join(parts)})"
+    return " ".join(parts) if tag in {"mtr", "mtable"} else text + "".join(parts)
+
+
+def _joined(text: str) -> str:
+    """Take out the space around signs of a relation: I = 3/2 is I=3/2."""
+    return _RELATION.sub(r"\1", text)

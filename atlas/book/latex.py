@@ -1,0 +1,296 @@
+r"""A report as LaTeX to be taken into a manuscript: numbers by key, tables, figures, references, and all as one paper.
+
+Numbers go through siunitx, which rounds them; what is asked for beyond the proven digits is an error of LaTeX. Tables
+are booktabs' with columns of siunitx made for their numbers. A report in REVTeX stands beside them as `paper.tex`.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+from functools import partial
+from itertools import groupby
+from math import ceil
+from typing import Any
+
+import atlas
+from atlas.book.blocks.equation import EquationView
+from atlas.book.blocks.figure import FigureView
+from atlas.book.blocks.prose import ProseView
+from atlas.book.blocks.table import Cell, ColumnView, TableView
+from atlas.book.data_package import ascii_name, digits, unique, value
+from atlas.book.digits import MINUS
+from atlas.book.document import Document
+from atlas.book.templates import templates
+from atlas.book.texts import title_words
+from atlas.targets import TARGETS
+from atlas.trial.ledger.plain import words
+
+ANY = 99
+"""Digits of an exact zero."""
+NUMBERS, PAPER, REFERENCES = "atlas-numbers.tex", "paper.tex", "references.bib"
+_CELL = re.compile(r"\\atlascell\{([^{}]*)\}\{([^{}]*)\}")
+_TITLE = re.compile(r"(title\s*=\s*)(\{[^\n]*\})(,\n(?:(?!^@|^\}).*\n)*?\s*langid)", re.MULTILINE)
+_POWER = re.compile(r"\$?10\^\{?(-?\d+)\}?\$? *")
+
+
+_ESCAPES = str.maketrans(
+    {mark: f"\\{mark}" for mark in "#$%&_{}"}
+    | {"\\": r"\textbackslash{}", "^": r"\^{}", "~": r"\textasciitilde{}", "’": "'"}
+)
+
+
+@dataclass(frozen=True)
+class Numeral:
+    """A number by its key: its digits, all proven, how many they are, its unit for siunitx, and where it stands."""
+
+    key: str
+    cell: str
+    digits: int
+    value: str
+    unit: str
+
+
+def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files of a document whose texts are set in LaTeX, by their places.
+
+    `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
+    """
+    markdown = [text.markdown for text in document.texts.texts]
+    environment = templates("latex")
+    common = {"report": document.report}
+    computed = [table for table in document.listed("table") if table.name]
+    numbers = [number for table in computed for number in _numbers(table, markdown)]
+    keys = {number.cell: number.key for number in numbers}
+    # what has no key stays as it is printed
+    by_key = partial(_CELL.sub, lambda cell: rf"\atlas{{{keys[cell[1]]}}}" if cell[1] in keys else cell[2])
+    texts = [by_key(text) for text in document.written["latex"]]
+    files = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
+    for table in document.listed("table"):
+        files[f"tables/{table.id.removeprefix('tab-')}.tex"] = table_of(table, markdown, texts)
+    for figure in document.listed("figure"):
+        files[f"figures/{figure.id.removeprefix('fig-')}.tex"] = _figure(figure, texts, pictures)
+    files[REFERENCES] = _references(document)
+    files[PAPER] = environment.get_template("paper.tex").render(
+        title=_heading(texts[document.title], document.report.title),
+        authors=[_escaped(author) for author in document.report.authors],
+        abstract=texts[document.abstract],
+        body="\n\n".join(_body(document, texts, {name for name, text in files.items() if "*}" in text[:20]})),
+        **common,
+    )
+    return {name: text.encode() for name, text in files.items()} | dict(pictures)
+
+
+def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
+    """Yield the numbers of a computed table: keyed by table, row and, where there are several, column."""
+    heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
+    numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]
+    places = {name: place for place, name in enumerate(heads)}
+    rows = [[value(cell, markdown) for cell in row] for row in table.rows]
+    names = unique(_row_name(row, places, numeric, number) for number, row in enumerate(rows, 1))
+    for number, (name, row, cells) in enumerate(zip(names, rows, table.rows, strict=True), 1):
+        for place in numeric:
+            if cells[place].text is None and row[place] and cells[place].proven:
+                column = table.columns[place]
+                of_row = cells[places["Unit"]].text if "Unit" in places else None
+                said = column.unit if column.unit is not None else of_row
+                last = [heads[place] or str(place)] if len(numeric) > 1 else []
+                key = "/".join([table.id.removeprefix("tab-"), name, *last])
+                unit = "" if said is None else markdown[said]
+                cell = f"{table.id.removeprefix('tab-')}-{number}-{place + 1}"
+                yield Numeral(key, cell, digits(row[place]) or ANY, *_with_unit(row[place], unit))
+
+
+def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
+    """Return the name of a row: its symbol, else its name in Python, else its first words, else its number."""
+    for head in ("Symbol", "Name"):
+        if head in places and row[places[head]]:
+            return ascii_name(row[places[head]].partition("=")[0])
+    return (ascii_name(row[0]) if 0 not in numeric else "") or str(number)
+
+
+def _with_unit(number: str, unit: str) -> tuple[str, str]:
+    """Return a number with the power of ten that stands before its unit, and the unit as siunitx reads it."""
+    power = _POWER.match(unit)
+    rest = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
+    rest = re.sub(r"\^([^^{}]+)\^", r"^{\1}", rest).replace(MINUS, "-")  # an exponent in Markdown
+    rest = "" if rest == "1" else rest
+    return (f"{number}e{power[1]}" if power and "e" not in number else number), rest
+
+
+def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
+    """Return a figure as an environment of its own, of the width that it was made for: a column or both."""
+    name = figure.id.removeprefix("fig-")
+    files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
+    kind = "figure*" if any(picture.size[0] > TARGETS["aps"].width for picture in figure.pictures) else "figure"
+    graphics = "\n".join(rf"\includegraphics{{{file}}}" for file in files)
+    return (
+        f"\\begin{{{kind}}}[{'tb' if kind == 'figure*' else '!htb'}]\n\\centering\n{graphics}\n"
+        f"\\caption{{{texts[figure.caption]}}}\\label{{{figure.id}}}\n\\end{{{kind}}}\n"
+    )
+
+
+def _references(document: Document) -> str:
+    """Return the bibliography: what the report cites from its own, and the atlas."""
+    own = f"""@software{{atlas,
+  author  = {{{{The atlas developers}}}},
+  title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
+  version = {{{atlas.__version__}}},
+}}
+"""
+    protected = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
+    return "\n".join(
+        filter(None, [protected.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), own])
+    )
+
+
+def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
+    """Yield the sections; what has no place in a paper is named in a comment.
+
+    Displays that follow one another are set together. They belong to the paragraph before them, and so does what goes
+    on after them with a small letter. Of figures and tables that follow one another those that are `wide`, over both
+    columns, come last, so that the others fill the columns before them.
+    """
+    for page in document.pages:
+        text = rf"\section{{{_heading(texts[page.heading], page.title)}}}" + "\n"
+        displayed = False
+        for equations, run in groupby(page.placed, lambda pair: isinstance(pair[1], EquationView)):
+            parts = [_block(name, block, texts) for name, block in run]
+            floats = groupby(parts, lambda piece: piece.startswith(r"\input{"))
+            parts = [
+                piece
+                for floating, some in floats
+                for piece in (sorted(some, key=lambda piece: f"{piece[7:-1]}.tex" in wide) if floating else some)
+            ]
+            if equations:
+                text += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
+            else:
+                goes_on = displayed and re.match(r"(\\emph\{)?[a-z]", parts[0]) is not None
+                text += ("\n" if goes_on else "\n\n") + "\n\n".join(parts)
+            displayed = equations
+        yield text
+
+
+def _block(name: str, block: Any, texts: Sequence[str]) -> str:
+    match block:
+        case ProseView(title=None):
+            return texts[block.text]
+        case EquationView():
+            tex = texts[block.text].strip().removeprefix(r"\[").removesuffix(r"\]")
+            label = f"eq-{block.slug}" if block.anchor else ""
+            return rf"\atlasequation{{{_escaped(block.number)}}}{{{label}}}{{{tex}}}{{{_in_lines(tex)}}}"
+        case TableView():
+            return rf"\input{{tables/{block.id.removeprefix('tab-')}}}"
+        case FigureView():
+            return rf"\input{{figures/{block.id.removeprefix('fig-')}}}"
+    return f"% left out: {name}"
+
+
+def _in_lines(tex: str) -> str:
+    """Return a formula in lines, broken where it has a wide space, for a column; one without is as it was."""
+    if r"\begin" in tex or r"\qquad" not in tex:
+        return tex
+    return r"\begin{gathered}" + r" \\ ".join(tex.split(r"\qquad")) + r"\end{gathered}"
+
+
+def _heading(text: str, title: str) -> str:
+    """Return a title that is set; in a bookmark its formulas are in plain words."""
+    return rf"\texorpdfstring{{{text}}}{{{_escaped(title_words(title))}}}" if r"\(" in text else text
+
+
+def _escaped(text: str) -> str:
+    """Escape plain text for LaTeX."""
+    return text.translate(_ESCAPES)
+
+
+LETTERS, TIGHT, BOTH, LONG, LEAST = 46, 84, 115, 30, 24
+"""Letters of a table that fit in a column, in a column where it is made smaller, and across the page; more of a cell
+than LONG are broken into lines, which have together LEAST or more."""
+LINES = 60
+"""Lines of a table that fit on a page below its caption."""
+
+
+def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
+    """Return a table as an environment of its own: over both columns where it is wide, over pages where it is high."""
+    places = range(len(table.columns))
+    formats = [_format([row[place] for row in table.rows], markdown) for place in places]
+    printed = [[value(cell, markdown) for cell in row] for row in table.rows]
+    units = ["" if column.unit is None else words(markdown[column.unit]) for column in table.columns]
+    heads = [words(markdown[c.head]) + f" {unit}" * (unit != "1") for c, unit in zip(table.columns, units, strict=True)]
+    letters = [max(map(len, column)) + 2 for column in zip(heads, *printed, strict=True)]
+    shares = list(_shares(formats, letters))
+    lines = sum(
+        max(ceil(len(text) / BOTH / share) if share else 1 for text, share in zip(row, shares, strict=True))
+        for row in printed
+    )
+    columns = "".join(
+        rf">{{\raggedright\arraybackslash}}p{{{share:.2f}\textwidth}}" if share else format_
+        for share, format_ in zip(shares, formats, strict=True)
+    )
+    caption = rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}"
+    cells = [_head(column, texts, format_) for column, format_ in zip(table.columns, formats, strict=True)]
+    head = [r"\toprule", " & ".join(cells) + r" \\", r"\midrule"]
+    rows = [
+        " & ".join(_entry(row[place], texts, numeric=formats[place] != "l") for place in places) + r" \\"
+        for row in table.rows
+    ]
+    note = [rf"\par\smallskip\footnotesize {texts[table.note]}"] if table.note is not None else []
+    if lines > LINES:
+        begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{columns}}}", caption + r"\\"]
+        again = [*head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule", r"\endfoot"]
+        return "\n".join([*begin, *again, *rows, r"\end{longtable*}", *note, r"\endgroup", ""])
+    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT or any(shares) else ("table", "[!htb]")
+    begin = [rf"\begin{{{kind}}}{place}", caption, r"\centering\footnotesize"]
+    tabular, end = [rf"\begin{{tabular}}{{{columns}}}"], [r"\bottomrule", r"\end{tabular}"]
+    if sum(letters) > LETTERS and kind == "table":
+        tabular = [r"\setlength{\tabcolsep}{3pt}", NARROW + tabular[0]]
+        end = [end[0], end[1] + "}"]
+    return "\n".join([*begin, *tabular, *head, *rows, *end, *note, rf"\end{{{kind}}}", ""])
+
+
+NARROW = r"\resizebox{\ifdim\width>\columnwidth\columnwidth\else\width\fi}{!}{"
+"""What makes a table smaller where it is wider than its column."""
+
+
+def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
+    """Return the column type of some cells: of siunitx with room for their numbers, or l for words."""
+    numbers = [value(cell, markdown) for cell in cells if cell.text is None and cell.whole not in {"", "?"}]
+    if not numbers:
+        return "l"
+    parts = [re.fullmatch(r"(-?)(\d*)(?:\.(\d*))?(?:e(-?)(\d+))?", number) for number in numbers]
+    groups = [field.groups(default="") for field in parts if field]
+    sign = "-" if any(field[0] for field in groups) else ""
+    whole, fraction = (max(len(field[place]) for field in groups) for place in (1, 2))
+    power = max(len(field[4]) for field in groups)
+    exponent = f"e{'-' if any(field[3] for field in groups) else ''}{power}" if power else ""
+    return f"S[table-format={sign}{whole or 1}.{fraction}{exponent}]"
+
+
+def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
+    """Yield for each column its part of the page's width where its words are broken into lines, else 0.
+
+    They are where the table would be wider than the page.
+    """
+    long = [place for place, count in enumerate(letters) if count > LONG and formats[place] == "l"]
+    left = BOTH - sum(count for place, count in enumerate(letters) if place not in long)
+    total = sum(letters[place] for place in long)
+    for place, count in enumerate(letters):
+        narrow = place in long and total > left
+        yield round(max(left, LEAST) * count / total / BOTH, 2) if narrow else 0.0
+
+
+def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
+    """Return the head of a column with its unit; braces keep siunitx from reading it as a number."""
+    unit = texts[column.unit] if column.unit is not None else ""
+    head = texts[column.head] + (f" ({unit})" if unit and unit != "1" else "")
+    return head if format_ == "l" else f"{{{head}}}"
+
+
+def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
+    """Return a cell: words, in braces in a column of numbers, or digits; a star marks what is not proven."""
+    if cell.text is not None:
+        return f"{{{texts[cell.text]}}}" if numeric else texts[cell.text]
+    number = value(cell, ())
+    if not number:
+        return "{?}" if cell.whole else ""
+    return number if cell.proven else f"{number}{{*}}"

@@ -1,0 +1,130 @@
+"""Reading a report file: text to records, and every mistake in it to one sentence with place and remedy."""
+
+import re
+from collections.abc import Iterable, Mapping
+from functools import reduce
+from operator import or_
+from pathlib import Path
+from typing import Any
+
+from msgspec.structs import replace
+
+from atlas.book import toml
+from atlas.book.blocks import Block
+from atlas.book.blocks.figure import Figure
+from atlas.book.blocks.table import Listing, Recorded, Table
+from atlas.book.definition import Report, Source
+from atlas.book.files import beside, names, text_of
+from atlas.book.markdown import LineError, Piece, read
+from atlas.book.schema import SchemaError, convert
+from atlas.errors import AtlasError, unknown
+from atlas.pictures.style import is_known
+
+
+def load(path: Path) -> Report:
+    """Read a report file. Raises AtlasError, in one sentence, for whatever is wrong with it."""
+    text, pieces = text_of(path), dict[tuple[int, ...], Piece]()
+    try:
+        raw = _values(text, pieces, markdown=path.suffix == ".md")
+        source = Source(path.name, {key: piece.line for key, piece in pieces.items()})
+        report = replace(convert(raw, Report), source=source)
+        return _filled(_consistent(report, path.parent), path.absolute().parent)
+    except LineError as error:
+        raise AtlasError(f"{path}, line {error.line}: {error}") from error
+    except SchemaError as error:
+        raise AtlasError(f"{path}{_line(text, pieces, error)}: {str(error).removesuffix('.')}.") from error
+    except AtlasError as error:
+        raise AtlasError(f"{path}: {error}") from error
+
+
+def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
+    """Return the values of a text, and put the pieces into `pieces` if it is Markdown."""
+    if markdown:
+        raw, found = read(text)
+        pieces |= found
+        return raw
+    try:
+        return toml.loads(text)
+    except ValueError as error:
+        raise AtlasError(f"this is not TOML: {error}.") from error
+
+
+def _consistent(report: Report, folder: Path) -> Report:
+    """Check what the types cannot: that names are unique and that what is called by name exists."""
+    blocks = [((k, place), block) for k, page in enumerate(report.pages) for place, block in enumerate(page.blocks)]
+    _unique((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
+    _unique(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")
+    tables = ((path, block.id) for path, block in blocks if isinstance(block, Table | Listing | Recorded))
+    _unique(tables, "tables", "id")
+    for path, block in blocks:
+        _called(block, report, path)
+    for name in report.related:
+        if name not in names():
+            raise SchemaError("related", str(unknown("report", name, names(), "in reports/")), name)
+    if not report.pages or report.pages[0].slug != "index":
+        sentence = "the first must have the slug 'index': that is the file that readers open"
+        raise SchemaError("pages", sentence, "slug", (0,))
+    if report.bibliography and not beside(report.bibliography, folder):
+        sentence = f"{report.bibliography!r} is no file in {folder.absolute()}, where the report is"
+        raise SchemaError("bibliography", sentence, "bibliography")
+    for name in filter(None, report.style.split(",")):
+        if not beside(name, folder) and not is_known(name):
+            sentence = f"{name!r} is no file in {folder.absolute()}, where the report is, nor a name of Matplotlib's"
+            raise SchemaError("style", sentence, "style")
+    return report
+
+
+def _filled(report: Report, folder: Path) -> Report:
+    """Return the report with the places of the recipes and the style that lie beside it, and its sets in its blocks.
+
+    Of the sets of parameters the last holds, above all the block's own. AtlasError for a recipe that is not there.
+    """
+
+    def fill(block: Block) -> Block:
+        if isinstance(block, Figure) and block.recipe.endswith(".py"):
+            file = folder / Path(block.recipe).name
+            if Path(block.recipe).name != block.recipe.removeprefix("./") or not beside(file.name, folder):
+                raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
+            block = replace(block, recipe=str(file))
+        if not isinstance(block, Figure | Table) or not block.sets:
+            return block
+        sets = [report.parameters.sets[name] for name in block.sets]
+        return replace(block, sets=(), parameters=reduce(or_, [*sets, block.parameters]))
+
+    pages = tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages)
+    styles = (str(beside(name, folder) or name) for name in filter(None, report.style.split(",")))
+    return replace(report, pages=pages, style=",".join(styles))
+
+
+def _called(block: Block, report: Report, path: tuple[int, int]) -> None:
+    """Raise for a body, a field or a set of parameters that a block names and that is not there."""
+    known = report.parameters
+    for kind, there, key, called in (
+        ("body", known.bodies, "body", (getattr(block, "body", None),)),
+        ("body", known.bodies, "bodies", getattr(block, "bodies", ())),
+        ("field", known.fields, "field", (getattr(block, "field", None),)),
+        ("set", known.sets, "sets", getattr(block, "sets", ())),
+    ):
+        for name in filter(None, called):
+            if name not in there:
+                where = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
+                raise SchemaError(where, str(unknown(kind, name, there, "in [parameters]")), key, path)
+
+
+def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> None:
+    """Raise for the first name, given with its place, that comes twice."""
+    seen = set[str]()
+    for path, name in named:
+        if name in seen:
+            raise SchemaError(f"{key} {name!r}", f"two {kind} have it", key, path)
+        seen |= {name} if name else set()
+
+
+def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> str:
+    """Give the line of a mistake: of its key, if that stands once in its block or in the file, else of its block."""
+    there = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
+    key, lines, first = re.escape(error.key), there.lines if there else text.split("\n"), there.line if there else 0
+    pattern = re.compile(rf"\s*(?:\[[^\]]*\b{key}\b|{key}\s*=)|.*[{{,]\s*{key}\s*=")
+    found = [number for number, line in enumerate(lines, first + 1) if pattern.match(line)] if key else []
+    line = found[0] if len(found) == 1 else first
+    return f", line {line}" if line else ""

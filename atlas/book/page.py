@@ -1,0 +1,345 @@
+"""The report of one object: its properties, figures, neighbours, and how to get the same numbers, as a report file."""
+
+import inspect
+import re
+import shlex
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from itertools import chain
+from math import pi
+from typing import Any
+
+from atlas.book.body_and_field import Body, Field, body_and_field
+from atlas.book.digits import plain
+from atlas.book.files import RULE
+from atlas.book.markdown import written
+from atlas.book.schema import convert
+from atlas.book.tables import compute
+from atlas.book.tables.properties import Thing
+from atlas.book.tables.table import Request
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.register import FAMILIES, Family
+
+LONGEST = 100
+"""Characters of the name of a page; what is longer ends with a digest."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a page is asked for.
+
+    options   the options that say which object it is, each with what was typed, by name
+    body, field   their records in a report file, where the family has them; `time` is the unit of time
+    units     the system of units, si or gaussian, of a family whose parameters have different units
+    values    the other parameters of the family
+    called    the name of its files, if it has one of its own
+    note      a sentence on its axes
+    """
+
+    family: Family
+    options: Mapping[str, tuple[str, ...]]
+    values: Mapping[str, Any]
+    body: Mapping[str, Any] | None = None
+    field: Mapping[str, Any] | None = None
+    time: str = "time"
+    units: str = ""
+    digits: int = 10
+    title: str = ""
+    called: str = ""
+    note: str = ""
+
+    @property
+    def words(self) -> list[str]:
+        """The command's name and its options, as they are typed."""
+        command = self.family.command.name if self.family.command else self.family.name
+        return [command, *chain.from_iterable((f"--{name}", *texts) for name, texts in self.options.items())]
+
+    @property
+    def command(self) -> str:
+        """The command that makes the page."""
+        digits = ["--digits", str(self.digits)] if self.digits != 10 else []
+        own = ["--name", self.called] if self.called else []
+        return shlex.join(["atlas", "page", *self.words, *digits, *own])
+
+    @property
+    def name(self) -> str:
+        """The name of its files, made of what was typed."""
+        return self.called or name_of(self.words)
+
+    def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
+        """Return the report file by its name; `there` says whether a page of that name lies beside it."""
+        return {f"{self.name}.md": headed(self, written(definition(self, there)))}
+
+    def changed(self, family: str, **options: Any) -> "Asked":
+        """Return what another object near it is asked for by; an option that is None is left out."""
+        new = {name: _texts(value) for name, value in options.items() if value is not None}
+        kept = {
+            name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
+        }
+        first = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
+        return replace(
+            self, called="", family=FAMILIES[family], options=kept | new if "ratio" in kept else first | kept | new
+        )
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(plain(x + 0.0) for x in (value if isinstance(value, list | tuple) else (value,)))
+
+
+SEEN = 1e-3
+"""Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
+
+FIGURES = "## Figures"
+SETTING = {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
+HEAD = (
+    "# Made by `{command}`, digest {digest}.\n"
+    "# Change it as you like, and build it by `atlas report {name}.md --format single pdf`.\n\n"
+)
+
+
+def name_of(words: Iterable[str]) -> str:
+    """Return the name of a page's files, made of words of its command."""
+    name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
+    return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:8]}"
+
+
+def headed(asked: Any, content: str) -> str:
+    """Return a file of a page, with the command that makes it at its head."""
+    start = f"{RULE}\n" * content.startswith(RULE)
+    content = content.removeprefix(start)
+    digest = sha256(content.encode()).hexdigest()[:12]
+    return start + HEAD.format(command=asked.command.replace("\n", " "), digest=digest, name=asked.name) + content
+
+
+def edited(file: str) -> bool:
+    """Whether a file of a page is no longer as it was made."""
+    head, _, content = file.partition("\n\n")
+    matched = re.search(r"digest (\w+)\.", head)
+    return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
+
+
+def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
+    """Return the report as the values of its file. Raises AtlasError where there is no such object."""
+    family, left_out = asked.family, list[str]()
+    thing = Thing.of(Request([_case(asked)], {"family": family.name, **asked.values}, asked.digits))
+    made, _ = thing.kernels(), thing.balls()
+    parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
+    figures = list(figures_of(asked, left_out))
+    left_out += _too_slow(made, asked.time)
+    beside = [
+        other for other in FAMILIES.values() if other is not family and other.name != "free" and _holds(family, other)
+    ]
+    blocks = [
+        _table(asked, "properties", family.name, asked.values),
+        *figures[:1],
+        *([SETTING] if asked.field and "B" in asked.field else []),
+        *(_table(asked, "properties", other.name, {"given": False}) for other in beside),
+        *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
+        *_closed(asked, left_out),
+        *_neighbours(asked, there),
+        {"kind": "prose", "text": _reproduce(asked, made)},
+        *([{"kind": "prose", "text": "\n- ".join(["## Left out\n", *left_out])}] if left_out else []),
+    ]
+    case = f"{family.says[:1].upper()}{family.says[1:]}"
+    records = (("bodies", "body", asked.body), ("fields", "field", asked.field))
+    return {
+        "name": asked.name,
+        "title": asked.title or case,
+        "subtitle": parameters,
+        "abstract": f"{asked.note} All digits of the tables are proven unless they say otherwise; figures are drawn to "
+        "a fraction of a pixel. The report file beside this page can be changed and built again.".lstrip(),
+        "parameters": {kind: {name: record} for kind, name, record in records if record},
+        "pages": [{"slug": "index", "title": "Properties", "blocks": blocks}],
+    }  # fmt: skip
+
+
+def _holds(family: Family, other: Family) -> bool:
+    """Whether an object of a family has one of another: what that is given is among what it is given."""
+    names = {p.name for p in family.parameters}
+    return "ratio" in names and {p.name for p in other.parameters} <= names
+
+
+def _calls(asked: Asked, family: Family) -> dict[str, str]:
+    """Return the keys of a block by which it calls the body and the field that a family has."""
+    return {
+        key: key
+        for key, name in (("body", "ratio"), ("field", "field"))
+        if asked.body and any(p.name == name and not p.option for p in family.parameters)
+    }
+
+
+def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    unit = {"units": asked.units} if asked.units else {"time": asked.time} if asked.time != "time" else {}
+    return {
+        "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(asked, FAMILIES[family]),
+        "digits": asked.digits, "parameters": {"family": family, **values, **unit},
+    }  # fmt: skip
+
+
+def _too_slow(motion: Any, time: str) -> Iterator[str]:
+    """Yield what is too slow to be seen in a figure of some periods of nutation, or too small to be seen in others."""
+    from atlas.pictures.any_motion import slow_turn
+
+    unit = "s" if time in {"s", "1/s"} else time
+    try:
+        period, angle, rate = float(motion.period), float(motion.precession_per_period), float(motion.precession_rate)
+    except (AttributeError, AtlasError):
+        return
+    turn = f"a whole turn takes {2 * pi / abs(rate):.3g} {unit}" if rate else ""
+    if angle and slow_turn(motion, 5 * period):
+        yield (
+            f"The nutation, of the period {period:.3g} {unit}, which is too small to be seen: the axis is followed for "
+            f"the precession, by {angle:.3g} rad in that time; {turn}."
+        )
+    elif 0 < abs(angle) < SEEN:
+        yield (
+            f"The precession about the field: in a period of nutation, {period:.3g} {unit}, the axis turns by "
+            f"{angle:.3g} rad, so that figures of some periods show none of it; {turn}."
+        )
+
+
+def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+    """Yield the figures that take the numbers, and note of the others why they don't."""
+    from atlas.bodies.units import system
+    from atlas.pictures import recipes
+
+    case = _case(asked)
+    for name in asked.family.figures:
+        recipe = recipes.load(name)
+        values = {key: value for key, value in asked.values.items() if key in recipe.parameters}
+        if recipe.parameters.get("unit") == "time":
+            values["unit"] = asked.time
+        if asked.units and "length" in recipe.parameters:
+            values["length"] = system(asked.units).length_unit
+        parameters = {"ratio": case.ratio, "field": case.components} if asked.body else {}
+        try:
+            recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
+        except AtlasError as reason:
+            left_out.append(f"The figure `{name}`: {reason}")
+        else:
+            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **_calls(asked, asked.family),
+                   "parameters": values}  # fmt: skip
+
+
+def _case(asked: Asked) -> Any:
+    """Return the body in the field as tables have it."""
+    body = convert(asked.body, Body) if asked.body else None
+    return body_and_field(body, convert(asked.field, Field) if asked.field else None)
+
+
+def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+    """Yield the table of the nearest closed motions, if there are any."""
+    if asked.family.name == "elementary" or any(q.name == "precession_per_period" for q in asked.family.quantities):
+        block = _table(asked, "closed", asked.family.name, asked.values)
+        try:
+            compute("closed", Request([_case(asked)], block["parameters"], asked.digits))
+        except AtlasError as reason:
+            left_out.append(f"The nearest closed motions: {reason}")
+        else:
+            yield {"kind": "prose", "text": "## Nearest closed motions"}
+            yield block
+
+
+def _neighbours(asked: Asked, there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
+    """Yield the table of objects near by, each with the command that makes its page, or a link to it."""
+    rows = [
+        [words, f"[`{one.command}`]({one.name}.html)" if there(one.name) else f"`{one.command}`"]
+        for words, one in near(asked)
+    ]
+    if rows:
+        yield {"kind": "prose", "text": "## Neighbours"}
+        yield {
+            "kind": "listing", "id": "neighbours", "rows": rows,
+            "columns": ["Neighbour", "Command that makes its page"],
+            "caption": "Objects near by. A page that lay beside this one when this one was made is linked.",
+        }  # fmt: skip
+
+
+def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
+    """Yield objects near by, each in words."""
+    values, name = asked.values, asked.family.name
+    if not asked.body:
+        return
+    B2, B3 = _case(asked).components
+    if name == "elementary":
+        w2 = values["omega2"]
+        free = {"omega3": None} if "omega3" in values else {}
+        other = {
+            r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair": -2 * B2 - w2,
+            "at rest": 0.0,
+            r"$\phi=0$: it turns as a whole": -2 * B2,
+        }
+        for words, omega2 in other.items():
+            if B2 and omega2 not in {w2, -B2}:
+                yield words, asked.changed(name, omega2=omega2, **free)
+    if name == "general":
+        w1, w2, w3 = values["omega"]
+        pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
+        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", asked.changed(name, omega=pair, spin=None)
+        if B2 and w2 != -B2:
+            same = asked.changed("elementary", omega2=w2, omega=None, spin=None)
+            yield r"the motion without nutation with this $\omega_2$", same
+    yield from _of_other_bodies(asked)
+    if name != "quadric":
+        yield (
+            "all motions of this body in this field",
+            asked.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),
+        )
+
+
+def _of_other_bodies(asked: Asked) -> Iterator[tuple[str, Asked]]:
+    """Yield the object with a ball and with a disk or loop for its body."""
+    ratio = _case(asked).ratio
+    shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
+    if asked.body and "density" in asked.options:
+        shape |= {"density": None, "mass": asked.body["mass"]}
+    for border, words in ((1.0, "the same in a ball, $I=1$"), (2.0, "the same in a disk or loop, $I=2$")):
+        if ratio != border and "points" not in asked.options:
+            yield words, asked.changed(asked.family.name, **shape, ratio=border)
+
+
+def _reproduce(asked: Asked, made: Any) -> str:
+    """Say how to get the same numbers from the command line and from Python."""
+    family = asked.family
+    kernels = family.kernels()
+    values = zip(
+        inspect.signature(kernels).parameters, (_python(asked, p.name) for p in family.parameters), strict=True
+    )
+    arguments = ", ".join(f"{name}={value}" for name, value in values if value)
+    shown = [q for q in family.quantities if not q.get and (q.certified or q.printed) and _known(made, q.name)]
+    digits = ["--digits", str(asked.digits)]
+    lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})", *(f"print(it.{q.name})" for q in shown)]
+    return "\n".join(
+        [
+            "## The same numbers elsewhere", "", "On the command line, with the same digits:", "", "```console",
+            f"$ {shlex.join(['atlas', *asked.words, *digits])}", "```", "",
+            "In Python, as doubles next to them:", "", "```python", *lines, "```",
+        ]
+    )  # fmt: skip
+
+
+def _known(made: Any, name: str) -> bool:
+    """Whether a quantity of an object has a value."""
+    try:
+        getattr(made, name)
+    except DomainError:
+        return False
+    return True
+
+
+def _python(asked: Asked, name: str) -> str:
+    """Return a parameter as it is written in Python, nothing for one that is left out."""
+    body, field = asked.body or {}, asked.field or {}
+    if name == "ratio":
+        if "shape" in body:
+            sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
+            return f"atlas.SymmetricBody.{body['shape']}({sizes})"
+        return plain(body["ratio"]) if "ratio" in body else f"atlas.SymmetricBody{tuple(body['inertia'])}"
+    if name == "field" and field:
+        if "prime" in field:
+            return str(tuple(field["prime"]))
+        mu = field.get("charge_to_mass") or f"{body['charge']!r} / {body['mass']!r}"
+        return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).pair"
+    value = asked.values.get(name)
+    return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)

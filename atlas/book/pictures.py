@@ -1,0 +1,95 @@
+"""The pictures that a report wants: each figure block's recipe, renderer and parameters, each picture once."""
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from atlas.book.blocks.figure import Figure, Picture
+from atlas.book.body_and_field import chosen
+from atlas.book.definition import Report
+from atlas.errors import AtlasError, unknown
+
+
+def pictures(report: Report) -> dict[str, Picture]:
+    """Return the pictures that the figures of a report show, by `key`, in the order of their first showing.
+
+    Nothing is drawn. A recipe that can't be loaded leaves the reason in its pictures; a misspelt recipe or parameter
+    raises AtlasError.
+    """
+    drawn: dict[str, Picture] = {}
+    for page in report.pages:
+        for place, block in enumerate(page.blocks):
+            if not isinstance(block, Figure):
+                continue
+            try:
+                for name, picture in _wanted(block, report):
+                    if name not in drawn:
+                        picture.stem = f"{len(drawn) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
+                        drawn[name] = picture
+            except AtlasError as error:
+                raise AtlasError(f"{report.place(page, place)}: {error}") from error
+    return drawn
+
+
+def keys(block: Figure, report: Report) -> list[str]:
+    """Return the keys of the pictures of a figure block: the same for the same recipe, parameters and renderer."""
+    return [name for name, _ in _wanted(block, report)]
+
+
+def on_cards(report: Report) -> set[str]:
+    """Return the keys of the pictures that stand for pages: the first of each, or what its thumbnail names."""
+    figures = [(page.slug, block) for page in report.pages for block in page.blocks if isinstance(block, Figure)]
+    named = {page.slug: page.thumbnail.figure for page in report.pages}
+    wanted = [
+        next((block for slug, block in figures if (block.id == name if name else slug == page)), None)
+        for page, name in named.items()
+    ]
+    return {keys(block, report)[0] for block in wanted if block}
+
+
+def _wanted(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
+    """Go through the pictures of a figure block with their keys; a misspelt parameter is an error."""
+    recipe, failure = _recipe(block.recipe)
+    parameters = _parameters(block, recipe, report)
+    for name in parameters if recipe else ():
+        if name not in recipe.parameters:
+            raise unknown("parameter", name, recipe.parameters, f"of the recipe {Path(block.recipe).name!r}")
+    for renderer in ("shaded", "vector") if block.renderer == "both" else (block.renderer,):
+        key = f"{block.recipe} {sorted(parameters.items(), key=str)} {renderer}"
+        title = recipe.title if recipe else Path(block.recipe).stem
+        yield key, Picture("", block.recipe, renderer, parameters, title, failure=failure)
+
+
+def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
+    """Turn the bodies and the field that a figure names into those parameters that its recipe takes."""
+    cases = chosen(block, report.parameters)
+    offered: dict[str, Any] = {}
+    if block.body:
+        offered["ratio"] = cases[0].ratio
+    if block.bodies:
+        offered["ratios"] = tuple(case.ratio for case in cases)
+    takes = recipe.parameters if recipe else offered
+    for name in offered:
+        if name not in takes:
+            raise AtlasError(f"the recipe {block.recipe!r} takes no parameter {name!r}, so don't name a body.")
+    if block.field:
+        offered["field"] = cases[0].components
+        physical = cases[0].physical
+        if physical is not None:
+            offered |= {"mu": physical.mu, "E": tuple(physical.E), "B": tuple(physical.B), "c": physical.c}
+        if takes.get("unit") == "time":
+            offered["unit"] = "s"
+    return {name: value for name, value in offered.items() if name in takes} | block.parameters
+
+
+def _recipe(name: str) -> tuple[Any, str]:
+    """Load a recipe, or return why it can't be loaded; a name that there is not is an error."""
+    from atlas.pictures import recipes
+
+    if not name.endswith(".py") and name not in recipes.names():
+        raise unknown("recipe", name, recipes.names(), "in figures/")
+    try:
+        return recipes.load(name), ""
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        return None, f"{type(error).__name__}: {error}"

@@ -1,0 +1,93 @@
+"""The scripts of the pages: as they stand in ``templates/html``, below formulas and looks that Python has once.
+
+A formula of a file `formula.py` is evaluated on `Term`, which writes each operation as a line of JavaScript, in the
+same order; a look is that of a role of `atlas.pictures.style`.
+"""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+from atlas.motions.elementary import formula_hyperbola as hyperbola
+from atlas.pictures.style import STYLES
+from atlas.places import folder
+from atlas.surfaces import formula as quadric
+
+FORMULAS: dict[str, tuple[Callable[..., Any], str]] = {
+    "ordinate": (hyperbola.ordinate, "I B2 B3 omega2"),
+    "frequencies": (hyperbola.frequencies, "I B2 B3 omega2"),
+    "stability": (hyperbola.stability, "I B2 B3 omega2"),
+    "closing": (hyperbola.closing, "I B2 B3 r"),
+    "residual": (quadric.residual, "I B2 B3 omega1 omega2 omega3"),
+    "halfAngle": (quadric.half_angle, "I B2 B3"),
+}
+"""The formulas that scripts use, with their arguments; moments of inertia are in units of I2."""
+FORMULAIC = "explorer.js"
+"""The script that uses them."""
+
+
+class Term:
+    """A number of a script: a name, and the lines that give numbers their names, which all terms share."""
+
+    def __init__(self, name: str, lines: list[str]) -> None:
+        self.name, self.lines = name, lines
+
+    def _named(self, expression: str) -> "Term":
+        self.lines.append(f"x{len(self.lines)} = {expression}")
+        return Term(f"x{len(self.lines) - 1}", self.lines)
+
+    def __str__(self) -> str:
+        return self.name
+
+    def __add__(self, other: Any) -> "Term":
+        return self._named(f"{self} + {other}")
+
+    def __radd__(self, other: Any) -> "Term":
+        return self._named(f"{other} + {self}")
+
+    def __sub__(self, other: Any) -> "Term":
+        return self._named(f"{self} - {other}")
+
+    def __rsub__(self, other: Any) -> "Term":
+        return self._named(f"{other} - {self}")
+
+    def __mul__(self, other: Any) -> "Term":
+        return self._named(f"{self} * {other}")
+
+    def __rmul__(self, other: Any) -> "Term":
+        return self._named(f"{other} * {self}")
+
+    def __truediv__(self, other: Any) -> "Term":
+        return self._named(f"{self} / {other}")
+
+    def __abs__(self) -> "Term":
+        return self._named(f"Math.abs({self})")
+
+    def sqrt(self) -> "Term":
+        """Return the root."""
+        return self._named(f"Math.sqrt({self})")
+
+    def select(self, positive: Any, other: Any) -> "Term":
+        """Return `positive` where this term is, else the other."""
+        return self._named(f"{self} > 0 ? {positive} : {other}")
+
+
+def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
+    """Return a function of JavaScript that evaluates a formula, whose first argument, I2, is 1."""
+    lines, names = list[str](), arguments.split()
+    value = formula(1, *(Term(argument, lines) for argument in names))
+    result = f"[{', '.join(map(str, value))}]" if isinstance(value, tuple) else str(value)
+    steps = "".join(f"  const {line};\n" for line in lines)
+    return f"{name}: ({', '.join(names)}) => {{\n{steps}  return {result};\n}}"
+
+
+def script(name: str) -> str:
+    """Return a script of the pages."""
+    text = (folder("templates") / "html" / name).read_text(encoding="utf-8")
+    if name != FORMULAIC:
+        return text
+    functions = ",\n".join(written(one, *formula) for one, formula in FORMULAS.items())
+    looks = {
+        role: [look.colour, look.tube, look.back, look.glass] for role, look in STYLES.items() if f'"{role}"' in text
+    }
+    return f"globalThis.atlasFormulas = {{\n{functions},\n}};\nglobalThis.atlasLooks = {json.dumps(looks)};\n{text}"

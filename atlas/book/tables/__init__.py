@@ -1,0 +1,44 @@
+"""The computed tables of a report, each by the name of its function."""
+
+from collections.abc import Mapping
+from inspect import get_annotations
+from typing import Any
+
+from atlas.book.schema import StrictStruct, convert
+from atlas.book.tables.bodies import charges, coats, diamagnetism, radiation, sizes, swings
+from atlas.book.tables.closed import closed, companions
+from atlas.book.tables.elementary import motion, points, quadric, samples, sheet
+from atlas.book.tables.families import blocks, layers, quantities, report_keys, roles, targets
+from atlas.book.tables.laboratory import beyond_larmor, fits, inferred, levitated, lines
+from atlas.book.tables.particle import ball, flight, particle
+from atlas.book.tables.properties import Thing, body_and_field, properties
+from atlas.book.tables.table import Data, Maker, Request
+from atlas.book.tables.tops import asymmetric, elliptic, monodromy, periods, tops
+from atlas.errors import unknown
+
+TABLES: Mapping[str, Maker] = {
+    made.__name__: made
+    for made in (
+        *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
+        *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
+        *(periods, asymmetric, roles, layers, blocks, report_keys, levitated, lines, inferred, beyond_larmor),
+        fits,
+    )
+}
+
+
+def compute(name: str, request: Request) -> Data:
+    """Compute a table. Raises AtlasError for a table that there is not, and for a parameter that does not fit it."""
+    if name not in TABLES:
+        raise unknown("table", name, TABLES)
+    wanted = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
+    if not wanted.keys() - {"request"}:
+        _given(StrictStruct, request)  # no further parameters
+    return TABLES[name](**{argument: _given(kind, request) for argument, kind in wanted.items()})
+
+
+def _given(kind: type, request: Request) -> Any:
+    """Return a request, or its further parameters as an object of the register or as another record."""
+    if kind is Request:
+        return request
+    return Thing.of(request) if kind is Thing else convert(dict(request.parameters), kind, "parameters")

@@ -1,0 +1,264 @@
+"""Bodies that could exist: their charge, frequencies and radiation, and what it does that the field magnetises them."""
+
+from math import atan2, hypot, inf, isfinite, pi, sqrt
+
+from atlas.bodies.body import SymmetricBody, from_shape
+from atlas.bodies.charge import ChargeMoments
+from atlas.bodies.laboratory import (
+    damping_of_flight,
+    diamagnetic_energy,
+    greatest_charge,
+    greatest_ratio,
+    magnetic_power,
+    quadrupole_power,
+)
+from atlas.bodies.units import BOLTZMANN, ELECTRIC_CONSTANT, ELEMENTARY_CHARGE, cyclotron_frequency
+from atlas.book.body_and_field import BodyAndField
+from atlas.book.digits import Number
+from atlas.book.schema import StrictStruct
+from atlas.book.tables.table import RATE, Data, Request, heads
+from atlas.errors import AtlasError
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+
+RATIO, TILT = 1.5, 2.0
+"""I3/I2 of the body and B3/B2 of the field, those of the short solenoid in the oblique field."""
+YEAR = 31_557_600.0
+
+
+class SizeParameters(StrictStruct, frozen=True):
+    """Radii in m, density in kg/m^3, the field that the surface bears in V/m, the magnet's field in T."""
+
+    radii: tuple[float, ...]
+    density: float
+    surface_field: float
+    magnet: float
+
+
+def sizes(asked: SizeParameters) -> Data:
+    """Return charge, charge-to-mass ratio and Larmor's frequency of balls that hold all that their surface bears."""
+    _check(asked)
+    rows = []
+    for r in asked.radii:
+        e, mu = greatest_charge(r, asked.surface_field), greatest_ratio(r, asked.density, asked.surface_field)
+        b = cyclotron_frequency(mu, asked.magnet) / 2
+        values = (r, e, e / ELEMENTARY_CHARGE, mu, b, 2 * pi / b)
+        warmth = moment_of_inertia(e / mu, r) * b * b / BOLTZMANN
+        rows.append(tuple(map(two, (*values, off_the_field(b), warmth))))
+    return Data(
+        heads(
+            ("$r$", "m"),
+            ("$e$", "C"),
+            "$e/e_0$",
+            (r"$\mu$", "C kg$^{-1}$"),
+            ("$b$", RATE),
+            (r"$2\pi/b$", "s"),
+            (r"$\delta$", "rad"),
+            (r"$I_2b^2/k_{\mathrm{B}}$", "K"),
+        ),
+        tuple(rows),
+        f"Balls of {asked.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
+        f"{two(asked.surface_field).tex()} V m$^{{-1}}$ allows, in {asked.magnet:g} T: charge, charge-to-mass ratio, "
+        r"Larmor's frequency and its period; the angle $\delta$ between $\mathbf{m}$ and $\mathbf{B}$ for "
+        f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$; and the temperature whose "
+        "heat turns the ball with $b$.",
+        ("Two digits: the shape of a body changes the first.",),
+    )
+
+
+def radiation(asked: SizeParameters) -> Data:
+    """Return how long such bodies take to radiate their energy away, by their flight and by their rotation."""
+    _check(asked)
+    rows = []
+    for r in asked.radii:
+        mu = greatest_ratio(r, asked.density, asked.surface_field)
+        mass = greatest_charge(r, asked.surface_field) / mu
+        larmor = cyclotron_frequency(mu, asked.magnet) / 2
+        inertia = moment_of_inertia(mass, r)
+        energy = inertia * larmor * larmor / 2
+        times = (
+            1 / damping_of_flight(mu, mass, 2 * larmor),
+            energy / magnetic_power(mu, inertia * larmor, larmor),
+            energy / quadrupole_power(mu, (inertia, RATIO * inertia), pi / 2, larmor),
+        )
+        rows.append((two(r), *(two(time / YEAR) for time in times)))
+    return Data(
+        heads(
+            ("$r$", "m"),
+            ("flight, electric dipole", "years"),
+            ("rotation, magnetic dipole", "years"),
+            ("rotation, electric quadrupole", "years"),
+        ),
+        tuple(rows),
+        "How long the bodies of @tab:real-sizes would take to radiate their energy away: that of the flight at the "
+        r"cyclotron frequency $2b$; that of the rotation at the rate $b$, once by the moment $\mu\mathbf{m}/2$ that "
+        rf"precesses across the field, once, with $I={RATIO:g}$, by the quadrupole of an axis that goes round a right "
+        "angle off it.",
+        ("Two digits.", "Energy over power at the start, with the formulas of the text."),
+    )
+
+
+def moment_of_inertia(mass: float, radius: float) -> float:
+    """Moment of inertia of a ball."""
+    return 0.4 * mass * radius * radius
+
+
+def off_the_field(b: float) -> float:
+    """Angle between m and B in the elementary motion with k = 2 pi 1/s, from (67) and m/I2 = (0, omega2, I omega3)."""
+    unit = b / hypot(1.0, TILT)
+    B2, B3 = unit, TILT * unit
+    omega2 = 2 * pi * B2 / b
+    third = RATIO * float(Hyperbola(RATIO, (B2, B3)).omega3(omega2))
+    return abs(atan2(omega2 * B3 - third * B2, omega2 * B2 + third * B3))
+
+
+def _check(asked: SizeParameters) -> None:
+    """Refuse parameters that are not all positive."""
+    if not (asked.radii and min(*asked.radii, asked.density, asked.surface_field, asked.magnet) > 0):
+        raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
+
+
+def two(value: float) -> Number:
+    """Return a number of two digits."""
+    return Number(f"{value:.1e}")
+
+
+def charges(request: Request) -> Data:
+    """Mass m0, radius r, charge e = mu m0 and the field e/(4 pi eps0 r^2) of several bodies with mass and radius."""
+    rows: list[tuple[str | Number, ...]] = []
+    for case in request.cases:
+        body = case.body_record
+        if body is None or case.physical is None or body.mass is None or body.radius is None:
+            raise AtlasError("this table needs bodies with mass and radius, and a field with a charge-to-mass ratio.")
+        charge = float(case.physical.mu) * body.mass
+        area = 4 * pi * ELECTRIC_CONSTANT * body.radius**2
+        field = charge / area if area else inf
+        if not isfinite(field):
+            raise AtlasError(
+                f"the field at {body.radius} m from the charge of {body.title!r} is too large for a float."
+            )
+        rows.append((body.title, *(two(value) for value in (body.mass, body.radius, charge, field))))
+    return Data(
+        heads(
+            "Body", ("$m_0$", "kg"), ("$r$", "m"), (r"$e=\mu m_0$", "C"), (r"$e/4\pi\varepsilon_0r^2$", "V m$^{-1}$")
+        ),
+        tuple(rows),
+        "The charges of the bodies, and the field of a point charge as large at the distance of the radius.",
+        ("Two digits: the field at the surface is of this order, and depends on the shape.",),
+    )
+
+
+class DiamagnetismParameters(StrictStruct, frozen=True):
+    """The susceptibility of the material, and its density in kg/m^3."""
+
+    susceptibility: float
+    density: float
+
+
+def magnetised(case: BodyAndField, asked: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
+    """Return the title of a body, the body, and the factor of nu^2 in the energy of its own magnetism."""
+    record, body = case.body_record, case.body
+    if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
+        raise AtlasError("this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio.")
+    field, volume = float(hypot(*case.physical.B)), record.mass / asked.density
+    return record.title, body, diamagnetic_energy(asked.susceptibility, volume, field, record.shape)
+
+
+def diamagnetism(request: Request, asked: DiamagnetismParameters) -> Data:
+    """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
+    if asked.density <= 0:
+        raise AtlasError("this table takes a positive density.")
+    rows: list[tuple[str | Number, ...]] = []
+    for case in request.cases:
+        title, body, own = magnetised(case, asked)
+        by_charge = (body.I3 - body.I2) * hypot(*case.components) ** 2 / 2
+        rows.append((title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
+    return Data(
+        heads(
+            "Body",
+            (r"by the charge, $(I_3-I_2)b^2/2$", "J"),
+            (r"by the magnetisation, $-\chi_m^2m_0B^2\,\Delta N/2\mu_0\rho$", "J"),
+        ),
+        tuple(rows),
+        r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with "
+        rf"a susceptibility $\chi_m$ of {Number(f'{asked.susceptibility:.1e}').tex()} and {asked.density:g} "
+        "kg m$^{-3}$.",
+        (r"Two digits: $\chi_m$ is known no better, and $\Delta N$ is that of a thin wall.",),
+    )
+
+
+class Coat(StrictStruct, frozen=True):
+    """A body by the shapes over which its mass and its charge are spread, with their dimensions in one unit."""
+
+    name: str
+    mass: str
+    charge: str
+    dimensions: dict[str, float]
+    charge_dimensions: dict[str, float] | None = None
+
+
+class CoatParameters(StrictStruct, frozen=True):
+    """The bodies, a row each."""
+
+    coats: tuple[Coat, ...]
+
+
+def coats(asked: CoatParameters) -> Data:
+    """Return what it changes that the charge is spread otherwise than the mass, in units of the body's e/m."""
+    rows: list[tuple[str | Number, ...]] = []
+    for coat in asked.coats:
+        body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
+        charges = ChargeMoments.shape(coat.charge, 1.0, **(coat.charge_dimensions or coat.dimensions))
+        across, along = charges.J2 / body.I2, charges.J3 / body.I3
+        A = (along * charges.J3 - across * charges.J2) / body.I2
+        values = (body.I3 / body.I2, across, along, across - along, A)
+        rows.append((coat.name, *(Number(f"{value + 0.0:.3f}") for value in values)))
+    return Data(
+        heads("Body", "$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$"),
+        tuple(rows),
+        r"Bodies whose charge is not spread like their mass, $b=eB/2m_0c$ with the whole charge: gyromagnetic factors "
+        r"across and along the axis, and what stands in @theorem-every-top. For one charge-to-mass ratio throughout "
+        r"both factors are 1, $\kappa=0$ and $A/b^2=I-1$.",
+        ("Three decimals; dimensions in the text.",),
+    )
+
+
+def swings(request: Request, asked: DiamagnetismParameters) -> Data:
+    """Return how bodies at rest in Larmor's frame swing there: by their charge alone, and magnetised too."""
+    from atlas.motions.nutation.kernel_top import TopMotion
+
+    rows: list[tuple[str | Number, ...]] = []
+    for case in request.cases:
+        title, body, own = magnetised(case, asked)
+        I2, I3, (B2, B3) = body.I2, body.I3, case.components
+        b = hypot(B2, B3)
+        periods, rates = [], []
+        for quadratic in (0.0, 2 * own):
+            top = TopMotion((I2, I3), (b * I2, b * I3), (B2, B3), (0.0, -B2, -B3), 0.0, quadratic)
+            rates.append(sqrt(abs((I3 - I2) * b * b + quadratic) / I2))
+            # a ball is free but for the rounding of its coupling
+            periods.append(float(top.period) if rates[-1] else 0.0)
+        excess = (rates[1] / rates[0]) ** 2 if rates[0] else 0.0
+        values = (2 * pi / b, rates[0], periods[0], rates[1], periods[1], excess)
+        rows.append((title, *map(_three, values)))
+    return Data(
+        heads(
+            "Body",
+            (r"$2\pi/b$", "s"),
+            *(
+                (f"{head}, {what}", unit)
+                for what in ("charge alone", "magnetised")
+                for head, unit in ((r"$\sqrt{\lvert A\rvert}$", RATE), ("$T$", "s"))
+            ),
+            r"quotient of both $\lvert A\rvert$",
+        ),
+        tuple(rows),
+        r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "
+        r"Larmor's period, the rate $\sqrt{\lvert A\rvert}$ of small swings of the axis and the period $T$ of its "
+        rf"inclination, with the charge alone and with $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:]}.",
+        ("Three digits; the ball does not swing.",),
+    )
+
+
+def _three(value: float) -> str | Number:
+    """Return a number of three digits, or a dash for what there is not."""
+    return Number(f"{value:.2e}") if value and isfinite(value) else "–"

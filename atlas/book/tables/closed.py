@@ -1,0 +1,149 @@
+"""Closed motions that lie nearest, and motions of a needle with the same integrals, theorem-companion-range."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from atlas.book.digits import Number, plain
+from atlas.book.schema import StrictStruct
+from atlas.book.tables.properties import Thing
+from atlas.book.tables.table import RATE, Data, Request, certified, column, heads, quantity
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.register import FAMILIES
+
+MANY, LARGEST = 6, 10_000
+"""As many fractions as are shown, and the largest denominator."""
+PRINTED = 12
+"""Digits that a double has for certain, and some to spare."""
+
+
+def closed(request: Request, thing: Thing) -> Data:
+    """Give the best fractions p/q of phi/k and the closed motion of each, or of the turns in one nutation.
+
+    Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
+    """
+    from flint import arb, fmpq
+
+    elementary = thing.family is FAMILIES["elementary"]
+    exact = thing.balls()
+    if elementary and exact.k == 0:
+        raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
+    value = certified(
+        lambda: arb(exact.phi) / arb(exact.k) if elementary else exact.precession_per_period / (2 * arb.pi()),
+        request.digits,
+    )
+    fractions = list(convergents(value))
+    if not fractions:
+        raise DomainError("The turns in one nutation are a whole number, as far as can be told: each one closes.")
+    misses = [quantity(value - fmpq(p, q), 2) for p, q in fractions]
+    if elementary:
+        return _elementary(thing, value, fractions, misses, request.digits)
+    period = certified(lambda: exact.period, request.digits)
+    times = column([q * period for _, q in fractions], request.digits)
+    return Data(
+        heads("Turns", "Nutations", ("Time", thing.unit("time")), "Turns a nutation, less the fraction"),
+        tuple(
+            (Number(str(p)), Number(str(q)), time, miss)
+            for (p, q), time, miss in zip(fractions, times, misses, strict=True)
+        ),
+        f"When the trace of the axis nearly comes back: {quantity(value, request.digits).words()} turns about the "
+        "field in one nutation, and the best fractions of this number.",
+    )  # fmt: skip
+
+
+def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
+    """Give the closed motion of each fraction that has one."""
+    from atlas.motions.elementary.closed import ClosedMotion
+
+    ratio, field, omega2, *_ = thing.floats
+    rows = []
+    for (p, q), miss in zip(fractions, misses, strict=True):
+        try:
+            motion = ClosedMotion(ratio, field, p, q)
+        except DomainError:
+            continue  # no motion has this phi/k
+        shown = [
+            Number(f"{x:.{min(digits, PRINTED)}g}") for x in (motion.omega2, motion.omega2 - omega2, motion.period)
+        ]
+        rows.append((f"${p}/{q}$", *shown, miss))
+    if not rows:
+        raise DomainError("No closed motion of the hyperbola (67) lies near.")
+    rate = thing.unit("1/time")
+    return Data(
+        heads(
+            r"$\phi/k$", (r"$\omega_2$", rate), (r"$\omega_2$ less that of this motion", rate),
+            ("Closes after", thing.unit("time")), r"$\phi/k$ less the fraction",
+        ),
+        tuple(rows),
+        rf"The nearest closed motions, @theorem-closed: best fractions of $\phi/k$ = "
+        f"{quantity(value, digits).words()}. "
+        "A motion with the fraction $p/q$ comes back after $q$ precessions.",
+        ("`Hyperbola.closed(p, q)` makes one; its numbers are rounded from the nearest doubles.",),
+    )  # fmt: skip
+
+
+def convergents(value: Any) -> Iterator[tuple[int, int]]:
+    """Yield the first convergents of the continued fraction of a ball, as far as its radius tells them.
+
+    A value that is a fraction ends with it; those of a negative value are those of its size, with the sign.
+    """
+    if value < 0:
+        yield from ((-p, q) for p, q in convergents(-value))
+        return
+    before, now = (0, 1), (1, 0)
+    for _ in range(MANY):
+        whole = value.floor().unique_fmpz()
+        if whole is None:
+            return
+        before, now = now, (int(whole) * now[0] + before[0], int(whole) * now[1] + before[1])
+        if now[1] > LARGEST:
+            return
+        yield now
+        value = value - whole
+        if value.contains(0):
+            return
+        value = 1 / value
+
+
+class CompanionParameters(StrictStruct, frozen=True):
+    """I3/I2 below 1, and (B2, B3, omega2) of some elementary motions, in 1/s."""
+
+    ratio: float
+    motions: tuple[tuple[float, float, float], ...]
+
+
+def companions(request: Request, asked: CompanionParameters) -> Data:
+    """Return the angles between axis and field of the steady precessions and where their companions turn back."""
+    angles_of_each = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
+    columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
+    given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in asked.motions]
+    return Data(
+        heads(
+            (r"$\mathbf{B}'$", RATE),
+            (r"$\omega_2$", RATE),
+            (r"$\theta$", "degrees"),
+            (r"$\sqrt c$", RATE),
+            (r"$\theta_+$", "degrees"),
+            (r"$\theta_-$", "degrees"),
+        ),
+        tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
+        f"Steady precessions of a body with $I={plain(asked.ratio)}$ that others leave and come back to: the angle "
+        r"$\theta$ between axis and field, the rate $\sqrt c$ at which a push grows, and the angles $\theta_\pm$ at "
+        r"which the companions turn, @theorem-companion-range.",
+    )
+
+
+def angles(ratio: float, B2: float, B3: float, omega2: float) -> tuple[Any, ...]:
+    """Return theta, sqrt(c), theta_+ and theta_- in degrees and 1/s, as balls."""
+    from flint import arb, fmpq
+
+    I, B2, B3, omega2 = (fmpq(*value.as_integer_ratio()) for value in (ratio, B2, B3, omega2))
+    if not (0 < I < 1 and B2):
+        raise AtlasError("the companions are those of a body with 0 < I < 1 in a field with B2 other than 0.")
+    b2 = B2 * B2 + B3 * B3
+    r2, z = B3 * B3 / b2, ((omega2 + B2) / B2) ** 2 / (1 - I)
+    c = (I - 1) * b2 * (4 * r2 - (1 - z) * (z - r2) / z) if z else fmpq(-1)
+    if not (r2 <= z <= 1 and c >= 0):
+        raise AtlasError(f"the elementary motion with omega2 = {omega2} has no companion that comes back to it.")
+    r, half = arb(B3) / arb(b2).sqrt(), arb((1 - z) * (z - r2) / z).sqrt()
+    theta, above, below = (nu.acos() * 180 / arb.pi() for nu in (r, half - r, -half - r))
+    return theta, arb(c).sqrt() if c else fmpq(0), above, below

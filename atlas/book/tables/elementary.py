@@ -1,0 +1,231 @@
+"""The quadric of initial data, named points of the hyperbola, one elementary motion; of a body or of several."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from atlas.book.body_and_field import BodyAndField
+from atlas.book.digits import Number, plain
+from atlas.book.schema import StrictStruct
+from atlas.book.tables.table import RATE, Column, Data, Request, certified, column, heads
+from atlas.errors import AtlasError
+
+NONE = "–"
+"""What stands where a body has no such quantity."""
+
+
+class Quantity(NamedTuple):
+    """A quantity of one body: what it is, its letter, a number or a word, the unit of a number."""
+
+    name: str
+    symbol: str
+    value: Any
+    unit: str = ""
+
+
+def side_by_side(
+    request: Request, bodies: Sequence[Sequence[Quantity]]
+) -> tuple[tuple[Column, ...], tuple[tuple[str | Number, ...], ...]]:
+    """Return the columns and rows of a table from the quantities of each body, the same in the same order.
+
+    The numbers of a row have as many decimals as give the largest of them the digits that are asked for.
+    """
+    titles = [case.body_record.title if case.body_record else "body" for case in request.cases]
+    values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
+    columns = heads("Quantity", "Symbol", *values_of, "Unit")
+    rows = []
+    for same in zip(*bodies, strict=True):
+        name, symbol, _, unit = same[0]
+        values = [case.value for case in same]
+        numbers = iter(column([value for value in values if not isinstance(value, str)], request.digits))
+        cells = [value if isinstance(value, str) else next(numbers) for value in values]
+        rows.append((name, symbol, *cells, unit or "1" * bool(symbol)))
+    return columns, tuple(rows)
+
+
+def titled(request: Request) -> str:
+    """Name the body in a sentence, or say that there are several."""
+    if len(request.cases) > 1:
+        return "the bodies"
+    record = request.case.body_record
+    return f"the {record.title if record else 'body'}"
+
+
+def quadric(request: Request) -> Data:
+    """Ratio I, kind, angle beta, coefficients a2, a3, semi-axes and centre of the quadric, (51) to (57)."""
+    columns, rows = side_by_side(request, [of_quadric(case, request.digits) for case in request.cases])
+    return Data(columns, rows, f"The quadric of initial data of {titled(request)}, @(51), in canonical form.")
+
+
+def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
+    """Return what belongs to the quadric of a body in a field: along or across the axis its kind alone."""
+    from flint import arb
+
+    from atlas.surfaces.certified import Quadric
+
+    q = Quadric(case.exact, case.components)
+    first = [
+        Quantity("ratio of the moments @(33)", "$I=I_3/I_2$", certified(lambda: q.I, digits)),
+        Quantity("quadric @(51)", "", q.kind),
+    ]
+    if q.B2 == 0 or q.B3 == 0:
+        return first
+    beta, turn, a2, a3, axes, centre = certified(
+        lambda: (q.beta, arb(q.beta) / 2 + arb.pi() / 4, q.a2, q.a3, q.semi_axes, q.centre), digits
+    )
+    return [
+        *first,
+        Quantity(r"angle from $\mathbf{e}_2$ to $\mathbb{I}^{-1}\mathbf{B}'$", r"$\beta$", beta, "rad"),
+        Quantity(r"angle from $\mathbf{e}_2$ to the axis of $\omega'_2$", r"$\beta/2+\pi/4$", turn, "rad"),
+        Quantity("coefficient of @(54)", "$a_2$", a2),
+        Quantity("coefficient of @(54)", "$a_3$", a3),
+        *(Quantity("semi-axis", f"$C_{j}$", NONE if q.I == 1 else axes[j - 1], RATE) for j in (1, 2, 3)),
+        *(Quantity("centre", rf"$\omega_{j}$", centre[j - 1], RATE) for j in (2, 3)),
+    ]
+
+
+class PointsParameters(StrictStruct, frozen=True):
+    """Further values of omega2, in 1/s."""
+
+    omega2: tuple[float, ...] = ()
+
+
+def points(request: Request, asked: PointsParameters) -> Data:
+    """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
+    from atlas.arithmetic.certified_inputs import rational
+    from atlas.motions.elementary.certified_hyperbola import Hyperbola
+
+    h = Hyperbola(request.case.exact, request.case.components)
+    B2 = Fraction(request.case.components[0])
+    I = Fraction(int(h.I.p), int(h.I.q))
+    chosen: dict[Any, list[str]] = {}
+    left_out = [f"$\\omega_2={plain(value)}$" for value in asked.omega2 if value == -B2]
+    for name, omega2 in (
+        ("at rest", Fraction(0)),
+        (r"$\phi=0$", -2 * B2),
+        (r"$\omega_3=0$", -(2 - I) * B2),
+        *(("", Fraction(value)) for value in asked.omega2),
+    ):
+        if omega2 + B2 != 0:
+            chosen.setdefault(Fraction(omega2), []).append(name)
+    if not chosen:
+        raise AtlasError("with B2 = 0 the hyperbola is the line omega2 = 0, and omega3 is free: it has no such points.")
+    order = sorted(chosen)
+    exact = [rational(x, "omega2") for x in order]
+    values = certified(lambda: [(x, h.omega3(x), *h.frequencies(x), h.stability(x)) for x in exact], request.digits)
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
+    columns[0] = column(
+        [Number.as_given(float(x)) if Fraction(float(x)) == x else one for x, one in zip(order, exact, strict=True)],
+        request.digits,
+    )
+    rows = tuple(
+        (
+            ", ".join(filter(None, chosen[x])),
+            *numbers,
+            "stable" if h.stable(value[0]) else "unstable",
+        )
+        for x, value, *numbers in zip(order, values, *columns, strict=True)
+    )
+    return Data(
+        heads(
+            "Point",
+            (r"$\omega_2$", RATE),
+            (r"$\omega_3$", RATE),
+            ("$k$", RATE),
+            (r"$\phi$", RATE),
+            (r"$\nu_n^2$", r"s$^{-2}$"),
+            "Nutation",
+        ),
+        rows,
+        r"Points of the hyperbola @(67), frequencies of precession $k$ and of proper rotation $\phi$, @(72), and the "
+        r"square of the frequency of nutation $\nu_n$, @theorem-stability.",
+        tuple(
+            rf"There is no row for {pole}, since $\omega_2=-B'_2$ does not have one $\omega_3$." for pole in left_out
+        ),
+    )
+
+
+class Motion(StrictStruct, frozen=True):
+    """The motion by its omega2, in 1/s; `omega3` where the hyperbola leaves it free."""
+
+    omega2: float
+    omega3: float | None = None
+
+
+class Samples(StrictStruct, frozen=True):
+    """The motion by its omega2, in 1/s, and times in s; `omega3` where the hyperbola leaves it free."""
+
+    omega2: float
+    times: tuple[float, ...]
+    omega3: float | None = None
+
+
+def motion(request: Request, asked: Motion) -> Data:
+    """List initial data, frequencies, stability and integrals of the motion that starts with `omega2`."""
+    columns, rows = side_by_side(request, [of_motion(case, asked, request.digits) for case in request.cases])
+    return Data(
+        columns,
+        rows,
+        rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
+    )
+
+
+def of_motion(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
+    """Return what belongs to a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
+    from atlas.motions.elementary.certified import ElementaryMotion
+    from atlas.motions.elementary.certified_hyperbola import Hyperbola
+
+    motion = ElementaryMotion(case.exact, case.components, asked.omega2, asked.omega3)
+    k, invariants = certified(lambda: (motion.k, motion.invariants), digits)
+    squared, nutation = r"s$^{-2}$", []
+    if motion.case in {"precession", "at rest"}:
+        h = Hyperbola(case.exact, case.components)
+        nutation = [
+            Quantity("square of the frequency of nutation", r"$\nu_n^2$", h.stability(motion.omega2), squared),
+            Quantity("nutation @theorem-stability", "", "stable" if h.stable(motion.omega2) else "unstable"),
+        ]
+    return [
+        Quantity("initial angular velocity", r"$\omega_2$", motion.omega2, RATE),
+        Quantity("initial spin", r"$\omega_3$", motion.omega3, RATE),
+        Quantity("frequency of precession", "$k$", k, RATE),
+        Quantity("frequency of proper rotation", r"$\phi$", motion.phi, RATE),
+        *nutation,
+        Quantity("energy @(36)", "$E'=2E/I_2$", invariants["E'"], squared),
+        Quantity("field in the body @(37)", r"$\mathbf{K}^2$", invariants["K^2"], squared),
+        Quantity("integral @(40)", "$c_3$", invariants["c3"], RATE),
+        Quantity("integral @(41)", "$c_5$", invariants["c5"], squared),
+        Quantity("momentum along the field @(88)", r"$(\mathbf{m},\mathbf{B}')/I_2$", invariants["(m,B')"], squared),
+    ]
+
+
+def samples(request: Request, asked: Samples) -> Data:
+    """Omega(t), (73), and the third axis of the body R_3(t), (84), at some `times`."""
+    from atlas.motions.elementary.certified import ElementaryMotion
+
+    motion = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
+    values = certified(
+        lambda: [(*motion.angular_velocity(t), *motion.third_axis(t)) for t in asked.times], request.digits
+    )
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
+    return Data(
+        heads(
+            ("$t$", "s"), *((rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)), *((rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3))
+        ),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
+        rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
+        r"@(73), and the body's axis in the laboratory, the third column of @(84).",
+    )
+
+
+def sheet(request: Request, asked: Motion) -> Data:
+    """List what the tables `quadric` and `motion` have, for the motion that starts with `omega2`."""
+    columns, rows = side_by_side(
+        request,
+        [[*of_quadric(case, request.digits), *of_motion(case, asked, request.digits)] for case in request.cases],
+    )
+    return Data(
+        columns,
+        rows,
+        f"Data sheet of {titled(request)}: the quadric of initial data, @(51) to @(57), and the motion that starts "
+        rf"with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$.",
+    )

@@ -1,0 +1,246 @@
+"""A levitated ball with an electric dipole, its lines and what they tell; bodies that would show the paper's term."""
+
+import json
+from math import asin, atanh, pi, sqrt
+from typing import Any
+
+import numpy as np
+
+from atlas.bodies.body import from_shape
+from atlas.bodies.laboratory import anisotropy
+from atlas.bodies.units import BOLTZMANN, ELECTRIC_CONSTANT, ELEMENTARY_CHARGE
+from atlas.book.digits import MINUS, Number
+from atlas.book.schema import StrictStruct
+from atlas.book.tables.table import Data, heads
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.places import folder
+
+GRAVITY, MOLECULE, WARM = 9.81, 4.65e-26, 300.0
+"""In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
+
+SMALL = 1e-3
+"""Part of the least amplitude of a line below which a component of it is none."""
+
+NOT_SEEN = 1e-7
+"""Part of the largest singular value below which a combination of parameters has no effect on what is observed."""
+
+RECORDED = {"found": ".0f", "within": ".1f", "seconds": ".2f"}
+"""What is shown of a record of fits, and how."""
+
+
+class Dipole(StrictStruct, frozen=True):
+    """A ball: radius in m, density in kg/m^3, dipole in e um, field in V/m, rates of spin about the dipole in Hz.
+
+    The dipole starts `inclination` rad off the field, with no other angular velocity.
+    """
+
+    radius: float
+    density: float
+    dipole: float
+    field: float
+    spins: tuple[float, ...]
+    inclination: float
+
+    def motion(self, spin: float) -> TopMotion:
+        """Return the motion with a rate of spin: U = -d E nu."""
+        I = from_shape("sphere", mass=self.density * 4 / 3 * pi * self.radius**3, radius=self.radius).I2
+        direction = np.sin(self.inclination), np.cos(self.inclination)
+        return TopMotion((I, I), (0.0, 0.0), direction, (0.0, 0.0, 2 * pi * spin), -self.energy)
+
+    @property
+    def energy(self) -> float:
+        """Return d E in J."""
+        return self.dipole * 1e-6 * ELEMENTARY_CHARGE * self.field
+
+
+def levitated(asked: Dipole) -> Data:
+    """Return nutation and precession of a ball with a dipole, beside what is expected of small and of fast turns."""
+    rows: list[tuple[str | Number, ...]] = []
+    for spin in asked.spins:
+        motion = asked.motion(spin)
+        I = motion.inertia[0]
+        small, slow = sqrt(asked.energy / I) / (2 * pi), asked.energy / (I * 4 * pi**2 * spin) if spin else 0.0
+        frequencies = 1 / motion.period, motion.precession_rate / (2 * pi) if spin else 0.0
+        rows.append((Number(f"{spin:g}"), *map(_three, (frequencies[0], small, frequencies[1], slow))))
+    return Data(
+        heads(
+            ("Spin", "Hz"), ("Nutation", "Hz"), (r"$\sqrt{dE/I}/2\pi$", "Hz"),
+            ("Precession", "Hz"), (r"$dE/4\pi^2I\,\text{spin}$", "Hz"),
+        ),
+        tuple(rows),
+        rf"A ball of the radius {asked.radius * 1e6:g} µm and {asked.density:g} kg m$^{{-3}}$ with a dipole of "
+        rf"{asked.dipole:g} $e$ µm, which starts {asked.inclination:g} rad off a field of {asked.field / 1e3:g} kV/m "
+        "and spins about it: the exact frequencies, beside those of small librations and of a fast spin.",
+        (
+            (
+                "Three digits. Without a spin the axis goes through the field twice a period of libration, so that the "
+                "inclination nods at twice its frequency."
+            ),
+        ),
+    )  # fmt: skip
+
+
+class Lines(Dipole, frozen=True):
+    """A ball with a dipole, its rates of spin, and the least amplitude of a line."""
+
+    least: float = 1e-3
+
+
+def lines(asked: Lines) -> Data:
+    """Return the lines of the axis for each spin, those at positive frequencies, with the numbers they are made of."""
+    rows: list[tuple[str | Number, ...]] = []
+    for spin in asked.spins:
+        spectrum = asked.motion(spin).spectrum("axis", least=asked.least)
+        for f, amplitude, whole in zip(spectrum.frequencies, spectrum.amplitudes, spectrum.combinations, strict=True):
+            if f < 0:
+                continue
+            parts = [f"{n:+d} {name}" for name, n in zip(spectrum.names, whole.tolist(), strict=True) if n]
+            n = np.array([0.0, np.sin(asked.inclination), np.cos(asked.inclination)])
+            sizes = [float(np.linalg.norm(component)) for component in (amplitude - (amplitude @ n) * n, amplitude @ n)]
+            seen = [_three(x if x > SMALL * asked.least else 0.0) for x in sizes]
+            rows.append(
+                (
+                    Number(f"{spin:g}"),
+                    _three(f / (2 * pi)),
+                    " ".join(parts).lstrip("+").replace("-", MINUS) or "mean",
+                    *seen,
+                )
+            )
+    return Data(
+        heads(("Spin", "Hz"), ("Line", "Hz"), "Turns", "across the field", "along it"),
+        tuple(rows),
+        f"Lines of the axis of the ball, down to {asked.least:g} of the whole: amplitudes of the dipole's components.",
+        ("Three digits, and a dash below a thousandth of the least.",),
+    )  # fmt: skip
+
+
+class Watch(Dipole, frozen=True):
+    """A watch of the axis: so many samples in so many seconds, each component with a noise."""
+
+    samples: int
+    seconds: float
+    noise: float
+
+
+def inferred(asked: Watch) -> Data:
+    """Return how well the axis alone tells what the ball and its field are, by the derivatives of the motion."""
+    names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
+    columns = []
+    for spin in asked.spins:
+        motion = asked.motion(spin)
+        t = np.sort(np.random.default_rng(1).uniform(0.0, asked.seconds, asked.samples))
+        v = motion.sensitivity(t, ["linear", "I3", "n2", "n3", "omega3", "omega1", "omega2"])
+        n2, n3 = motion.direction
+        turned = np.broadcast_to(np.eye(3), (t.size, 3, 3))
+        unit = sqrt(asked.energy / motion.inertia[0])
+        scaled = [motion.linear * v[:, 0], n3 * v[:, 2] - n2 * v[:, 3], motion.inertia[0] * v[:, 1], 2 * pi * v[:, 4]]
+        scaled += [unit * v[:, 5], unit * v[:, 6], *np.moveaxis(turned, 1, 0)]
+        J = np.stack([np.cross(derivative, motion.column(3, t)).ravel() for derivative in scaled], -1) / asked.noise
+        columns.append([*_deviations(J)[:4], _deviations(np.delete(J, 2, axis=1))[2]])
+    return Data(
+        heads("What", *(f"spin {spin:g} Hz" for spin in asked.spins)),
+        tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
+        f"Standard deviations that {asked.samples} looks at the axis within {asked.seconds:g} s, each with a noise of "
+        f"{asked.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
+        ("Two digits, of first order; a dash for what the axis does not tell by itself.",),
+    )
+
+
+def _deviations(J: Any) -> list[str | Number]:
+    """Return the standard deviations of parameters, a dash where a combination that is not seen has a part in one."""
+    size = np.linalg.norm(J, axis=0)
+    size[size == 0] = 1.0
+    _, s, V = np.linalg.svd(J / size, full_matrices=False)
+    seen = s > NOT_SEEN * s[0]
+    lost = (abs(V[~seen]) > sqrt(NOT_SEEN)).any(axis=0)
+    deviations = np.sqrt(((V[seen] / s[seen, None]) ** 2).sum(axis=0)) / size
+    return ["–" if bad else Number(f"{x:.1e}") for x, bad in zip(deviations, lost, strict=True)]
+
+
+class Design(StrictStruct, frozen=True):
+    """Spheroids of some equatorial radii in m, of a material, charged to a field at their surface, in a magnet (T).
+
+    `aspect` is polar over equatorial; they spin `spin` times as fast as Larmor's turn about their own axis, which is
+    `inclination` rad off the field.
+    """
+
+    radii: tuple[float, ...]
+    aspect: float
+    density: float
+    susceptibility: float
+    surface_field: float
+    magnet: float
+    spin: float
+    inclination: float
+
+
+def beyond_larmor(asked: Design) -> Data:
+    """Return the precession beyond Larmor's turn, by the charge and by magnetisation, and what would spoil it."""
+    along = demagnetization(asked.aspect)
+    rows: list[tuple[str | Number, ...]] = []
+    for r in asked.radii:
+        volume = 4 / 3 * pi * asked.aspect * r**3
+        mass = asked.density * volume
+        body = from_shape("spheroid", mass=mass, equatorial=r, polar=asked.aspect * r)
+        mu = 3 * ELECTRIC_CONSTANT * asked.surface_field / (asked.density * r)
+        b = mu * asked.magnet / 2
+        magnetic = -anisotropy(asked.susceptibility, volume, along) * asked.magnet**2
+        n = np.sin(asked.inclination), np.cos(asked.inclination)
+        omega = 0.0, -b * n[0], asked.spin * b - b * n[1]
+        own, both = (
+            TopMotion((body.I2, body.I3), (b * body.I2, b * body.I3), n, omega, 0.0, quadratic).precession_rate + b
+            for quadratic in (0.0, magnetic)
+        )
+        offset = abs(body.I3 - body.I2) * b * b / 2 / (mass * GRAVITY)
+        speed = sqrt(8 * BOLTZMANN * WARM / (pi * MOLECULE))
+        drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * WARM) * speed * r**4 / body.I3
+        pressure = abs(own) / (2 * pi) / drag
+        turns = (b / (2 * pi), own / (2 * pi), both / (2 * pi))
+        rows.append(tuple(map(_three, (r, *turns, both / own, offset, pressure))))
+    return Data(
+        heads(
+            ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("beyond it, by the charge", "Hz"), ("by both", "Hz"),
+            "quotient", (r"offset $\delta$", "m"), ("pressure", "Pa"),
+        ),
+        tuple(rows),
+        rf"Spheroids of $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:-1]}$ and {asked.density:g} "
+        rf"kg m$^{{-3}}$, {asked.aspect:g} times as high as wide, charged to "
+        rf"{Number(f'{asked.surface_field:.0e}').tex()} V/m, in {asked.magnet:g} T: the mean precession about the "
+        rf"field beyond Larmor's turn, of a spin of ${asked.spin:g}\,b$ in Larmor's frame, "
+        rf"{asked.inclination:g} rad off the field; the offset $\delta$ of the centre of charge for which $m_0g\delta$ "
+        "is as large as the potential; the pressure at which the gas stops the spin within one such turn.",
+        ("Three digits.",),
+    )  # fmt: skip
+
+
+def demagnetization(aspect: float) -> float:
+    """Return the demagnetizing factor along the axis of a spheroid, polar over equatorial `aspect`."""
+    if abs(aspect - 1) < 1e-6:
+        return 1 / 3
+    if aspect > 1:
+        e = sqrt(1 - 1 / aspect**2)
+        return (1 - e * e) / e**3 * (atanh(e) - e)
+    e = sqrt(1 - aspect**2)
+    return (1 - aspect / e * asin(e)) / e**2
+
+
+def _three(value: float) -> str | Number:
+    """Return a number of three digits, a dash for zero."""
+    if abs(value) < 1e-30:
+        return "–"
+    size = abs(value)
+    return Number(f"{value:.0f}" if 1e3 <= size < 1e5 else f"{value:.3g}" if 1e-3 <= size < 1e3 else f"{value:.2e}")
+
+
+def fits() -> Data:
+    """Return how often fits find made-up motions without a start, how right their errors are, and their time."""
+    record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
+    return Data(
+        heads("Family", "Measured", ("Found", "%"), ("Within one error", "%"), ("CPU time, median", "s")),
+        tuple(
+            (*kind.split(", "), *(Number(f"{row[name]:{form}}") for name, form in RECORDED.items()))
+            for kind, row in record.items()
+        ),
+        "Fits of made-up measurements, 100 motions a row, without a start.",
+        ("500 times with an error of 0.01, unless another is said; parameters within one standard error are 68 %.",),
+    )

@@ -1,0 +1,116 @@
+"""A charged ball, a charged particle and a body that flies: frequencies, the drift, where they are at some times."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.book.body_and_field import BodyAndField
+from atlas.book.digits import Number
+from atlas.book.schema import StrictStruct, Vector
+from atlas.book.tables.table import RATE, Data, Request, certified, column, heads, quantity, scaled
+from atlas.errors import AtlasError
+
+
+def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
+    """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, (101)."""
+    from atlas.motions.particle.certified import ParticleMotion
+
+    if case.physical is None:
+        raise AtlasError("this needs a field that is given as B (and E), not as B'.")
+    p = case.physical
+    if case.frame is not None and not (case.frame.matrix == np.eye(3)).all():
+        raise AtlasError("give B in the laboratory frame: e3 along the body's axis, B in the plane of e2 and e3.")
+    return ParticleMotion(p.mu, tuple(p.E), tuple(p.B), position, velocity, p.c)
+
+
+class ParticleParameters(StrictStruct, frozen=True):
+    """Times in s, position and velocity at t = 0."""
+
+    times: tuple[float, ...]
+    position: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
+
+
+def particle(request: Request, asked: ParticleParameters) -> Data:
+    """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
+    case = request.case
+    motion = exact_particle(case, asked.position, asked.velocity)
+    unit = speed = case.units.length_unit if case.units else ""
+    values = certified(lambda: [motion.position(t) for t in asked.times], request.digits)
+    omega, drift = certified(lambda: (motion.cyclotron_frequency, list(motion.drift)), request.digits)
+    unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
+    frequency = column([omega], request.digits)[0].tex().strip("$")
+    drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
+    return Data(
+        heads(("$t$", "s"), *((f"$y_{j}$", unit) for j in (1, 2, 3))),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
+        "The path of the particle, @(101), in the laboratory frame.",
+        (
+            (
+                rf"Cyclotron frequency $\omega={frequency}$ s$^{{-1}}$, drift "
+                rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$."
+            ),
+        ),
+    )
+
+
+class BallParameters(StrictStruct, frozen=True):
+    """Initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
+
+    omega2: float
+    omega3: float
+    larmor: float
+
+
+def ball(request: Request, asked: BallParameters) -> Data:
+    """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
+    from atlas.motions.elementary.certified_ball import BallMotion
+
+    if asked.larmor == 0:
+        raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
+    motion = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
+    gamma, k_hat = certified(lambda: (motion.gamma, motion.k_hat), request.digits)
+    rows = (
+        ("initial angular velocity", r"$m_2/I_0$", motion.m2, RATE),
+        ("", r"$m_3/I_0$", motion.m3, RATE),
+        ("Larmor's frequency @(27)", r"$\alpha$", motion.larmor, RATE),
+        ("frequency of the turn about $\\hat{\\mathbf{k}}$, @(29)", r"$\gamma$", gamma, RATE),
+        ("axis of that turn, @(29)", r"$\hat k_2$", k_hat[0], "1"),
+        ("", r"$\hat k_3$", k_hat[1], "1"),
+    )
+    return Data(
+        heads("Quantity", "Symbol", "Value", "Unit"),
+        tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
+        r"The general motion of the ball, @(28), in a field along $\mathbf{e}_3$.",
+    )
+
+
+class FlightParameters(StrictStruct, frozen=True):
+    """The elementary motion by its omega2, times in s, the point at t = 0, the start of the centre of mass."""
+
+    omega2: float
+    times: tuple[float, ...]
+    point: Vector
+    position: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
+
+
+def flight(request: Request, asked: FlightParameters) -> Data:
+    """Positions y_0(t) and y_N(t) = y_0(t) + R(t) x_N(0) at some `times`, in the laboratory frame of figure Lssc."""
+    from atlas.motions.elementary.certified import ElementaryMotion
+    from atlas.motions.particle.certified import Flight
+
+    case = request.case
+    motion = exact_particle(case, asked.position, asked.velocity)
+    turning = ElementaryMotion(case.exact, case.components, asked.omega2)
+    whole = Flight(motion, turning, asked.point)
+    unit = case.units.length_unit if case.units else ""
+    values = certified(lambda: [(*motion.position(t), *whole.position(t)) for t in asked.times], request.digits)
+    unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
+    return Data(
+        heads(
+            ("$t$", "s"), *((f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)), *((f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3))
+        ),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
+        r"The flight of the centre of mass $\mathbf{y}_0$, @(101), and of the point $\mathbf{y}_N$ of the body.",
+    )

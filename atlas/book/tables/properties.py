@@ -1,0 +1,285 @@
+"""Tables of one object: all that the register has of it, in proven digits; a body in a field as it was given."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from atlas.book.body_and_field import DIMENSIONS, BodyAndField
+from atlas.book.digits import MINUS, Number, plain
+from atlas.book.tables.elementary import NONE
+from atlas.book.tables.table import RATE, Data, Request, certified, heads, quantity
+from atlas.errors import AtlasError, DomainError, unknown
+from atlas.motions.register import FAMILIES, Family, Quantity
+from atlas.trial.ledger import EQUATIONS
+
+SPARE = 1 << 12
+"""Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
+_LETTERS = re.compile(
+    r"(?<![\w\\'])(?:(B)(')?(?![\w'])|(omega|Omega|alpha|beta|nu|mu|[A-Zcekmn])('?)_?(\d|(?<=_)i)(?!\w)"
+    r"|(omega|Omega|alpha|beta|nu|mu|pi|prod|[A-Zb-z])(?![\w']))|(?<!\w)(-)(?= |\w)"
+)
+"""Letters in plain words: a vector B or B', one with an index, a Greek one, a single one; a minus."""
+SPACE = "\\ "
+"""A space that breaks no line, in Markdown."""
+Row = tuple[str, str, str | Number, str, str, str]
+
+
+@dataclass(frozen=True)
+class Thing:
+    """An object of a family: the parameters as given, and how to make it of kernels and of balls.
+
+    `units` are those of the register by another name, and `described` tells whether what is given stands in a table.
+    """
+
+    family: Family
+    given: Mapping[str, Any]
+    floats: tuple[Any, ...]
+    exact: tuple[Any, ...]
+    units: Mapping[str, str]
+    described: bool
+
+    @classmethod
+    def of(cls, request: Request) -> "Thing":
+        """Read the family and its parameters. Raises AtlasError for what is unknown or missing."""
+        rest = dict(request.parameters)
+        name, described = rest.pop("family", None), rest.pop("given", True)
+        units = {"time": str(rest.pop("time", "time"))} | _units(rest.pop("units", None))
+        if name not in FAMILIES:
+            raise unknown("family", str(name), FAMILIES)
+        family, case = FAMILIES[name], request.case
+        given: dict[str, Any] = {}
+        floats, exact = [], []
+        for p in family.parameters:
+            value: Any
+            if p.name == "ratio":
+                value, balls = case.body, case.exact
+                given[p.name] = Number(plain(case.ratio)) if case.body_record and case.body_record.shape else case.ratio
+            elif p.name == "field" and not p.option:
+                value = balls = given[p.name] = case.components
+            else:
+                if p.needed and p.name not in rest:
+                    raise AtlasError(f"parameters: the family {name!r} lacks {p.name!r}.")
+                omitted = p.omitted if not p.columns else (p.omitted,) * len(p.names)
+                value = balls = rest.pop(p.name, omitted)
+                given[p.name] = value
+            floats.append(value)
+            exact.append(balls)
+        if rest:
+            raise unknown("parameter", next(iter(rest)), [p.name for p in family.parameters], f"of {name!r}")
+        return cls(family, given, tuple(floats), tuple(exact), units, bool(described))
+
+    def kernels(self) -> Any:
+        """Return the object of kernels."""
+        return self.family.kernels()(*self.floats)
+
+    def balls(self) -> Any:
+        """Return the object of balls."""
+        return self.family.balls()(*self.exact)
+
+    def unit(self, unit: str) -> str:
+        """Return a unit of the register in TeX, by the names that were asked for."""
+        words = unit
+        for name, other in self.units.items():
+            words = words.replace(name, other)
+        if words.startswith("1/"):
+            base, _, power = words[2:].partition("^")
+            return f"{base}^{MINUS}{power or 1}^"
+        return re.sub(r"\^(\d)", r"^\1^", words) or "1"
+
+
+def _units(name: Any) -> dict[str, str]:
+    """Return what the units of a system are called, SI or Gaussian. Raises AtlasError for another one."""
+    if name is None:
+        return {}
+    from atlas.bodies.units import system
+
+    units = system(name)
+    return {
+        "time": "s", "length": units.length_unit, "charge/mass": units.mu_unit, "electric field": units.E_unit,
+        "magnetic field": units.B_unit, "speed of light": "1" if units.c == 1 else f"{units.length_unit}/s",
+    }  # fmt: skip
+
+
+def properties(request: Request, thing: Thing) -> Data:
+    """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
+
+    With ``given = false`` what is given is left out. Why a quantity has no value stands below the table.
+    """
+    rows = [*_rows_given(thing)] if thing.described else []
+    rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
+    names: dict[str, list[str]] = {}
+    for _, name, value, _, _, reason in rows:
+        if value is NONE:
+            names.setdefault(reason, []).append(name)
+    reasons = [f"{', '.join(of)}: {reason}." for reason, of in names.items()]
+    rows = [(*row[:5], "") if row[2] is NONE else row for row in rows]
+    says, heading = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
+    return Data(
+        heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
+        tuple(rows),
+        f"{says[:1].upper()}{says[1:]}: {heading}.",
+        ("Numbers that are given are taken as the doubles nearest to them, and these as exact.", *reasons),
+    )  # fmt: skip
+
+
+def _rows_given(thing: Thing) -> Iterator[Row]:
+    """Go through what is given, a component a row."""
+    for p in thing.family.parameters:
+        value = thing.given[p.name]
+        parts = value if p.columns else (value,)
+        for place, (name, component) in enumerate(zip(p.names, parts, strict=True)):
+            if component is not None:
+                number = component if isinstance(component, Number) else Number.as_given(component)
+                says = "" if place else p.says.partition(".")[0]
+                yield lettered(says), f"`{name}`", number, thing.unit(p.unit), "", "given"
+
+
+def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
+    """Give a quantity, a component a row; where it has no value, the reason."""
+    try:
+        texts = _texts(thing, q, digits)
+    except DomainError as reason:
+        yield lettered(q.says), f"`{q.name}`", NONE, "", cited(q.equation), str(reason).removesuffix(".")
+        return
+    if texts is None:
+        yield lettered(q.says), f"`{q.name}`", "none", "", cited(q.equation), "exactly"
+        return
+    case = thing.family.case(thing.kernels()) if q.cases else ""
+    says, equation = q.cases.get(case, (q.says, q.equation))
+    says = f"{q.name} {says}" if says.startswith("of ") else says
+    for place, (name, words, text) in enumerate(_parts(q, texts)):
+        value, certain = _printed(thing, q, text, place if isinstance(texts, list | tuple) else None, digits)
+        unit = thing.unit(q.unit) if isinstance(value, Number) else ""
+        yield (
+            lettered(words or ("" if place else says)),
+            f"`{name}`",
+            value,
+            unit,
+            "" if place else cited(equation),
+            certain,
+        )
+
+
+def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
+    """Return the certified texts of a quantity, or what the kernels have where balls have none."""
+    from atlas.arithmetic.certified_digits import certified
+
+    if not (q.certified or q.printed or q.checked):
+        return q.value(thing.kernels())  # of kernels alone
+    exact = thing.balls()
+    return certified(lambda: q.value(exact, exact=True), digits, spare=SPARE)
+
+
+def _parts(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
+    """Return the components: name, words of its own, text."""
+    if not isinstance(values, list | tuple):
+        return [(q.name, "", values)]
+    numbered = [f"{q.name}[{i}]" for i in range(len(values))]
+    if q.name == "roots" or (values and isinstance(values[0], list | tuple)):
+        parts = [q.text(component if q.lines else [component]) for component in values] or [q.text(values)]
+        symbols = [symbol for symbol, _ in q.lines] or numbered or [q.name]
+        return [(name, "", component) for name, component in zip(symbols, parts, strict=True)]
+    names, of = q.columns or numbered, q.symbol or q.says
+    words = [says for _, says in q.lines] or [f"{of}: {name}" if q.columns else "" for name in names]
+    return zip(names, words, values, strict=True)
+
+
+def _printed(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
+    """Return a value as it is printed, and how sure it is."""
+    from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED
+
+    if isinstance(text, float):
+        number = Number(plain(text), proven=False)
+        return (number, "float, not certified") if isfinite(text) else (NONE, "beyond the largest float")
+    if text == NOT_CERTIFIED:
+        value = q.value(thing.kernels())
+        value = value if place is None else value[place]
+        value = value[0] if q.name == "roots" else value  # real, or its text would have an i
+        promise = thing.family.promises.get(q.checked)
+        promised = f"{promise:g} ulp promised" if promise else "not certified"
+        return Number(plain(value), proven=False), f"float, {promised}"
+    if not re.fullmatch(r"-?\d[\d.]*(e[+-]\d+)?\??", text):
+        several = NOT_CERTIFIED if NOT_CERTIFIED in text else f"{digits}{SPACE}digits each"
+        return re.sub(r"-(?=\d)", MINUS, text), several if re.search(r"\d", text) else "exactly"
+    proven = text.removesuffix(MARK)
+    if text == "0":
+        return Number("0"), "exactly"
+    count = len(re.sub(r"e.*|[-.]", "", proven).lstrip("0"))
+    return Number(proven), f"{count}{SPACE}digits" + ", no more" * (MARK in text and count < digits)
+
+
+def lettered(words: str) -> str:
+    """Set the letters of the register's plain words as formulas: omega'_3, B2, beta."""
+    return re.sub(rf"\^({MINUS}?\d)", r"^\1^", _LETTERS.sub(_letter, words))
+
+
+def _letter(matched: re.Match[str]) -> str:
+    vector, prime, name, primed, place, alone, minus = matched.groups()
+    if minus:
+        return MINUS
+    if vector:
+        return rf"$\mathbf{{{vector}}}{prime or ''}$"
+    letter = name or alone
+    return f"${'' if len(letter) == 1 else chr(92)}{letter}{primed or ''}{f'_{place}' if place else ''}$"
+
+
+def cited(equations: str) -> str:
+    """Return equations as citations, those of the ledger."""
+    return ", ".join(f"@{name}" for name in equations.split(", ") if name in EQUATIONS)
+
+
+def body_and_field(request: Request) -> Data:
+    """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', (32) and (33)."""
+    case = request.case
+    body, field = case.body_record, case.field_record
+    if body is None or field is None:
+        raise AtlasError("this table needs a body and a field.")
+    rows = [(words, symbol, Number.as_given(value), unit, "given") for words, symbol, value, unit in _described(case)]
+    rows += [
+        (words, symbol, quantity(value, request.digits), unit, "follows")
+        for words, symbol, value, unit in _derived(case, request.digits)
+    ]
+    return Data(
+        heads("Quantity", "Symbol", "Value", "Unit", ""),
+        tuple(rows),
+        f"The {body.title} in the {field.title}, and what follows from them by @(32) and @(33).",
+        (
+            "The moments and $I$ are proven to the last digit printed.",
+            r"$\mu$ and $\mathbf{B}'$ are rounded once, to the nearest double.",
+            "All further numbers of this report take that double as exact.",
+        ),
+    )
+
+
+def _described(case: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
+    """Go through what the user gave."""
+    for key, (words, symbol, unit) in DIMENSIONS.items():
+        value = getattr(case.body_record, key)
+        if value is not None:
+            yield words, symbol, value, unit
+    if case.physical is not None and case.units is not None:
+        for words, letter, vector, unit in (
+            ("magnetic field", "B", case.physical.B, case.units.B_unit),
+            ("electric field", "E", case.physical.E, case.units.E_unit),
+        ):
+            for j, component in enumerate(vector, 1):
+                yield words if j == 1 else "", f"${letter}_{j}$", float(component), unit
+
+
+def _derived(case: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
+    """Go through what the formulas take of it."""
+    from atlas.bodies.certified_body import ratio_of
+
+    exact = case.exact
+    if case.body_record is not None and case.body_record.shape:
+        I2, I3 = certified(lambda: (exact.I2, exact.I3), digits)
+        yield "moment of inertia", "$I_2$", I2, "kg m$^2$"
+        yield "", "$I_3$", I3, "kg m$^2$"
+    yield "ratio of the moments", "$I=I_3/I_2$", certified(lambda: ratio_of(exact), digits), "1"
+    if case.physical is not None and case.units is not None:
+        yield "charge-to-mass ratio", r"$\mu$", case.physical.mu, case.units.mu_unit
+    B2, B3 = case.components
+    yield "field as a frequency", "$B'_2$", B2, RATE
+    yield "", "$B'_3$", B3, RATE

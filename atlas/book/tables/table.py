@@ -1,0 +1,122 @@
+"""A computed table as data: columns with their units, rows of words and numbers that are proven to the last digit."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from atlas.arithmetic.numbers import workprec
+from atlas.book.body_and_field import BodyAndField
+from atlas.book.digits import Number
+
+RATE = r"s$^{-1}$"
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column: its head and unit in Markdown with TeX; no unit for words and pure numbers."""
+
+    head: str
+    unit: str = ""
+
+
+def heads(*columns: str | tuple[str, str]) -> tuple[Column, ...]:
+    """Return columns by their heads, each alone or with its unit."""
+    return tuple(Column(column) if isinstance(column, str) else Column(*column) for column in columns)
+
+
+@dataclass(frozen=True)
+class Data:
+    """A table, the caption it has unless the report gives another, and the sentences below it."""
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str | Number, ...], ...]
+    caption: str
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Request:
+    """What a table block asks for: bodies in a field, further parameters, significant digits."""
+
+    cases: Sequence[BodyAndField]
+    parameters: Mapping[str, Any]
+    digits: int
+
+    @property
+    def case(self) -> BodyAndField:
+        """The one body and field."""
+        return self.cases[0]
+
+
+Maker: TypeAlias = Callable[..., Data]
+"""What makes a table: of the `request`, and of its further parameters as a record; of either only if it needs it."""
+
+
+def bits(digits: int) -> int:
+    """Return a relative precision far beyond so many digits."""
+    return int(3.33 * digits) + 80
+
+
+def certified(make: Callable[[], Any], digits: int) -> Any:
+    """Compute numbers with radii far below the digits to be printed; see `atlas.arithmetic.certified_digits`."""
+    from atlas.arithmetic.certified_digits import enclosed
+
+    return enclosed(make, bits(digits))
+
+
+def column(values: Sequence[Any], digits: int) -> list[Number]:
+    """Print a column of balls, rationals and floats, which are taken as exact.
+
+    As many decimals are printed as give the largest entry `digits` significant digits. Where entries differ by more
+    than a factor of 10^6, or are very large or small, each has its own power of ten. A Number stays as it is.
+    """
+    sizes = [power for value in values if (power := _power(value)) is not None]
+    largest = max(sizes, default=0)
+    if -4 <= largest <= 6 and largest - min(sizes, default=largest) <= 6:
+        return [_number(value, max(digits - 1 - largest, 0), "fixed") for value in values]
+    return [_number(value, digits, "scientific") for value in values]
+
+
+def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
+    """Print columns of one unit; where all are very small or large, a power of ten of thousands joins the unit."""
+    from flint import fmpq
+
+    sizes = [power for values in columns for value in values if (power := _power(value)) is not None]
+    largest = max(sizes, default=0)
+    if -3 <= largest <= 5:
+        return unit, [column(values, digits) for values in columns]
+    power = 3 * (largest // 3)
+    with workprec(2 * bits(digits)):  # the product is as accurate as its factors
+        shifted = [[value * fmpq(10) ** -power for value in values] for values in columns]
+    return f"$10^{{{power}}}$ {unit}", [column(values, digits) for values in shifted]
+
+
+def quantity(value: Any, digits: int) -> Number:
+    """Print one number with `digits` significant digits."""
+    return column([value], digits)[0]
+
+
+def _power(value: Any) -> int | None:
+    """Return the power of ten of a number's first digit, None for an input, for zero, and where no digit is proven."""
+    if isinstance(value, Number) or value == 0:
+        return None
+    first = _number(value, 1, "scientific")
+    return int(first.digits.partition("e")[2]) if first.proven else None
+
+
+def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> Number:
+    """Return the proven digits of a number; an exact zero has no decimals."""
+    from flint import fmpq
+
+    from atlas.arithmetic.certified_digits import INFINITE, MARK, NOT_CERTIFIED, printed
+
+    if isinstance(value, Number):
+        return value
+    if value == 0:
+        return Number("0")
+    if isinstance(value, float):
+        value = fmpq(*value.as_integer_ratio())
+    number = printed(value, digits, layout)
+    if number.text in {NOT_CERTIFIED, INFINITE}:
+        return Number("", proven=False)
+    return Number(number.text.removesuffix(MARK), proven=number.complete)

@@ -1,0 +1,209 @@
+"""Tops and bodies with three moments: a nutation, loops of periods, elliptic motions, tori, motions at times."""
+
+from typing import Any
+
+from atlas.book.digits import Number, plain
+from atlas.book.schema import StrictStruct
+from atlas.book.tables.table import Data, Request, certified, column, heads
+
+
+class Top(StrictStruct, frozen=True):
+    """A top as in `TopMotion`, in units of I2 and of one time, with its name."""
+
+    name: str
+    ratio: float
+    direction: tuple[float, float]
+    omega: tuple[float, float, float]
+    coupling: tuple[float, float] = (0.0, 0.0)
+    linear: float = 0.0
+    quadratic: float = 0.0
+
+
+class TopsParameters(StrictStruct, frozen=True):
+    """The tops, a row each."""
+
+    tops: tuple[Top, ...]
+
+
+class Loop(StrictStruct, frozen=True):
+    """A loop at one M3 round the value p of the spin, or round the spins, of a top."""
+
+    name: str
+    ratio: float
+    M3: float
+    p: float
+    coupling: tuple[float, float] = (0.0, 0.0)
+    linear: float = 0.0
+    quadratic: float = 0.0
+
+
+class MonodromyParameters(StrictStruct, frozen=True):
+    """The loops, a row each, and the number of points on each."""
+
+    loops: tuple[Loop, ...]
+    points: int = 64
+
+
+def tops(request: Request, asked: TopsParameters) -> Data:
+    """Return the period of nutation and the angles in it of several tops."""
+    from atlas.motions.nutation.certified_top import TopMotion
+
+    motions = [
+        TopMotion((1.0, one.ratio), one.coupling, one.direction, one.omega, one.linear, one.quadratic)
+        for one in asked.tops
+    ]
+    nutations = certified(
+        lambda: [(top.period, top.precession_per_period, top.spin_per_period) for top in motions], request.digits
+    )
+    columns = [column(values, request.digits) for values in zip(*nutations, strict=True)]
+    given: list[tuple[str | Number, ...]] = [
+        (
+            top.name,
+            Number.as_given(top.ratio),
+            *(_of_top(x) for x in (top.coupling, (top.linear, top.quadratic), top.direction, top.omega)),
+        )
+        for top in asked.tops
+    ]
+    return Data(
+        heads(
+            *("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$"),
+            *("$T$", r"$\Delta\psi$", r"$\Delta\chi$"),
+        ),
+        tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
+        r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
+        r"$\Delta\chi$ about the axis by which the body turns in it, in units of $J_2$ and of one time.",
+        (
+            r"Where $\nu$ is constant $T$ is the period of small nutations.",
+            r"Along $\mathbf{n}$ all of the turn is counted in $\Delta\chi$.",
+        ),
+    )
+
+
+def _of_top(numbers: tuple[float, ...]) -> str:
+    """Return given numbers in one cell."""
+    return "$" + ",".join(map(plain, numbers)) + "$"
+
+
+def monodromy(asked: MonodromyParameters) -> Data:
+    """Return what becomes of the basis of periods on loops round unstable spins, theorem-residue."""
+    from atlas.maps.monodromy import around, on_loop
+    from atlas.maps.wells import Wells
+
+    rows: list[tuple[str | Number, ...]] = []
+    for loop_asked in asked.loops:
+        wells = Wells.at(loop_asked.M3, loop_asked.ratio, loop_asked.coupling, loop_asked.linear, loop_asked.quadratic)
+        loop = around(wells, loop_asked.p, asked.points)
+        on_this_loop = on_loop(
+            loop_asked.ratio, loop_asked.coupling, loop_asked.M3, loop, loop_asked.linear, loop_asked.quadratic
+        )
+        matrix = r"\\".join("&".join(map(str, row)) for row in on_this_loop.matrix)
+        rows.append(
+            (
+                loop_asked.name,
+                *(Number.as_given(x) for x in (loop_asked.ratio, loop_asked.M3, loop_asked.p)),
+                Number(f"{on_this_loop.period.min():.4f}"),
+                Number(f"{on_this_loop.period.max():.4f}"),
+                rf"$\begin{{pmatrix}}{matrix}\end{{pmatrix}}$",
+                Number(f"{on_this_loop.step:.3f}"),
+                Number(f"{on_this_loop.radius:.0e}"),
+            )
+        )
+    return Data(
+        heads("Top", "$I$", "$M_3$", "$p$", "least $T$", "largest $T$", "matrix", "step", "radius"),
+        tuple(rows),
+        r"Rows of the matrix: what $\mathbf{g}_1$, $\mathbf{g}_2$, $\mathbf{g}_3$ have become after one round. With it "
+        r"the largest change of $\Delta\psi/2\pi$ or $\Delta\chi/2\pi$ from one point to the next, which must be less "
+        "than a half, and the largest radius of the balls that hold them.",
+        (f"Loops of {asked.points} points, counter-clockwise in the plane of $p$ and $g$.",),
+    )
+
+
+Triple = tuple[float, float, float]
+
+
+class Family(StrictStruct, frozen=True):
+    """A body in a field, in one unit of inertia and one of time, and places (z, branch) of elliptic motions."""
+
+    inertia: Triple
+    field: Triple
+    places: tuple[tuple[float, int], ...]
+
+
+class Motion(StrictStruct, frozen=True):
+    """A body in a field and its initial angular velocity."""
+
+    inertia: Triple
+    field: Triple
+    omega: Triple
+
+
+class Samples(Motion, frozen=True):
+    """A body in a field, its initial angular velocity, and times."""
+
+    times: tuple[float, ...]
+
+
+def elliptic(request: Request, asked: Family) -> Data:
+    """List elliptic motions of one body in one field, a row each, theorem-elliptic."""
+    from atlas.motions.nutation.certified_elliptic import EllipticMotion
+
+    motions = [EllipticMotion(asked.inertia, asked.field, z, branch) for z, branch in asked.places]
+    values = certified(
+        lambda: [(m.v, *m.omega, m.splitting, m.period, m.turn_per_period) for m in motions], request.digits
+    )
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
+    return Data(
+        heads("$z$", "$v$", *(rf"$\omega_{i}$" for i in (1, 2, 3)), "$C/D^2$", "$T$", r"$\Theta$", "Motion"),
+        tuple(
+            (Number.as_given(z), *row, m.stability)
+            for (z, _), row, m in zip(asked.places, zip(*columns, strict=True), motions, strict=True)
+        ),
+        rf"Elliptic motions of a body with $I_i={_row(asked.inertia)}$ in $\mathbf{{B}}'={_row(asked.field)}$: the "
+        r"place $(z,v)$, initial angular velocity, what decides on stability, the period $T$ of "
+        r"$\mathbf{K}$, and the turn $\Theta$ of the body about the field in it.",
+    )
+
+
+def periods(request: Request, asked: Motion) -> Data:
+    """List two pairs of times after which M and K are back, and the turn about the field, with proven digits."""
+    from flint import fmpq
+
+    from atlas.book.tables.table import bits
+    from atlas.motions.torus.certified_torus import Torus
+
+    inertia, K, omega = (
+        [fmpq(*x.as_integer_ratio()) for x in row] for row in (asked.inertia, asked.field, asked.omega)
+    )
+    torus = Torus(tuple(inertia), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
+    lattice = torus.periods(bits(request.digits) + 64)
+    columns = [column(values, request.digits) for values in zip(*((x.H, x.F, x.angle) for x in lattice), strict=True)]
+    return Data(
+        heads("Pair", "$T_H$", "$T_F$", r"$\theta$"),
+        tuple((f"$r_{n}$", *row) for n, row in enumerate(zip(*columns, strict=True), 1)),
+        rf"Periods of the torus of the motion from $\boldsymbol\omega={_row(asked.omega)}$, "
+        rf"$I_i={_row(asked.inertia)}$, $\mathbf{{B}}'={_row(asked.field)}$: times of the flows of $H$ and $F/2$ after "
+        r"which $\mathbf{M}$ and $\mathbf{K}$ are back, and the angle by which the body has turned about the field, in "
+        r"Larmor's frame.",
+    )
+
+
+def asymmetric(request: Request, asked: Samples) -> Data:
+    """List the third axis of the body and its spin about it at some times, whatever the motion."""
+    from atlas.motions.torus.certified import AsymmetricMotion
+
+    motion = AsymmetricMotion(asked.inertia, asked.field, asked.omega)
+    values: list[Any] = certified(
+        lambda: [(*motion.column(3, t), motion.angular_velocity(t)[2]) for t in asked.times], request.digits
+    )
+    columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
+    return Data(
+        heads("$t$", *(rf"$R_{{{i}3}}$" for i in (1, 2, 3)), r"$\Omega_3$"),
+        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
+        rf"The motion from $\boldsymbol\omega={_row(asked.omega)}$ of the body with $I_i={_row(asked.inertia)}$ in "
+        rf"$\mathbf{{B}}'={_row(asked.field)}$: its third axis in the laboratory and its spin about it.",
+    )
+
+
+def _row(numbers: Triple) -> str:
+    """Return given numbers as a row vector in TeX."""
+    return "(" + ",".join(map(plain, numbers)) + ")"

@@ -1,0 +1,351 @@
+"""The texts of a report: collected while its blocks are gone through, checked, and set together.
+
+A text is Markdown with TeX between dollars. Its links lead to http, https, mailto, doi or a page of the report, it
+holds no pictures, and a citation such as ``@(67)`` becomes a link.
+"""
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from atlas.book import pandoc
+from atlas.book.pandoc import FormulaError, Target, Tree, mend_all, with_leading
+from atlas.errors import AtlasError
+from atlas.trial.ledger.plain import words as plain_words
+
+_CITED = re.compile(
+    r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\([\w.-]+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
+)
+"""A citation, in the first group; formulas and code, in which there is none, are passed over."""
+DEEPEST = 10
+"""How deeply parts of a text may be nested."""
+_OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
+_INSIDE = re.compile(r"\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
+_CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
+"""How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
+_COUNTED = {"Section", "Sections", "Part", "Volume", "Figure", "Table"}
+_COUNT = re.compile(r"\d|[IVX]+\b")
+"""Words, and the beginnings of what they count."""
+_UNIT = re.compile(r"(?:s|m|T|V|J|C|K|W|kg|mm|rad|[kM]?Hz|degrees|V/m|C/kg)\b[.,;:)]*")
+_ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
+"""Where in a node of a tree its attributes are."""
+
+
+_FORMULA = re.compile(r"((?<!\\)\$(?=\S)[^$]+(?<=\S)\$(?!\d))")
+"""A formula of a title, as pandoc finds it."""
+
+
+class Link(NamedTuple):
+    """What a citation says, the page (none in the PDF) and anchor that it leads to, if any, and what stands there.
+
+    `bracketed` is what it says in brackets if it cites a work, else empty.
+    """
+
+    words: str
+    page: str = ""
+    anchor: str = ""
+    says: str = ""
+    bracketed: str = ""
+
+
+@dataclass(frozen=True)
+class Text:
+    """A piece of Markdown, where it stands in the report, whether it is less than a paragraph.
+
+    `anchors` are the ids to give to the first citations of some names.
+    """
+
+    markdown: str
+    where: str
+    inline: bool
+    anchors: Mapping[str, str]
+
+
+@dataclass
+class Texts:
+    """The texts of one report, set together.
+
+    `memory` holds what was made of a source before, by that source; `used` is what of it was asked for.
+    """
+
+    texts: list[Text] = field(default_factory=list)
+    memory: dict[str, str] = field(default_factory=dict)
+    used: dict[str, str] = field(default_factory=dict)
+    _trees: list[Tree] = field(default_factory=list)
+
+    def add(self, markdown: str, where: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
+        """Take in a text and return its number."""
+        self.texts.append(Text(markdown, where, inline, anchors or {}))
+        return len(self.texts) - 1
+
+    def __getitem__(self, number: int) -> Text:
+        """Return the text of that number."""
+        return self.texts[number]
+
+    def read(self) -> None:
+        """Parse the texts that have been added. Raises AtlasError for one whose parts are nested too deeply.
+
+        The time that pandoc takes for such a text doubles with each level.
+        """
+        for text in self.texts:
+            if deepest(text.markdown) > DEEPEST:
+                raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {DEEPEST} deep.")
+        keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
+        new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
+        if new:
+            trees = pandoc.read([(_braced(text.markdown), text.inline) for text in new.values()])
+            for key, tree in zip(new, trees, strict=True):
+                self.memory[key] = json.dumps(tree)
+        self._trees = [json.loads(tree) for tree in self._recalled(keys)]
+
+    def set(self, target: Target, cite: Callable[[str, str], Link]) -> list[str]:
+        """Set all texts for a target, in their order.
+
+        `cite` (name, place) returns the link of a citation. Raises AtlasError, with the place, for a formula that can't
+        be read, a link that is not allowed, and a picture.
+        """
+        if len(self._trees) < len(self.texts):
+            self.read()
+        trees = [_Checked(text, target, cite).tree(tree) for text, tree in zip(self.texts, self._trees, strict=True)]
+        if target == "typst":
+            trees = [tree if text.inline else with_leading(tree) for text, tree in zip(self.texts, trees, strict=True)]
+        keys = [
+            json.dumps([pandoc.release(), target, text.inline, tree])
+            for text, tree in zip(self.texts, trees, strict=True)
+        ]
+        new = list({key: number for number, key in enumerate(keys) if key not in self.memory}.values())
+        try:
+            pieces = pandoc.write([(trees[number], self.texts[number].inline) for number in new], target) if new else []
+        except FormulaError as error:
+            number = next(number for number in new if json.dumps(error.tex) in json.dumps(trees[number]))
+            raise AtlasError(f"{self.texts[number].where}: {error}") from error
+        for number, piece in zip(new, pieces, strict=True):
+            self.memory[keys[number]] = _finished(piece, target, self.texts[number])
+        return self._recalled(keys)
+
+    def _recalled(self, keys: Sequence[str]) -> list[str]:
+        """Return what was made of some sources."""
+        self.used |= {key: self.memory[key] for key in keys}
+        return [self.used[key] for key in keys]
+
+
+def deepest(markdown: str) -> int:
+    """Return how deeply brackets, braces, quotations or list items are nested, closed or not, in code or not.
+
+    Brackets are counted by paragraph, in which alone they meet; an escaped one is none.
+    """
+    most = 0
+    for paragraph in re.split(r"\n\s*\n", re.sub(r"\\[\\\[\]{}]", "", markdown)):
+        for first, last in ("[]", "{}"):
+            depth = 0
+            for mark in re.findall(rf"[\{first}\{last}]", paragraph):
+                depth = depth + 1 if mark == first else max(0, depth - 1)
+                most = max(most, depth)
+    for quoted in re.findall(r"^[ >]*>", markdown, re.MULTILINE):
+        most = max(most, quoted.count(">"))
+    for indent in re.findall(r"^[ \t]+(?=[-*+\d])", markdown, re.MULTILINE):
+        most = max(most, len(indent.expandtabs(4)) // 4)
+    return most
+
+
+def title(text: str) -> str:
+    """Return a title as Markdown: its formulas are set, and all else in it is plain words."""
+    words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(text)
+    return "".join(part if k % 2 else re.sub(words, r"\\\1", part) for k, part in enumerate(formulas))
+
+
+def title_words(text: str) -> str:
+    """Return a title in plain words, for bookmarks and navigation."""
+    return _FORMULA.sub(lambda formula: plain_words(formula[1]), text)
+
+
+def citations(markdown: str) -> list[str]:
+    """Return the names that a text cites, in their order; what stands in code or in a formula is none."""
+    return [name for name in _CITED.findall(markdown) if name]
+
+
+def _braced(markdown: str) -> str:
+    """Write ``@(72)`` as pandoc reads it, with braces about a name that is no word."""
+    return _CITED.sub(
+        lambda matched: f"@{{{matched[1]}}}" if (matched[1] or "").startswith("(") else matched[0], markdown
+    )
+
+
+class _Checked:
+    """The tree of a text made safe, its citations resolved: only what is written as text and formula reaches a page."""
+
+    def __init__(self, text: Text, target: Target, cite: Callable[[str, str], Link]) -> None:
+        self.text, self.target, self.cite = text, target, cite
+        self.anchors = dict(text.anchors)
+
+    def tree(self, nodes: Tree) -> Tree:
+        """Return a list of nodes, all that is inside them included."""
+        found: Tree = []
+        for node in nodes:
+            if isinstance(node, list):
+                found.append(self.tree(node))
+            elif isinstance(node, dict) and "t" in node:
+                found += self.node(node["t"], node.get("c"))
+            else:
+                found.append(node)
+        return _tied(found) if all(isinstance(node, dict) for node in found) else found
+
+    def node(self, kind: str, content: Any) -> Tree:
+        """Return what stands in the place of a node."""
+        if kind in {"Image", "RawInline", "RawBlock"}:
+            raise AtlasError(f"{self.text.where}: a text holds no pictures; make a figure block of it.")
+        if kind == "Cite":
+            return self.citation(content[0])
+        if kind == "Math":
+            formula = {"t": kind, "c": [content[0], _tex(content[1], self.target)]}
+            if self.target != "typst":
+                return [formula]
+            mark = {"t": "RawInline", "c": [self.target, _mark(self.text)]}
+            joiner = [{"t": "Str", "c": "\u2060"}] if content[1].lstrip().startswith("^") else []  # s$^{-1}$
+            return [*joiner, mark, formula, mark]
+        if kind == "Link":
+            return [_link(self.tree(content[1]), self.address(content[2][0]))]
+        if kind in _ATTRIBUTES:
+            content = [["", [], []] if place == _ATTRIBUTES[kind] else piece for place, piece in enumerate(content)]
+        if kind == "Header":
+            content[0] = max(content[0], 2)  # the first level is that of the page
+        if content is None:
+            return [{"t": kind}]
+        return [{"t": kind, "c": self.tree(content) if isinstance(content, list) else content}]
+
+    def citation(self, parts: Any) -> Tree:
+        """Return the links of a citation, in brackets with the words around them if it was written so."""
+        links = [self.cite(work["citationId"], self.text.where) for work in parts]
+        works = self.are_works(parts, links)
+        if works and self.target != "html":  # Typst and BibTeX set their own bibliography
+            return [{"t": "Cite", "c": [[work | self.around(work) for work in parts], []]}]
+        bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
+        nodes: Tree = []
+        for work, link in zip(parts, links, strict=True):
+            prefix, suffix = self.around(work).values()
+            space = [{"t": "Space"}] if prefix else []
+            nodes += [*(_words("; ") if nodes else ()), *prefix, *space, *self.cited(work, link, bracketed), *suffix]
+        first, last = "()" if works else "[]"
+        return [*_words(first), *nodes, *_words(last)] if bracketed else nodes
+
+    def are_works(self, parts: Any, links: Sequence[Link]) -> bool:
+        """Return whether a citation is of works, not of equations; it can't be of both."""
+        works = {bool(link.bracketed) for link in links}
+        if len(works) > 1:
+            raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
+        if works == {True} and any(work["citationPrefix"] for work in parts):
+            raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
+        return works == {True}
+
+    def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
+        """Return one link of a citation, at its anchor where it is the first to the name."""
+        name = work["citationId"]
+        words = self.tree(_words(link.bracketed if bracketed and link.bracketed else link.words))
+        if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
+            if name.startswith("cell:"):  # a number of a table is written by its key
+                return [{"t": "RawInline", "c": ["latex", rf"\atlascell{{{name[5:]}}}{{{link.words}}}"]}]
+            counted = f"{link.words.partition(' ')[0]}~\\ref{{{link.anchor}}}"
+            return [{"t": "RawInline", "c": ["latex", counted]}] if name.startswith(("fig:", "tab:")) else words
+        says = link.says if self.target == "html" else ""
+        node = [_link(words, f"{link.page}#{link.anchor}", says)] if link.anchor else words
+        anchor = self.anchors.pop(name, None)
+        return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
+
+    def around(self, work: Any) -> dict[str, Tree]:
+        """Return the words before and after a name in brackets."""
+        return {key: self.tree(work[key]) for key in ("citationPrefix", "citationSuffix")}
+
+    def address(self, url: str) -> str:
+        """Return the address that a link may lead to."""
+        if _OUTSIDE.fullmatch(url):
+            return url.replace("doi:", "https://doi.org/", 1) if url.startswith("doi:") else url
+        if not _INSIDE.fullmatch(url):
+            raise AtlasError(
+                f"{self.text.where}: a link to {url[:60]!r} is not allowed; it leads to http:, https:, mailto:, doi: "
+                "or to a page beside it, such as index.html."
+            )
+        return url
+
+
+def _tied(nodes: Tree) -> Tree:
+    """Return inlines with ties between a number and its unit, and between a word such as Section and its number.
+
+    A tie is a space at which a line is not broken.
+    """
+    before, tied = "", list[Any]()
+    for node, after in zip(nodes, [*nodes[1:], {}], strict=False):
+        counted = before in _COUNTED and _COUNT.match(_said(after))
+        measured = before[-1:].isdigit() and _UNIT.fullmatch(_said(after))
+        ties = node == {"t": "Space"} and (counted or measured)
+        tied.append({"t": "Str", "c": "\u00a0"} if ties else node)
+        before = before if node.get("t") == "RawInline" else _said(node)
+    return tied
+
+
+def _said(node: Any) -> str:
+    """Return the text of a word, the TeX of a formula, or the last word of a link."""
+    content = node.get("c")
+    match node.get("t"):
+        case "Str":
+            return str(content)
+        case "Math":
+            return str(content[1])
+        case "Link":
+            return _said(content[1][-1]) if content[1] else ""
+    return ""
+
+
+def _words(text: str) -> Tree:
+    """Return words as nodes, a number tied to its word and a formula set; what stands between two carets is raised."""
+    text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
+    nodes: Tree = []
+    for k, part in enumerate(_FORMULA.split(text)):
+        if k % 2:
+            nodes.append({"t": "Math", "c": [{"t": "InlineMath"}, part[1:-1]]})
+            continue
+        low, *raised = re.split(r"\^([^^\s]+)\^", part)
+        nodes.append({"t": "Str", "c": low})
+        for up, after in zip(raised[::2], raised[1::2], strict=True):
+            nodes += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
+    return nodes
+
+
+def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:
+    """Return a link as a node."""
+    return {"t": "Link", "c": [["", [], []], words, [url, title]]}
+
+
+def _tex(tex: str, target: Target) -> str:
+    r"""Avoid what pandoc gets wrong: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
+    tex = re.sub(r"\\mathrm\{([A-Za-z]{2,})\}", r"\\text{\1}", tex)
+    return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
+
+
+def _mark(text: Text) -> str:
+    """Return a comment in Typst to stand before and after a formula of a text, which can't have it in itself."""
+    return f"/*{hashlib.sha256(text.markdown.encode(errors='surrogatepass')).hexdigest()}*/"
+
+
+def _finished(piece: str, target: Target, text: Text) -> str:
+    """Mend what pandoc made of the formulas of a text, in Typst of those between marks, and of nothing else."""
+    if target != "typst":
+        return mend_all(piece) if target == "html" else piece
+    parts = piece.split(_mark(text))
+    parts[1::2] = [_mended(formula, text) for formula in parts[1::2]]
+    piece = "".join(parts)
+    return f"{piece} " if piece.endswith("\\") else piece  # else the bracket after it would be escaped
+
+
+def _mended(formula: str, text: Text) -> str:
+    r"""Mend a formula: ``\;`` and ``\!`` get their widths, which pandoc rounds to whole ems, bars are delimiters again.
+
+    What ``\boxed`` marks gets its colour.
+    """
+    if _CHAIN.search(formula):
+        raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")
+    formula = re.sub(r"#box\(stroke: black, inset: 3pt, \[\$ (.+?) \$\]\)", r"#changed[$\1$]", formula)
+    formula = formula.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
+    return re.sub(r"\\\| ?(.+?) ?\\\|", r"lr(| \1 |)", formula)

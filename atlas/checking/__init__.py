@@ -1,0 +1,1 @@
+"""Trajectories graded, the equations integrated, errors and orders of convergence measured."""

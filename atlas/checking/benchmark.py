@@ -1,0 +1,229 @@
+"""The record of the benchmark, which `make bench` writes: what figures and pages show of it, in words and lines.
+
+Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+import msgspec
+import numpy as np
+
+from atlas.errors import AtlasError
+from atlas.pictures.layers import Curve, FloatArray, Layer, Plane, Points
+from atlas.places import folder
+
+FORMAT = 2
+Status: TypeAlias = Literal["done", "failed", "timed out", "skipped"]
+Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
+
+METHODS = {
+    "ours": ("atlas", "main"),
+    "ours_grid": ("atlas, grid", "seventh"),
+    "alone": ("atlas, one by one", "eighth"),
+    "plain": ("plain NumPy", "second"),
+    "lambdify": ("sympy lambdify", "third"),
+    "compiled": ("compiled C", "limit"),
+    "rotation": ("SciPy Rotation", "sixth"),
+    "ours_out": ("atlas, out=", "main"),
+    "ours_out_far": ("atlas, out=, far", "eighth"),
+    "grid": ("atlas, grid", "eighth"),
+    "grid_out": ("atlas, grid, out=", "seventh"),
+    "even_out": ("atlas, times of the grid, out=", "eighth"),
+    "heyoka_own": ("heyoka, its own tolerance", "fourth"),
+    "heyoka_7": ("heyoka, with a quaternion", "fourth"),
+    "DOP853_7": ("DOP853, with a quaternion", "fifth"),
+    "heyoka_long": ("heyoka, long double", "fourth"),
+    "third_axis": ("atlas, third axis alone", "eighth"),
+    "omega": ("atlas, Omega alone", "eighth"),
+    "plain_out": ("plain NumPy, out=", "second"),
+    "plain_out_far": ("plain NumPy, out=, far", "eighth"),
+    "fill": ("filling the memory", "limit"),
+    "RK45": ("RK45", "pole"),
+    "DOP853": ("DOP853", "fifth"),
+    "LSODA": ("LSODA", "eighth"),
+    "Radau": ("Radau", "reference"),
+    "heyoka": ("heyoka", "fourth"),
+}
+"""What a method is called, and the role of its line in a figure."""
+
+CASES = {
+    "elementary": "elementary motion",
+    "general": "general motion",
+    "ball": "charged ball",
+    "particle": "charged particle",
+    "heavy": "heavy top",
+    "asymmetric": "three moments",
+    "elliptic": "elliptic motion",
+}
+
+BESIDE = ("heyoka_own", "heyoka_7", "DOP853_7")
+"""Variants of an integrator that tables give, and no figure: they lie next to its line."""
+
+OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
+
+
+def title(method: str) -> str:
+    """Return the name of a method in words; one that is not known keeps its own."""
+    return METHODS[method][0] if method in METHODS else method
+
+
+def role(method: str) -> str:
+    """Return the role of a method's line."""
+    return METHODS[method][1] if method in METHODS else "eighth"
+
+
+def case_title(case: str) -> str:
+    """Return the name of a case in words."""
+    return CASES.get(case, case)
+
+
+class Item(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A row of the record; a key that it does not have is an error."""
+
+
+class Machine(Item, frozen=True):
+    """What ran: the processor's name, the cores this process may use, whether NumPy finds AVX-512, the system."""
+
+    processor: str
+    cores: int
+    avx512: bool
+    system: str
+
+
+class Run(Item, frozen=True):
+    """One method on one case up to one horizon: its largest error and its time, always both, or why there is none.
+
+    ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up.
+    """
+
+    case: str
+    method: str
+    horizon: float
+    samples: int
+    status: Status
+    tolerance: float | None = None
+    error: float | None = None
+    seconds: float | None = None
+    note: str = ""
+
+
+class Cost(Item, frozen=True):
+    """Time for ``count`` rotation matrices: nanoseconds each, over filling the same memory, over the plain formula.
+
+    ``error`` is the largest found among a few of them. All ratios are to one thread. ``to_times``, of a grid, is to
+    `rotation` at the same times.
+    """
+
+    method: str
+    count: int
+    threads: int
+    status: Status
+    error: float | None = None
+    nanoseconds: float | None = None
+    to_fill: float | None = None
+    to_plain: float | None = None
+    to_times: float | None = None
+    note: str = ""
+
+
+class Limit(Item, frozen=True):
+    """A limit of speed: what it says, the limit in words, what was found, and the verdict."""
+
+    says: str
+    wanted: str
+    found: float | None
+    verdict: Verdict
+
+
+class Results(Item, frozen=True):
+    """One run of the benchmark, as far as figures, pages and the README show it."""
+
+    format: int
+    command: str
+    date: str
+    machine: Machine
+    versions: dict[str, str]
+    runs: list[Run]
+    costs: list[Cost]
+    limits: list[Limit] = []
+
+
+def stored() -> Path:
+    """Return where the record of the repository lies."""
+    return folder("reports") / "data" / "bench.json"
+
+
+def read(path: Path | None = None) -> Results:
+    """Read a record, the repository's own by default; one that does not have the form is an AtlasError."""
+    path = path or stored()
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=Results)
+    except FileNotFoundError as error:
+        raise AtlasError(f"There is no benchmark record {path.name}: run make bench first.") from error
+    except msgspec.MsgspecError as error:
+        raise AtlasError(f"{path.name} is not a benchmark record: {error}.") from error
+
+
+def runs_of(record: Results, case: str) -> list[Run]:
+    """Return the runs of a case that have an error and a time."""
+    known = list(dict.fromkeys(run.case for run in record.runs))
+    if case not in known:
+        raise AtlasError(f"The benchmark record has no case {case!r}; it has {', '.join(known)}.")
+    return [run for run in record.runs if run.case == case and run.error is not None]
+
+
+def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
+    """Return the runs of each method that figures draw, in the order of the record."""
+    groups: dict[str, list[Run]] = {}
+    for run in runs:
+        if run.method not in BESIDE:
+            groups.setdefault(run.method, []).append(run)
+    return groups
+
+
+def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
+    """Return points (N, 2); a zero, which a logarithm cannot show, becomes the smallest error there is to see."""
+    points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
+    return np.asarray(np.maximum(points, 1e-18))
+
+
+def line(points: FloatArray, method: str) -> tuple[Curve, Points]:
+    """Return the line of a method with a dot where it was measured."""
+    return Curve(points, role(method), title(method)), Points(points, "sample")
+
+
+def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> tuple[float, float]:
+    """Return limits for a logarithmic axis with ``left`` and ``right`` decades of room for names."""
+    logs = np.log10(np.fromiter(values, dtype=float))
+    return float(10.0 ** (logs.min() - left)), float(10.0 ** (logs.max() + right))
+
+
+def panel(layers: Iterable[Layer], every: Iterable[Any], labels: tuple[str, str], room: Any, name: str) -> Plane:
+    """Return a panel on logarithmic axes, which hold `every` layer with so many decades of room: in x, in y."""
+    x, y = np.concatenate([layer.points for layer in every]).T
+    return Plane(tuple(layers), *labels, decades(x, *room[0]), decades(y, *room[1]), "log", "log", title=name)
+
+
+def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: Any, columns: int) -> tuple[Plane, ...]:
+    """Return a panel of the layers of each case, all on the same axes, of which the lowest name the horizontal one."""
+    every, upper = [layer for some in cases.values() for layer in some], len(cases) - columns
+    return tuple(
+        panel(some, every, ("" if k < upper else labels[0], labels[1]), room, f"({'abcdefgh'[k]}) {case_title(case)}")
+        for k, (case, some) in enumerate(cases.items())
+    )
+
+
+def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
+    """Return the sentence that says where, when and with what it was measured."""
+    here = record.machine
+    vector = "with" if here.avx512 else "without"
+    versions = ", ".join(f"{name} {record.versions[name]}" for name in libraries if name in record.versions)
+    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {versions}, on {record.date}."
+
+
+def power(value: float) -> str:
+    """Return a power of ten for a formula, or the number where it is none."""
+    exponent = np.log10(value)
+    return f"10^{{{exponent:.0f}}}" if exponent == round(exponent) else f"{value:g}"

@@ -1,0 +1,312 @@
+"""Grade a user's trajectory against the certified motion: correct digits, where it begins to fail, what drifts."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, Required, TypedDict, Unpack, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.arithmetic.inputs import real
+from atlas.checking.conserved import Drift, Drifts
+from atlas.checking.grades import LINES, MOST, Column, Envelope, Errors, Grade, inverse_fits
+from atlas.checking.order import Convergence, convergence
+from atlas.checking.reference import OF_TOPS, reference
+from atlas.checking.trajectory import Trajectory, of_arrays, opened
+from atlas.checking.truth import truth_of
+from atlas.errors import AtlasError
+from atlas.pictures import Curve, Plane, Scene
+from atlas.trial.ledger.plain import html_table, printable, table
+
+
+@dataclass(frozen=True)
+class Check:
+    """The grades of a trajectory; `str` is what `atlas check` prints.
+
+    The columns have the names that they had in the input. ``step`` is the step of the integrator, if that is said,
+    else the mean distance of the times; ``end`` is the last of them. ``errors`` holds for R, Omega and quaternion the
+    largest error of each ``rows_a_point`` rows that follow one another, ``times`` the time of the first of them: so few
+    that a curve can be drawn through them. ``inverse`` says that the matrices or quaternions fail, and that those of
+    the inverse rotations would not.
+    """
+
+    file: str
+    case: str
+    parameters: Mapping[str, Any]
+    frequencies: Mapping[str, str]
+    rows: int
+    threshold: float
+    columns: tuple[Column, ...]
+    drifts: tuple[Drift, ...]
+    rows_a_point: int
+    times: tuple[float, ...]
+    errors: Mapping[str, tuple[float, ...]]
+    inverse: bool
+    step: float
+    end: float
+
+    @property
+    def _title(self) -> str:
+        return f"{printable(self.file)}: {self.rows} row{'s' * (self.rows != 1)}, case {self.case}"
+
+    def __str__(self) -> str:
+        """Return the grades as tables."""
+        none = f"{self._title}: nothing to compare with, so no column is graded"
+        lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
+        if self.drifts:
+            lines += ["what should not change", table(*self.drift_table(), left=True)]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        return html_table(self._title, *self.column_table()) + html_table("what should not change", *self.drift_table())
+
+    def record(self) -> dict[str, Any]:
+        """Return the grades as plain data for JSON."""
+        return asdict(self)
+
+    def column_table(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows of the grades by column."""
+        heading = ["column", "median digits", "worst digits", "at t", f"below {self.threshold:g} digits from t"]
+        rows = [
+            [
+                c.name,
+                f"{c.median:z.1f}",
+                f"{c.worst:z.1f}",
+                f"{c.worst_time:g}",
+                "-" if c.fails_at is None else f"{c.fails_at:g}",
+            ]
+            for c in self.columns
+        ]
+        return heading, rows
+
+    def drift_table(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows of what should not change."""
+        heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
+        rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
+        return heading, rows
+
+    def scene(self) -> Scene:
+        """Draw the error of each group of columns against time."""
+        if not self.columns:
+            raise AtlasError(f"{self.file} is of a body without a certified motion: there is no error to draw.")
+        least, most = 10.0**-MOST, 10.0**MOST
+        layers = tuple(
+            Curve(np.column_stack([self.times, np.clip(errors, least, most)]), *LINES[name])
+            for name, errors in self.errors.items()
+        )
+        beyond = f" Errors beyond {most:g} are drawn there." if max(map(max, self.errors.values())) > most else ""
+        limit = 10.0**-self.threshold
+        line = Curve(
+            np.array([[min(self.times), limit], [max(self.times), limit]]), "limit", f"{self.threshold:g} digits"
+        )
+        worst = min(self.columns, key=lambda c: c.worst)
+        each = "each row" if self.rows_a_point == 1 else f"each {self.rows_a_point} rows"
+        return Scene(
+            title=f"Error of {self.file}",
+            caption=(
+                f"The largest error of {each} of {self.file} against the certified motion; of a matrix and of a "
+                f"quaternion in units of 1, of Omega in units of its length. The dotted line marks {self.threshold:g} "
+                f"digits. The worst column is {worst.name}, with {worst.worst:.1f} correct digits at "
+                f"t = {worst.worst_time:g}.{beyond}"
+            ),
+            alt=(
+                f"Curves of error against time on a logarithmic scale, for {', '.join(self.errors)}; the worst column, "
+                f"{worst.name}, has {worst.worst:.1f} correct digits at t = {worst.worst_time:g}."
+            ),
+            panels=(Plane((*layers, line), "$t$", "error", y_scale="log", legend=True),),
+            size=(120.0, 75.0),
+            parameters=dict(self.parameters),
+        )
+
+
+SINGULAR = {"rotations": "rotation", "quaternions": "quaternion", "angular_velocities": "angular_velocity"}
+"""Arguments of `check` by their plurals."""
+
+
+class _Options(TypedDict, total=False):
+    motion: Required[Any]
+    quaternion: Any
+    angular_velocity: Any
+    rotations: Any
+    quaternions: Any
+    angular_velocities: Any
+    scalar_first: bool
+    step: Any
+    threshold: float
+
+
+@overload
+def check(
+    t: Sequence[NDArray[Any] | Sequence[float]], rotation: Any = None, **how: Unpack[_Options]
+) -> Convergence: ...
+@overload
+def check(t: Any, rotation: Any = None, **how: Unpack[_Options]) -> Check: ...
+def check(
+    t: Any,
+    rotation: Any = None,
+    *,
+    motion: Any,
+    quaternion: Any = None,
+    angular_velocity: Any = None,
+    scalar_first: bool = False,
+    step: Any = None,
+    threshold: float = 6.0,
+    **plural: Any,
+) -> Check | Convergence:
+    """Grade a trajectory that was computed elsewhere against a motion: what `atlas check` prints, and its numbers.
+
+    Parameters
+    ----------
+    t : array_like, shape (N,), or list of such arrays
+        Times. A list of arrays holds runs of one integrator with several steps.
+    rotation : array_like, shape (N, 3, 3)
+        Matrices R(t) that take the body to the laboratory; of several runs a list of arrays, as of the next two. At
+        least one of the three is needed. The names are those of `atlas.fit`; the plurals `rotations`, `quaternions`
+        and `angular_velocities` are taken as well.
+    quaternion : array_like, shape (N, 4)
+        Unit quaternions of either sign, scalar last as `scipy.spatial.transform.Rotation.as_quat` gives them.
+    angular_velocity : array_like, shape (N, 3)
+        Omega along the axes of the body.
+    motion : ElementaryMotion, FreeMotion, GeneralMotion, TopMotion or AsymmetricMotion
+        One motion, or one of `atlas.motion` in any axes and from any attitude; errors of the latter below
+        4e-14 + 9e-16 f t, f the largest rate, are its own rounding and count as that.
+    scalar_first : bool
+        Whether the scalar is the first component of a quaternion.
+    step : float or list of float, optional
+        Steps of the integrator; without them the mean distances of the times.
+    threshold : float
+        Correct digits below which a column fails, from the first such row on.
+
+    Returns
+    -------
+    Check or Convergence
+        Errors and digits by column; of several runs the order of convergence. Both have `str`, `record()` for JSON and
+        `scene()` for a figure.
+
+    Raises
+    ------
+    AtlasError
+        For arrays of another shape, for an entry that is no number, and for a motion of another class.
+    """
+    columns = {"rotation": rotation, "quaternion": quaternion, "angular_velocity": angular_velocity}
+    for name, values in plural.items():
+        singular = SINGULAR.get(name)
+        if singular is None:
+            raise TypeError(f"check() got an unexpected keyword argument {name!r}")
+        if columns[singular] is not None:
+            raise AtlasError(f"{singular} and {name} are the same data: give one of them.")
+        columns[singular] = values
+    if isinstance(t, list | tuple) and t and np.ndim(t[0]):
+        runs = columns | {"step": step}
+        for name, values in runs.items():
+            if values is not None and (not hasattr(values, "__len__") or len(values) != len(t)):
+                raise AtlasError(f"For {len(t)} runs {name} must be a list of {len(t)}, one for each.")
+        each: list[dict[str, Any]] = [
+            {name: None if x is None else x[i] for name, x in runs.items()} for i in range(len(t))
+        ]
+        more = {"motion": motion, "scalar_first": scalar_first, "threshold": threshold}
+        return convergence([check(times, **(run | more)) for times, run in zip(t, each, strict=True)])
+    trajectory = of_arrays(t, columns, scalar_first=scalar_first)
+    if step is not None:
+        trajectory = replace(trajectory, parameters={"step": (float(real(step, "step")),)})
+    return _graded(trajectory, threshold, _arguments(motion))
+
+
+def _arguments(motion: Any) -> dict[str, Any]:
+    """Return what a motion is made of, by the names of `check_file`."""
+    from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
+
+    known = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
+    if not isinstance(motion, known) and getattr(motion, "made_by", "") != "motion":
+        names = ", ".join(kind.__name__ for kind in known)
+        raise AtlasError(f"A trajectory is graded against one of {names}, not {type(motion).__name__}.")
+    if motion.shape:
+        raise AtlasError(f"A trajectory is graded against one motion, not against {motion.shape} of them.")
+    if motion.made_by == "motion":
+        return {"motion": motion}
+    if isinstance(motion, TopMotion):
+        return {name: getattr(motion, name) for name in ("inertia", *OF_TOPS, "omega")}
+    if motion.made_by:
+        raise AtlasError(
+            f"A trajectory is graded against a motion of its class or of atlas.motion, not one by {motion.made_by}: "
+            "atlas.motion(inertia, field, omega, attitude) is the same motion."
+        )
+    return dict[str, Any](motion.arguments, **({"field": (0.0, 0.0)} if isinstance(motion, FreeMotion) else {}))
+
+
+def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Check:
+    """Grade the trajectory in a CSV file, see `atlas.checking.trajectory`; `given` parameters override its # lines.
+
+    Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
+    of a top direction, coupling, linear and quadratic; None is what is not given. With omega, all three components of
+    the initial angular velocity, the trajectory is held against the general motion, with three moments of inertia
+    against that of any body, with a direction against that of a top; with omega2 and, where it is free, omega3, against
+    an elementary one.
+
+    Three moments without omega, and the six elements of an inertia tensor, are of a body without a certified motion:
+    only what should not change is reported, against the first row.
+
+    A column fails from the first row on at which it has fewer than ``threshold`` correct digits, of the 17 that a
+    double can have. The times and the parameters of the file are taken as the doubles nearest to what is written.
+    The file is gone through once, in blocks. Raises AtlasError for what is no such file, or no such motion.
+    """
+    with opened(path) as trajectory:
+        return _graded(trajectory, threshold, parameters)
+
+
+def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, Any]) -> Check:
+    """Grade a trajectory in one go."""
+    if not 0 <= threshold <= MOST:
+        raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
+    known = reference(trajectory.parameters, parameters, trajectory.file)
+    errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
+    graded = [name for name in trajectory.names if name != "t"] if errors else []
+    if errors:
+        _within(threshold, errors.floor)
+    grades = [Grade(name, threshold, errors) for name in graded if errors]
+    drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
+    first = last = 0.0
+    for block in trajectory.blocks:
+        if errors:
+            differences = errors.of_block(block)
+            _within(threshold, errors.floor)
+            for grade in grades:
+                grade.add(block, differences[grade.name])
+            envelope.add(block["t"], differences)
+            inverse |= not rows and inverse_fits(errors, block, differences, 10.0**-threshold)
+        drifts.add(block)
+        first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
+        rows += len(block["t"])
+    if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.drifts()):
+        raise AtlasError(
+            f"{trajectory.file}: without a certified motion for this inertia tensor the integrals are all there is to "
+            "test, and they need R11 to R33 or a quaternion, and Omega1 to Omega3. Three moments of inertia have one, "
+            "with a line such as '# omega = 0.3 0.7 0.2', the angular velocity at t = 0."
+        )
+    return Check(
+        file=trajectory.file,
+        case=known.case,
+        parameters=known.parameters,
+        frequencies=known.frequencies(),
+        rows=rows,
+        threshold=float(threshold),
+        columns=tuple(replace(grade.column(), name=trajectory.names[grade.name]) for grade in grades),
+        drifts=drifts.drifts(),
+        rows_a_point=envelope.rows,
+        times=tuple(envelope.times()),
+        errors={group: tuple(values) for group, values in envelope.errors().items()},
+        inverse=inverse,
+        step=trajectory.parameters.get("step", (abs(last - first) / max(rows - 1, 1),))[0],
+        end=last,
+    )
+
+
+def _within(threshold: float, floor: float) -> None:
+    """Raise AtlasError for a threshold beyond what is known of a motion, to `floor`."""
+    if 10.0**-threshold <= 2 * floor:
+        raise AtlasError(
+            f"The threshold may be {-math.log10(2 * floor) - 0.05:.1f} digits at most for this motion at these times, "
+            f"whose closed form is evaluated within {floor:.1e}; it cannot be {threshold:g}."
+        )

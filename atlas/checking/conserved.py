@@ -1,0 +1,185 @@
+"""What a trajectory should conserve: the norm of its quaternion, orthogonality, the integrals of motion."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.bodies import formula_integrals as formulas
+from atlas.checking.trajectory import MATRIX, OMEGA, QUATERNION
+from atlas.checking.truth import long
+from atlas.motions.elementary.certified import ElementaryMotion
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
+
+
+@dataclass(frozen=True)
+class Drift:
+    """How far something that must not change leaves its true value: the largest relative deviation, and the last."""
+
+    name: str
+    says: str
+    label: str
+    worst: float
+    worst_time: float
+    last: float
+
+
+Value: TypeAlias = tuple[str, str, str, Any, Any]
+"""Name, meaning, equation, values and size, the sum of the sizes of its terms, of what is conserved."""
+
+Deviation: TypeAlias = tuple[str, str, str, Any]
+"""Name of what should not change, what it is, its equation, and how far it is off in each row."""
+
+
+class Drifts:
+    """What the columns of a trajectory allow to test, followed block by block."""
+
+    def __init__(self, deviations: Callable[[Mapping[str, FloatArray]], Iterable[Deviation]]) -> None:
+        self._deviations, self._found = deviations, dict[str, Drift]()
+
+    def add(self, block: Mapping[str, FloatArray]) -> None:
+        """Take one more block of columns (m,)."""
+        for name, says, label, deviations in self._deviations(block):
+            size = np.abs(deviations)
+            i = int(np.argmax(size))
+            worst, time = float(size[i]), float(block["t"][i])
+            known = self._found.get(name)
+            if known is not None and known.worst >= worst:
+                worst, time = known.worst, known.worst_time
+            self._found[name] = Drift(name, says, label, worst, time, float(size[-1]))
+
+    def drifts(self) -> tuple[Drift, ...]:
+        """Return the drifts: orthogonality, the norm, and the integrals of motion."""
+        return tuple(self._found.values())
+
+
+def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
+    """Yield what the columns allow to test against a certified motion: orthogonality, the norm, and the integrals."""
+    columns, R, Omega = _read(block)
+    yield from _rigid(columns, R)
+    I, B2, B3 = (long(x) for x in (motion.I, motion.B2, motion.B3))
+    K = None if R is None else B2 * R[:, 1] + B3 * R[:, 2]
+    for name, says, label, value, size in _integrals(motion, Omega, K):
+        if name in motion.invariants:
+            yield name, says, label, (value - long(motion.invariants[name])) / (long(size) or 1)
+    if Omega is not None and K is not None:
+        tensor = np.diag([np.longdouble(1), np.longdouble(1), I])
+        spin = np.array([long(w) for w in motion.omega])
+        start = conserved(tensor, spin, np.array([np.longdouble(0), B2, B3]))
+        yield from islice(_against(conserved(tensor, Omega, K), start), 3)
+
+
+def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
+    """Yield the integrals of any inertia tensor J (3, 3), theorem-clebsch, and more; Omega, K (..., 3)."""
+    M = (Omega + K) @ J
+    H2, F, along, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
+    yield "H", "Hamiltonian in Larmor's frame", "theorem-lie-poisson", H2 / 2, H2 / 2
+    yield "F", "Clebsch's integral", "theorem-clebsch", F, 2 * (M * M).sum(-1) - F
+    yield "(M,K)", "canonical momentum along the field", "theorem-lie-poisson", along, np.abs(M * K).sum(-1)
+    yield "K^2", "length of the field in the body, squared", "(37)", square, square
+    yield "T", "kinetic energy", "theorem-kinetic-energy", energy2, energy2
+
+
+class AnyBody:
+    """What a body of any inertia tensor (3, 3) in the field B' (3,) conserves: H, F, (M,K), K^2 and T.
+
+    Deviations are from the values of `start`, Omega and K, else from those of the first row of all.
+    """
+
+    def __init__(self, inertia: Any, field: Any, start: tuple[Any, Any] | None = None) -> None:
+        self._J, self._field = np.asarray(inertia, dtype=np.longdouble), np.asarray(field, dtype=np.longdouble)
+        self._start = start
+
+    def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
+        """Yield the deviations in one more block."""
+        columns, R, Omega = _read(block)
+        yield from _rigid(columns, R)
+        if R is None or Omega is None:
+            return
+        K, J = self._field @ R, self._J
+        if self._start is None:
+            self._start = Omega[0], K[0]
+        first, field = self._start
+        yield from _against(conserved(J, Omega, K), conserved(J, first, field))
+
+
+def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
+    """Yield how far a top is off in orthogonality, the norm, and the constants h, M3, p in units of its moment I2."""
+    columns, R, Omega = _read(block)
+    yield from _rigid(columns, R)
+    if R is None or Omega is None:
+        return
+    I, k2, k3, a0, A0 = map(long, (motion.I, *motion.coupling, *motion.potential))
+    n = np.array([long(x) for x in motion.field]) / long(motion.b)
+    start = np.array([long(w) for w in motion.omega])
+    yield from _against(*(_of_top(I, k2, k3, a0, A0, *state) for state in ((Omega, n @ R), (start, n))))
+
+
+def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> Iterable[Value]:
+    """Yield the constants of a top, Omega and b (..., 3)."""
+    w, nu = np.moveaxis(Omega, -1, 0), b[..., 2]
+    M = np.stack([w[0] + k2 * b[..., 0], w[1] + k2 * b[..., 1], I * w[2] + k3 * nu], axis=-1)
+    kinetic = (w[0] ** 2 + w[1] ** 2 + I * w[2] ** 2) / 2
+    h = kinetic + a0 * nu + A0 * nu * nu / 2
+    yield "h", "energy over I2", "theorem-top", h, kinetic + abs(a0 * nu) + abs(A0) * nu * nu / 2
+    yield "M3", "momentum along the axis, over I2", "theorem-top", M[..., 2], abs(I * w[2]) + abs(k3 * nu)
+    yield "p", "momentum along n, over I2", "theorem-top", (M * b).sum(-1), np.abs(M * b).sum(-1)
+
+
+def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
+    """Return the columns in extended precision, and R (m, 3, 3) and Omega (m, 3) where they are there."""
+    columns = {name: values.astype(np.longdouble) for name, values in block.items()}
+    R = _matrices(columns, len(block["t"]))
+    return columns, R, np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None
+
+
+def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
+    """Yield the norm of the quaternion and the orthogonality of R."""
+    if QUATERNION[0] in columns:
+        norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
+        yield "|q|", "norm of the quaternion", "(12)", norm - 1
+    if R is not None:
+        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2))
+        yield "R^T R", "orthogonality of R", "(12)", defect
+
+
+def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
+    """Yield how far what is conserved is from its values at the start."""
+    for (name, says, label, value, _), (_, _, _, true, size) in zip(values, start, strict=True):
+        yield name, says, label, (value - true) / (size or 1)
+
+
+def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> Iterable[Value]:
+    """Yield the integrals of motion that Omega and K determine, with their sizes at the start."""
+    w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
+    E, K2, c3, c5 = formulas.integrals(long(motion.I), w, k)
+    I, B2, B3 = motion.I, abs(motion.B2), abs(motion.B3)
+    w1, w2, w3 = (abs(w) for w in motion.omega)
+    if Omega is not None:
+        yield "E'", "energy 2 E/I2", "(36)", E, w1**2 + w2**2 + I * w3**2
+    if K is not None:
+        yield "K^2", "length of the field in the body, squared", "(37)", K2, B2**2 + B3**2
+    if Omega is not None and K is not None:
+        yield "c3", "K3 + Omega3", "(40)", c3, w3 + B3
+        yield "c5", "the fourth integral", "(41)", c5, w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3
+        along = formulas.along_field(long(I), w, k)
+        yield "(m,B')", "momentum along the field, over I2", "(88)", along, w2 * B2 + I * w3 * B3
+
+
+def _matrices(columns: Mapping[str, Any], count: int) -> Any:
+    """Return the matrices (N, 3, 3) of the columns R11 to R33, else of the quaternion, else None."""
+    if set(MATRIX) <= set(columns):
+        return np.stack([columns[name] for name in MATRIX], axis=-1).reshape(count, 3, 3)
+    if QUATERNION[0] not in columns:
+        return None
+    w, x, y, z = (columns[name] for name in QUATERNION)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)

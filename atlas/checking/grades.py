@@ -1,0 +1,226 @@
+"""Errors of a trajectory's columns against the true motion, and what is kept of them block by block."""
+
+import math
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.arithmetic.certified_digits import numbers
+from atlas.arithmetic.certified_inputs import Real
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.quaternions import of_matrix
+from atlas.checking.trajectory import MATRIX, OMEGA, QUATERNION
+from atlas.checking.truth import KernelTruth, Long, Truth, long
+from atlas.motions.nutation.certified_cayley_klein import quaternion
+
+Block = Mapping[str, FloatArray]
+
+MOST = 17.0
+"""Digits are counted up to here: no double has more."""
+
+LEAST, LARGEST = 10.0**-MOST, float(np.finfo(float).max)
+BITS = 80
+GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
+
+LINES = {"R": ("main", "$R$"), "Omega": ("second", r"$\boldsymbol{\Omega}$"), "quaternion": ("fourth", "quaternion")}
+"""How each group is drawn."""
+
+POINTS = 2048
+"""Half of the largest number of points that an `Envelope` keeps."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """The grade of one column: digits that are correct, the worst place, and the time from which it fails, if it does.
+
+    Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
+    The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls. Of a body
+    with three moments errors below the bound on those of its closed form count as that bound.
+    """
+
+    name: str
+    median: float
+    worst: float
+    worst_time: float
+    fails_at: float | None
+
+
+class Errors:
+    """Errors of found values: of whole blocks to UNCERTAINTY, of one row certified."""
+
+    def __init__(self, motion: Any, truth: Truth | KernelTruth, unit: Real) -> None:
+        self._motion, self._truth, self._unit = motion, truth, unit
+        self._length = long(unit)
+        self.uncertainty, self.floor = truth.uncertainty, truth.floor
+
+    def of_block(self, block: Block) -> dict[str, FloatArray]:
+        """Return the errors (m,) of each column of a block."""
+        t = block["t"]
+        near = self._truth.within(t)
+        R, Omega, q = self._truth.values(np.where(near, t, 0.0))
+        if QUATERNION[0] in block:
+            same = sum(block[name] * q[:, i] for i, name in enumerate(QUATERNION))
+            q = np.where(np.asarray(same)[:, None] < 0, -q, q)
+        true: dict[str, Long] = {}
+        for names, values in zip(GROUPS.values(), (R, Omega, q), strict=True):
+            true |= dict(zip(names, values.T, strict=True))
+        differences = {
+            name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"
+        }
+        differences = {name: np.maximum(errors, self._truth.floor) for name, errors in differences.items()}
+        least = np.min(list(differences.values()), axis=0)
+        for i in np.flatnonzero(~near | (least < self._truth.near)):
+            for name, error in self.certified(block, int(i)).items():
+                differences[name][i] = error
+        return differences
+
+    def _difference(self, name: str, values: FloatArray, true: Long) -> FloatArray:
+        unit = self._length if name in OMEGA else np.longdouble(1)
+        return np.asarray(np.minimum(np.abs(values - true) / unit, LARGEST), dtype=np.float64)
+
+    def certified(self, block: Block, i: int) -> dict[str, float]:
+        """Return proven upper bounds, 2^-80 above, on the errors of all columns in a row of a block.
+
+        Of a motion in given axes, which has no balls, they are the errors in doubles.
+        """
+        if not self._truth.in_balls:
+            return {
+                name: float(x[0])
+                for name, x in self.of_block({name: x[i : i + 1] for name, x in block.items()}).items()
+            }
+        row = {name: float(values[i]) for name, values in block.items() if name != "t"}
+        t, motion, truth = float(block["t"][i]), self._motion, dict[str, Real]()
+        with workprec(BITS + 16):
+            if any(name in row for name in MATRIX):
+                R = _precise(partial(motion.rotation, t))
+                truth |= dict(zip(MATRIX, (x for line in R for x in line), strict=True))
+            if any(name in row for name in OMEGA):
+                truth |= dict(zip(OMEGA, _precise(partial(motion.angular_velocity, t)), strict=True))
+            if QUATERNION[0] in row:
+                quaternion: list[Real] = _precise(partial(_quaternion, motion, t))
+                same = sum((arb(row[n]) * x for n, x in zip(QUATERNION, quaternion, strict=True)), arb(0))
+                truth |= dict(zip(QUATERNION, quaternion if same >= 0 else [-x for x in quaternion], strict=True))
+            units = {name: arb(self._unit) if name in OMEGA else arb(1) for name in row}
+            bounds = {name: (abs(arb(x) - truth[name]) / units[name]).upper() for name, x in row.items()}
+        return {name: min(float(bound), LARGEST) for name, bound in bounds.items()}
+
+
+class Grade:
+    """What is kept of a column: how often each count of digits came, the worst row, the first that fails."""
+
+    def __init__(self, name: str, threshold: float, errors: Errors) -> None:
+        self.name, self._errors, self._limit = name, errors, 10.0**-threshold
+        self._thousandths: Counter[int] = Counter()
+        self._worst, self._worst_row = 0.0, dict[str, FloatArray]()
+        self._fails_at: float | None = None
+
+    def add(self, block: Block, errors: FloatArray) -> None:
+        """Take the errors (m,) of this column in one more block."""
+        t, counted = block["t"], np.maximum(errors, LEAST)
+        values, counts = np.unique(np.rint(-1000 * np.log10(counted)).astype(int), return_counts=True)
+        self._thousandths.update(dict(zip(values.tolist(), counts.tolist(), strict=True)))
+        i = int(np.argmax(counted))
+        if counted[i] > self._worst:
+            self._worst, self._worst_row = float(counted[i]), {name: values[[i]] for name, values in block.items()}
+        if self._fails_at is None:
+            uncertain = self._errors.uncertainty
+            for j in np.flatnonzero(errors > self._limit - uncertain).tolist():
+                if errors[j] > self._limit + uncertain or self._errors.certified(block, j)[self.name] > self._limit:
+                    self._fails_at = float(t[j])
+                    break
+
+    def column(self) -> Column:
+        """Return the grade."""
+        values = np.array(sorted(self._thousandths))
+        upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
+        middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
+        certain = self._worst > self._errors.floor
+        worst = self._errors.certified(self._worst_row, 0)[self.name] if certain else self._errors.floor
+        time = float(self._worst_row["t"][0])
+        return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), time, self._fails_at)
+
+
+def inverse_fits(errors: Errors, block: Block, values: Block, limit: float) -> bool:
+    """Return whether most rotations of a block have errors beyond a limit, and their inverses have not."""
+    names = [name for name in block if name in (*MATRIX, *QUATERNION)]
+    taken = {name: f"R{name[2]}{name[1]}" if name in MATRIX else name for name in names}
+    if not names or not {*taken.values()} <= {*names} or _most(values, names) <= limit:
+        return False
+    turned = {name: -block[other] if name in QUATERNION[1:] else block[other] for name, other in taken.items()}
+    return _most(errors.of_block({"t": block["t"]} | turned), names) <= limit
+
+
+def _most(errors: Block, names: Sequence[str]) -> float:
+    """Return the error below which half of the rows are in all of some columns."""
+    return float(np.median(np.max([errors[name] for name in names], axis=0)))
+
+
+class Envelope:
+    """The largest error of each group of columns in rows that follow one another, as many as keep the points few."""
+
+    def __init__(self) -> None:
+        self.rows = 1
+        self._kept = self._waiting = np.empty((0, 0))
+        self._groups: list[str] = []
+
+    def add(self, t: FloatArray, errors: Mapping[str, FloatArray]) -> None:
+        """Take the errors of one more block."""
+        groups = {g: [errors[name] for name in names if name in errors] for g, names in GROUPS.items()}
+        self._groups = [group for group, values in groups.items() if values]
+        new = np.column_stack([t, *(np.max(groups[group], axis=0) for group in self._groups)])
+        self._waiting = np.concatenate([self._waiting, new]) if self._waiting.size else new
+        self._kept = self._kept if self._kept.size else new[:0]
+        while len(self._waiting) >= self.rows:
+            count = min(2 * POINTS - len(self._kept), len(self._waiting) // self.rows)
+            whole = count * self.rows
+            self._kept = np.concatenate([self._kept, _largest(self._waiting[:whole], self.rows)])
+            self._waiting = self._waiting[whole:]
+            if len(self._kept) == 2 * POINTS:
+                self._kept, self.rows = _largest(self._kept, 2), 2 * self.rows
+
+    def times(self) -> list[float]:
+        """Return the first time of each point; none where nothing is graded."""
+        return list(map(float, self._points()[:, 0])) if self._groups else []
+
+    def errors(self) -> dict[str, list[float]]:
+        """Return for each group the largest error of each point."""
+        return dict(zip(self._groups, self._points()[:, 1:].T.tolist(), strict=True)) if self._groups else {}
+
+    def _points(self) -> FloatArray:
+        rest = len(self._waiting)
+        return np.concatenate([self._kept, _largest(self._waiting, rest)]) if rest else self._kept
+
+
+def _quaternion(motion: Any, t: float) -> list[Real]:
+    """Return a unit quaternion of R(t), scalar first; where a motion has only the matrix, from that."""
+    if hasattr(motion, "quaternion"):
+        numbers: list[Real] = motion.quaternion(t)
+        return numbers
+    R = motion.rotation(t)
+    x, y, z, w = quaternion(R, of_matrix([[float(arb(x)) for x in row] for row in R]).tolist())
+    return [w, x, y, z]
+
+
+def _precise(function: Callable[[], Any]) -> Any:
+    """Return nested lists of balls whose radii are small beside the largest of them; single ones may be zero."""
+    precision = 2 * BITS
+    while True:
+        with workprec(precision):
+            value = function()
+        balls = [arb(x) for x in numbers(value)]
+        size = max((float(abs(x).mid()) for x in balls if x.is_finite()), default=0.0)
+        if all(x.is_finite() and float(x.rad()) <= size * 2.0**-BITS for x in balls):
+            return value
+        precision *= 2
+
+
+def _largest(rows: FloatArray, count: int) -> FloatArray:
+    """Return the first time and the largest errors of each `count` rows."""
+    parts = rows.reshape(-1, count, rows.shape[1])
+    return np.column_stack([parts[:, 0, 0], parts[:, :, 1:].max(axis=1)])

@@ -1,0 +1,117 @@
+"""The order of convergence of an integrator, from runs of one motion with several steps."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from atlas.checking.grades import LEAST, LINES
+from atlas.errors import AtlasError
+from atlas.pictures import Curve, Plane, Points, Scene
+from atlas.trial.ledger.plain import html_table, table
+
+ROUNDING = 2.0**-52
+"""An error up to here says nothing of a method."""
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """The largest errors of runs of one motion, the longest step first; `str` is what `atlas check --order` prints.
+
+    ``errors`` holds them for R, Omega and quaternion, ``orders`` the order p that each run and the one before it show,
+    error ~ step^p, ``order`` that of all runs by least squares; None where an error is no more than rounding.
+    """
+
+    case: str
+    parameters: Mapping[str, Any]
+    files: tuple[str, ...]
+    steps: tuple[float, ...]
+    errors: Mapping[str, tuple[float, ...]]
+    orders: Mapping[str, tuple[float | None, ...]]
+    order: Mapping[str, float | None]
+
+    @property
+    def _title(self) -> str:
+        shown = (f"{name} {'not told' if p is None else f'{p:.2f}'}" for name, p in self.order.items())
+        return f"order of convergence of {len(self.steps)} runs, case {self.case}: {', '.join(shown)}"
+
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows: of each run its step, the largest errors, and the orders beside the run before."""
+        heading = ["step", *(x for name in self.errors for x in (f"error of {name}", "order"))]
+        rows = []
+        for i, step in enumerate(self.steps):
+            cells = [f"{step:g}"]
+            for name, errors in self.errors.items():
+                p = self.orders[name][i - 1] if i else None
+                cells += [f"{errors[i]:.2e}", "-" if p is None else f"{p:.2f}"]
+            rows.append(cells)
+        return heading, rows
+
+    def __str__(self) -> str:
+        """Return the orders as a table."""
+        return f"{self._title}\n{table(*self.table())}"
+
+    def _repr_html_(self) -> str:
+        return html_table(self._title, *self.table())
+
+    def record(self) -> dict[str, Any]:
+        """Return the orders as plain data for JSON."""
+        return asdict(self)
+
+    def scene(self) -> Scene:
+        """Draw the largest errors against the step."""
+        layers: list[Curve | Points] = []
+        for name, errors in self.errors.items():
+            points = np.column_stack([self.steps, np.maximum(errors, LEAST)])
+            layers += [Curve(points, *LINES[name]), Points(points, LINES[name][0])]
+        return Scene(
+            title="Order of convergence",
+            caption=f"The largest error of each run against its step: {self._title}.",
+            alt=f"Lines of error against step, both on logarithmic scales; {self._title}.",
+            panels=(Plane(tuple(layers), "step", "largest error", x_scale="log", y_scale="log", legend=True),),
+            size=(120.0, 75.0),
+            parameters=dict(self.parameters),
+        )
+
+
+def convergence(checks: Sequence[Any]) -> Convergence:
+    """Return the order of convergence of runs, each a `Check`. Raises AtlasError where they do not tell one."""
+    runs = sorted(checks, key=lambda run: -run.step)
+    steps = tuple(run.step for run in runs)
+    if len(set(steps)) < max(2, len(steps)) or min(steps) <= 0:
+        steps_in_words = ", ".join(f"{step:g}" for step in steps)
+        raise AtlasError(f"The order needs two runs or more, each with another step; the steps are {steps_in_words}.")
+    if not runs[0].errors or any(set(run.errors) != set(runs[0].errors) for run in runs):
+        raise AtlasError("The order needs runs with the same kinds of columns, of a body with a certified motion.")
+    if any(run.parameters != runs[0].parameters for run in runs):
+        raise AtlasError(f"{runs[0].file} and another run are of different motions: there is no common order.")
+    ends = [run.end for run in runs]
+    if max(ends) - min(ends) > 1.5 * steps[0]:
+        steps_in_words = " and at ".join(f"{end:g}" for end in (min(ends), max(ends)))
+        raise AtlasError(f"The runs end at t = {steps_in_words}: only errors over the same time have an order.")
+    errors = {name: tuple(max(run.errors[name]) for run in runs) for name in runs[0].errors}
+    orders = {
+        name: tuple(_slope(steps[i : i + 2], values[i : i + 2]) for i, _ in enumerate(pairwise(values)))
+        for name, values in errors.items()
+    }
+    return Convergence(
+        case=runs[0].case,
+        parameters=runs[0].parameters,
+        files=tuple(run.file for run in runs),
+        steps=steps,
+        errors=errors,
+        orders=orders,
+        order={name: _slope(steps, values) for name, values in errors.items()},
+    )
+
+
+def _slope(steps: Sequence[float], errors: Sequence[float]) -> float | None:
+    """Return the slope of the logarithms by least squares, None if an error is no more than rounding."""
+    if min(errors) <= ROUNDING:
+        return None
+    x, y = (np.array([math.log(value) for value in values]) for values in (steps, errors))
+    x -= x.mean()
+    return float(x @ y / (x @ x))

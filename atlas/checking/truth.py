@@ -1,0 +1,142 @@
+"""The true motion at arrays of times: elementary ones some three digits beyond a double, others by their kernels.
+
+Of an elementary motion axis and frequencies come from the exact floor, and the phases are reduced in two words, see
+`atlas.arithmetic.phase`; sines, cosines and what is made of them are long doubles. It is what a million rows can
+be graded against in a second; where a digit hangs on it, and for phases out of `within`, balls decide.
+"""
+
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import arb
+from numpy.typing import NDArray
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.certified_inputs import Real
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.phase import Phases, room
+from atlas.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
+from atlas.motions.base import Motion as Placed
+from atlas.motions.elementary.certified import ElementaryMotion
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
+from atlas.motions.nutation.single import SingleGeneral, SingleTop
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.kernel import SingleAsymmetric
+from atlas.motions.torus.rounded import REACH
+from atlas.motions.torus.theta import ThetaKernel
+
+Long = NDArray[np.longdouble]
+Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMotion | Placed[Any]
+
+UNCERTAINTY = 2e-18
+"""Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
+
+KERNELS = 1e-14
+"""The same of a kernel, of Omega in units of the largest rate."""
+
+PART = 100
+"""An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
+
+PHASE = 2.0**-6
+"""Part of the phases up to 2^50 in which two words of a frequency leave less than a quarter of that."""
+
+EXTENDED = bool(np.finfo(np.longdouble).eps < 2e-19)
+"""Whether this machine has long doubles with 64 digits or more; without them balls decide everything."""
+
+
+class Truth:
+    """R, Omega and the quaternion of an elementary motion at times (m,)."""
+
+    uncertainty = UNCERTAINTY
+    near = floor = 0.0
+    in_balls = True
+
+    def __init__(self, motion: ElementaryMotion) -> None:
+        values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
+        with workprec():
+            self._phases = Phases([x / TURN for x in values[:2]])
+        self._phases.near = -1.0  # three products of words hold a phase of 2^22 to 2^-59 only, which doubles do not see
+        self.n2, self.n3, self.omega2, self.omega3 = map(long, values[2:])
+
+    def within(self, t: FloatArray) -> NDArray[np.bool_]:
+        """Tell at which times the truth is good to UNCERTAINTY, shape (m,)."""
+        return np.asarray((np.abs(t) <= PHASE * self._phases.reach) & EXTENDED)
+
+    def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
+        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by (84), (73)."""
+        half, left_out, sign, _ = self._phases.angles(t, room(2, t.size))
+        x = half.astype(np.longdouble) + left_out  # half the phase, less whole quarter turns; sign tells their parity
+        sines, cosines = np.sin(x), np.cos(x)
+        S, s = sign[1] * 2 * sines[1] * cosines[1], sign[0] * 2 * sines[0] * cosines[0]
+        C, c = sign[1] * (1 - 2 * sines[1] ** 2), sign[0] * (1 - 2 * sines[0] ** 2)
+        v = np.where(sign[0] > 0, 2 * sines[0] ** 2, 2 * cosines[0] ** 2)
+        n2, n3 = self.n2, self.n3
+        first, second = (c, n3 * s, -n2 * s), (-n3 * s, c + n2 * n2 * v, n2 * n3 * v)
+        columns = [a * C + b * S for a, b in zip(first, second, strict=True)]
+        across = [b * C - a * S for a, b in zip(first, second, strict=True)]
+        third = [n2 * s, n2 * n3 * v, c + n3 * n3 * v]
+        R = np.stack([column[i] for i in range(3) for column in (columns, across, third)], axis=-1)
+        Omega = np.stack([self.omega2 * S, self.omega2 * C, np.full_like(S, self.omega3)], axis=-1)
+        halves = [(np.where(up, b, -a), np.where(up, a, b)) for up, a, b in zip(sign > 0, sines, cosines, strict=True)]
+        (c, s), (C, S) = halves
+        q = np.stack([c * C - n3 * s * S, n2 * s * S, n2 * s * C, c * S + n3 * s * C], axis=-1)
+        return R, Omega, q
+
+
+@dataclass(frozen=True)
+class KernelTruth:
+    """R, Omega and the quaternion of other motions, by the kernels: to a few units in the last place of a double.
+
+    They are good to `uncertainty`; `in_balls` says whether there is a certified counterpart.
+    Errors below `near` are to be found by balls;
+    those below `floor` are not told from it.
+    """
+
+    single: Any
+    reach: float
+    uncertainty: float = KERNELS
+    near: float = PART * KERNELS
+    floor: float = 0.0
+    in_balls: bool = True
+
+    def within(self, t: FloatArray) -> NDArray[np.bool_]:
+        """Tell at which times there is a value, shape (m,)."""
+        return np.asarray(np.abs(t) <= self.reach)
+
+    def values(self, t: FloatArray) -> tuple[Long, Long, Long]:
+        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`."""
+        from scipy.spatial.transform import Rotation
+
+        R, Omega = self.single.rotation(t), self.single.angular_velocity(t)
+        q = Rotation.from_matrix(R).as_quat(scalar_first=True)
+        return R.reshape(-1, 9).astype(np.longdouble), Omega.astype(np.longdouble), q.astype(np.longdouble)
+
+
+def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
+    """Return what a motion is at arrays of times, Omega in this unit."""
+    if isinstance(motion, Placed):  # the matrices that turn it into the given axes are rounded
+        bound = 4 * KERNELS
+        return KernelTruth(motion, np.inf, bound, 0.0, bound, in_balls=False)
+    if isinstance(motion, ElementaryMotion):
+        return Truth(motion)
+    if isinstance(motion, AsymmetricMotion):
+        of_three = SingleAsymmetric(motion)
+        if not isinstance(of_three.closed, ThetaKernel):
+            return KernelTruth(of_three, -1.0)  # balls decide each row
+        bound = of_three.closed.accuracy + (of_three.closed.proved or 0.0)
+        return KernelTruth(of_three, PHASE * REACH / float(arb(unit)), bound, 0.0, bound)
+    single = SingleTop(motion) if isinstance(motion, TopMotion) else SingleGeneral(motion)
+    return KernelTruth(single, PHASE * single.parts.phases.reach)
+
+
+def long(value: Real) -> np.longdouble:
+    """Return the long double nearest to a number, or inf."""
+    number = middle(value)
+    if number == 0:
+        return np.longdouble(0)
+    size = magnitude(number)
+    head, tail = words(scaled(number, -size), 2)
+    return np.longdouble(np.ldexp(np.longdouble(head) + np.longdouble(tail), size))

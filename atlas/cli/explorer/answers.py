@@ -1,0 +1,130 @@
+"""What the explorer answers: the picture of a subject, its numbers with how sure each is, and its command."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import Lock
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED, certified
+from atlas.cli.explorer.subjects import OfFamily, Subject
+from atlas.errors import AtlasError, DomainError
+from atlas.families.family import Quantity
+from atlas.families.sliders import letters
+from atlas.pictures import Scene, Space
+
+DIGITS, SPARE = 10, 1 << 10
+"""Digits that are proven when the sliders rest, and bits beyond them in which a proof is looked for."""
+EXACT = "decided exactly"
+"""How sure a name is, as of a case or a kind."""
+DRAWING = Lock()
+"""Matplotlib's settings are one for all threads."""
+FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
+
+
+def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
+    """Return the values of the sliders, their starts for those not given. Raises AtlasError for what is no number."""
+    known = {slider.name: slider for slider in subject.sliders}
+    values = {name: slider.start for name, slider in known.items()}
+    for name, text in typed.items():
+        if name not in known:
+            raise AtlasError(f"{subject.name} has no parameter {name!r}; it has {', '.join(known)}.")
+        try:
+            values[name] = float(text)
+        except ValueError:
+            values[name] = math.nan
+        if not math.isfinite(values[name]):
+            raise AtlasError(f"{name} must be a finite number, not {text!r}.")
+    return values
+
+
+def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dict[str, Any]:
+    """Return picture, numbers and command; the numbers are certified if `proven`, else of doubles."""
+    with DRAWING:
+        from atlas.pictures.drawing import viewer
+
+        scene = subject.scene(values)
+        turns = turning(scene) if viewer.deep(scene) else None
+        answer = {"scene": turns and viewer.data(turns), "size": (turns or scene).size}
+    numbers = list(_numbers(subject, values, proven=proven)) if isinstance(subject, OfFamily) else []
+    return answer | {"alt": scene.alt, "numbers": numbers, "command": subject.command(values)}
+
+
+def turning(scene: Scene) -> Scene:
+    """Return a scene with its panels in space alone, for no others turn, and no titles: they fill its width."""
+    panels = tuple(replace(panel, title="") for panel in scene.panels if isinstance(panel, Space))
+    columns, rows = min(scene.columns, len(panels)), -(-len(scene.panels) // scene.columns)
+    width, height = scene.size
+    high = height / rows * -(-len(panels) // columns) * scene.columns / columns
+    return replace(scene, panels=panels, columns=columns, rows=(), narrow=(), size=(width, high))
+
+
+def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
+    """Return the picture as a file of a kind of `FILES`."""
+    from atlas.pictures.drawing import save
+
+    with DRAWING, TemporaryDirectory() as folder:
+        file = Path(folder) / f"figure.{kind}"
+        save(subject.scene(values), {file: kind})
+        return file.read_bytes()
+
+
+def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
+    """Yield the quantities of a family, each with how sure it is: balls where they have it and it is asked for."""
+    family, kernels = subject.family, subject.kernels(values)
+    case = family.case(kernels)
+    balls = family.balls()(*subject.arguments(values).values()) if proven else None
+    for q in family.quantities:
+        try:
+            if balls is None and q.slow:
+                text, certain = "", "when the sliders rest"
+            elif balls is not None and _has(balls, q):
+                text, certain = _certified(q, balls)
+            else:
+                text, certain = _double(q, kernels, family.promises.get(q.checked, 0.0))
+        except DomainError as reason:
+            text, certain = "none", str(reason)
+        says, _ = q.cases.get(case, (q.says, q.equation))
+        yield {"name": letters(q.symbol or q.name), "says": says, "value": text, "sure": certain, "unit": q.unit}
+
+
+def _has(balls: Any, q: Quantity) -> bool:
+    """Whether balls have a quantity."""
+    return bool(q.certified or q.printed or q.checked) and bool(q.exact or q.get or hasattr(balls, q.name))
+
+
+def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
+    """Return a quantity in proven digits, and how many there are."""
+    text = _joined(q, certified(lambda: q.value(motion, exact=True), DIGITS, spare=SPARE))
+    if NOT_CERTIFIED in text or MARK in text:
+        return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"
+    return text, f"{DIGITS} digits proven" if re.search(r"\d", text) else EXACT
+
+
+def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
+    """Return a quantity as doubles give it, and what is promised of it."""
+    text = _joined(q, _written(q.value(motion)))
+    if not re.search(r"\d", text):
+        return text, EXACT
+    return text, f"double, within {ulps:g} ulp" if ulps else "double, no promise"
+
+
+def _joined(q: Quantity, value: Any) -> str:
+    """Return the texts of a quantity as one."""
+    if value is None:
+        return "none"
+    return "; ".join(map(str, map(q.text, value))) if q.lines else str(q.text(value))
+
+
+def _written(value: Any) -> Any:
+    """Return the text of a number, of each of several; a name stays."""
+    if isinstance(value, complex):
+        return [_written(value.real), _written(value.imag)]
+    if isinstance(value, tuple | list) or np.ndim(value):
+        return [_written(item) for item in value]
+    return value if isinstance(value, str | None) else f"{float(value):.6g}"

@@ -1,0 +1,176 @@
+"""What can be explored: each family of the register and each recipe, with sliders for its numbers."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from atlas.errors import AtlasError, nearest
+from atlas.families.sliders import Slider, letters, sliders_of, step_of
+from atlas.lazy import cached_property
+from atlas.motions.register import FAMILIES, Family
+from atlas.pictures import recipes
+from atlas.pictures.layers import Scene
+from atlas.pictures.parameters import MEANINGS
+from atlas.pictures.recipes import Recipe
+
+FIGURE = "figure:"
+
+
+@dataclass(frozen=True)
+class OfFamily:
+    """A family: sliders are its parameters, the picture is the moving body, or the first figure that fits it."""
+
+    family: Family
+
+    @property
+    def name(self) -> str:
+        """Its name in the register."""
+        return self.family.name
+
+    @property
+    def title(self) -> str:
+        """What it is, in a few words."""
+        return self.family.says
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a rotation matrix, so that a body can be shown at a time."""
+        return any(sampled.name == "R" for sampled in self.family.sampled)
+
+    @cached_property
+    def sliders(self) -> list[Slider]:
+        """The sliders of all parameters that have a start in the register, and of the time."""
+        return sliders_of(self.family)
+
+    def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Return the parameters of the class, in its order."""
+        known: dict[str, Any] = {}
+        for p in self.family.parameters:
+            parts = tuple(values[name] if p.default else p.omitted for name in p.names)
+            known[p.name] = parts if p.columns else parts[0]
+        return known
+
+    def kernels(self, values: Mapping[str, float]) -> Any:
+        """Return what the kernels make of it, for picture and numbers, and for the next time t."""
+        return _instance(self.family.kernels(), tuple(self.arguments(values).values()))
+
+    def scene(self, values: Mapping[str, float]) -> Scene:
+        """Return the picture: the body at the time t, or the figure."""
+        arguments = self.arguments(values)
+        if self.moves:
+            from atlas.pictures import any_motion
+
+            motion = self.kernels(values)
+            return any_motion.scene_at(motion, values["t"], any_motion.period(motion))
+        recipe = recipes.load(self.family.figures[0])
+        return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
+
+    def command(self, values: Mapping[str, float]) -> str:
+        """Return the command line that gives the same numbers."""
+        arguments, words = self.arguments(values), ["atlas", *self.family.words]
+        for p in self.family.parameters:
+            value = arguments[p.name]
+            if p.default and p.name != "c":
+                words += [f"--{p.name}", *map(repr, value if isinstance(value, tuple) else (value,))]
+        return " ".join([*words, *(["--times", repr(values["t"])] if self.moves else [])])
+
+
+@dataclass(frozen=True)
+class OfRecipe:
+    """A recipe: sliders are its parameters that are numbers, the picture is its scene."""
+
+    recipe: Recipe
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.recipe.name
+
+    @property
+    def title(self) -> str:
+        """The title of the figure."""
+        return self.recipe.title
+
+    @cached_property
+    def sliders(self) -> list[Slider]:
+        """The sliders of all numbers and lists of numbers that have a default."""
+        return [slider for key, default in self.recipe.parameters.items() for slider in self._slider(key, default)]
+
+    def _slider(self, key: str, default: Any) -> Iterator[Slider]:
+        parts = default if isinstance(default, tuple) else (default,)
+        if not parts or not all(type(x) in {int, float} for x in parts) or (parts is default and key in CONTOURS):
+            return
+        names = [key] if not isinstance(default, tuple) else [f"{key}.{i}" for i in range(1, len(parts) + 1)]
+        size = 3.0 * max(1.0, *(abs(x) for x in parts))
+        start = -size if any(isinstance(x, float) for x in parts) else 1.0  # of a number that has no range
+        low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or (start, size)
+        low, high = min(low, *parts), max(high, *parts)
+        for name, start in zip(names, parts, strict=True):
+            step = 1 if type(start) is int else step_of(low, high)
+            yield Slider(name, MEANINGS.get(key, key), low, high, step, start, letters(name))
+
+    def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Return the parameters of the recipe."""
+        parameters: dict[str, Any] = {}
+        for key, default in self.recipe.parameters.items():
+            parts = default if isinstance(default, tuple) else (default,)
+            names = [slider.name for slider in self._slider(key, default)]
+            if names:
+                components = tuple(type(x)(values[name]) for name, x in zip(names, parts, strict=True))
+                parameters[key] = components if isinstance(default, tuple) else components[0]
+        return parameters
+
+    def scene(self, values: Mapping[str, float]) -> Scene:
+        """Return the scene of the figure."""
+        return self.recipe.scene(**self.parameters(values))
+
+    def command(self, values: Mapping[str, float]) -> str:
+        """Return the command line that draws the same."""
+        from atlas.pictures.parameters import typed
+
+        settings = [f"{key}={typed(value)}" for key, value in self.parameters(values).items()]
+        return " ".join(["atlas figure", self.name, *(["--set", *settings] if settings else [])])
+
+
+KNOWN = {
+    p.name: p.range for name in ("top", "particle", "general", "elementary") for p in FAMILIES[name].parameters
+}  # the last ones are those that recipes mean
+CONTOURS = frozenset({"C1", "C2", "levels", "rates", "cosines"})
+"""Parameters whose numbers are those of lines on a map, which tell of no motion."""
+Subject = OfFamily | OfRecipe
+
+
+@lru_cache(maxsize=1)
+def _instance(kernels: Any, arguments: tuple[Any, ...]) -> Any:
+    return kernels(*arguments)
+
+
+def subject(name: str) -> Subject:
+    """Return the family or the recipe of a name; figure:NAME is the recipe where both have one name.
+
+    A name is never that of a file. Raises AtlasError where there is none.
+    """
+    if name in FAMILIES:
+        return OfFamily(FAMILIES[name])
+    name, known = name.removeprefix(FIGURE), recipes.names()
+    if name not in known:
+        options = [*FAMILIES, *known]
+        raise AtlasError(
+            f"there is no family or figure {name!r}{nearest(name, options)}; families are {', '.join(FAMILIES)}, and "
+            "`atlas list` names the figures."
+        )
+    return OfRecipe(recipes.load(name))
+
+
+def subject_or_file(name: str) -> Subject:
+    """Return the subject of a name, or, for a user's own recipe, that of its file NAME.py."""
+    return OfRecipe(recipes.load(name)) if name.endswith(".py") else subject(name)
+
+
+def everything() -> dict[str, list[tuple[str, str]]]:
+    """Return name and title of all families and all figures."""
+    return {
+        "families": [(family.name, family.says) for family in FAMILIES.values()],
+        "figures": [(FIGURE * (name in FAMILIES) + name, recipes.title(name)) for name in recipes.names()],
+    }

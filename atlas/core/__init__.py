@@ -1,1 +1,0 @@
-"""The kernels, file by file in the paper's order; NumPy only."""

@@ -1,1 +1,0 @@
-"""The arithmetic under the kernels: numbers and arrays in two words, exact phases, matrices of turnings, grids."""

@@ -1,1 +1,0 @@
-"""Bodies and what acts on them: moments of inertia, charges, fields, units, and bodies that could exist."""

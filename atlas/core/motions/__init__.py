@@ -1,1 +1,0 @@
-"""Motions: one file a family, and what they share."""

@@ -1,0 +1,123 @@
+"""What an object says of itself: one line here; its tables, pictures and data frames are made by `atlas.notebook`."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from importlib import import_module
+from typing import Any, ClassVar
+
+import numpy as np
+
+from atlas.arithmetic.inputs import kept
+from atlas.errors import AtlasError
+
+FEW, MANY = 9, 4096
+"""Numbers of an array that are written out; objects whose kinds are counted."""
+
+
+class Shown:
+    """An object that says what it is, in a terminal and in a notebook.
+
+    `family` is its name in the register, `arguments` what it was made of, by name and in their order; and `made_by`
+    the name of the constructor, where that is not the class.
+    """
+
+    family: ClassVar[str] = ""
+    made_by: str = ""
+    arguments: Mapping[str, Any]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse another value of what it was made of, on which all else depends, and of what was computed from it."""
+        if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
+            raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
+        super().__setattr__(name, value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let it be copied, and sent to another process, as the call that makes it."""
+        own = self.made_by.partition(".")[2] if "made_by" in self.__dict__ else ""
+        return made, (getattr(type(self), own) if own else type(self), dict(self.arguments))
+
+    def __repr__(self) -> str:
+        """Return the call that makes it and, behind a #, of which kind it is."""
+        kind = _kind(self)
+        return called(self.made_by or type(self).__name__, self.arguments) + (f"  # {kind}" if kind else "")
+
+    def _repr_html_(self) -> str | None:
+        """Return a table of its quantities in proven digits and a small picture, for a notebook."""
+        found: str | None = notebook("show").html(self)
+        return found
+
+    def _repr_latex_(self) -> str | None:
+        """Return the table as a formula."""
+        found: str | None = notebook("show").latex(self)
+        return found
+
+    def plot(
+        self,
+        figure: str | None = None,
+        *,
+        panel: int | None = None,
+        ax: Any = None,
+        style: Any = None,
+        target: str | None = None,
+        **parameters: Any,
+    ) -> Any:
+        """Draw it as a `matplotlib.figure.Figure`, by the recipe `figure` of those that take it, or the first of them.
+
+        `parameters` are those of the recipe that the object does not settle, as turns or azimuth; `style` and `target`
+        are as for `atlas.figure`; `panel`, counted from 1, asks for one panel alone. With Matplotlib axes `ax` it is
+        drawn into them, the first panel if no other is asked for, and their figure is returned. Raises AtlasError where
+        there is no such picture of it.
+        """
+        return notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
+
+    def to_dataframe(self, times: Any = None, *, quantities: Sequence[str] | None = None) -> Any:
+        """Return a `pandas.DataFrame`: a row an object, with its parameters and quantities; or, of one, a row a time.
+
+        `times` (N,) ask for rotation matrix, angular velocity and what else the family has at a time; `quantities` are
+        those of the family, all numbers without them. Units are in ``frame.attrs["units"]``. Raises AtlasError where
+        pandas is missing, and for what is unknown.
+        """
+        return notebook("frames").frame(self, times, quantities)
+
+
+def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
+    """Return what a call makes, of a copy or in another process."""
+    return make(**arguments)
+
+
+def called(name: str, arguments: Mapping[str, Any]) -> str:
+    """Return a call as it is typed; what was left out, None, is left out."""
+    given = ", ".join(f"{key}={_typed(value)}" for key, value in arguments.items() if value is not None)
+    return f"{name}({given})"
+
+
+def _typed(value: Any) -> str:
+    if isinstance(value, Shown):
+        return called(value.made_by or type(value).__name__, value.arguments)
+    if isinstance(value, np.ndarray | np.generic):
+        return repr(value.tolist()) if value.size <= FEW else f"<array {value.shape}>"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_typed, value))}{',' * (len(value) == 1)})"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_typed, value))}]" if len(value) <= FEW else f"<list of {len(value)}>"
+    return repr(value)
+
+
+def _kind(shown: Shown) -> str:
+    """Return in words of which kind an object is; of several their shape, and how many there are of each kind."""
+    found = []
+    for name in ("case", "kind"):
+        with suppress(AtlasError):
+            found.append(getattr(shown, name, ""))
+    shape = getattr(shown, "shape", ())
+    if not shape:
+        return ", ".join(dict.fromkeys(str(kind) for kind in found if str(kind)))
+    if np.prod(shape) > MANY or not found:
+        return f"shape {shape}"
+    kinds, counts = np.unique(np.asarray(found[-1] if str(found[-1]) else found[0]), return_counts=True)
+    return f"shape {shape}: " + ", ".join(f"{count} {kind}" for kind, count in zip(kinds, counts, strict=True))
+
+
+def notebook(name: str) -> Any:
+    """Load what draws and prints, which stands on a floor above and only when it is asked for."""
+    return import_module(f"atlas.notebook.{name}")

@@ -1,1 +1,0 @@
-"""The same quantities as balls with proven radii, from the exact inputs."""

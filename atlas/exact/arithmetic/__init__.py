@@ -1,1 +1,0 @@
-"""The arithmetic under the balls: roots of quartics, numbers with one square root, powers."""

@@ -1,1 +1,0 @@
-"""Moments of inertia as exact rationals."""

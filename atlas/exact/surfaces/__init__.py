@@ -1,1 +1,0 @@
-"""The quadric and the hyperbola of initial data as balls."""

@@ -1,0 +1,202 @@
+"""From a measurement to the body and the field: `fit`."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from atlas.errors import AtlasError
+from atlas.fitting.data import of_arrays, of_file
+from atlas.fitting.free import freely
+from atlas.fitting.models import model_of
+from atlas.fitting.nutation import of_ratio_one, settled
+from atlas.fitting.parameters import parameters_of
+from atlas.fitting.problem import Problem, lag
+from atlas.fitting.result import FOLLOWED, Fit
+from atlas.fitting.search import grown, rate_of, tries
+
+__all__ = ["Fit", "fit", "fit_file"]
+
+LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+
+SURE = 4.0
+"""Standard deviations of chi square, or of a correlation of residuals, within which a motion is the one."""
+
+SAME = 1e-3
+"""Part of chi square by which a minimum that is found again from another time may differ."""
+
+MANY = 12
+"""Numbers for each parameter from which on a motion that follows data of unknown noise is taken for theirs."""
+
+ROBUST = 1.5
+"""Reduced chi square, from the median, up to which a motion with outliers is the one."""
+
+GUESS = 0.02
+"""Noise of which a robust loss takes the start, in parts of the spread of the data."""
+
+
+def fit(
+    t: Any,
+    family: str = "general",
+    *,
+    sigma: Any = None,
+    rotation: Any = None,
+    quaternion: Any = None,
+    axis: Any = None,
+    angular_velocity: Any = None,
+    field_in_body: Any = None,
+    signal: tuple[Any, Callable[..., Any]] | None = None,
+    params: Any = None,
+    fix: Mapping[str, float] | None = None,
+    loss: str = "linear",
+    epoch: float = 0.0,
+    scalar_first: bool = False,
+) -> Fit:
+    """Find the body, the field and the motion from measurements at the times `t`.
+
+    Parameters
+    ----------
+    t : array_like, shape (N,)
+        Times, in any order, at least 5. Their unit is the unit of time of every result.
+    family : {"general", "elementary", "ball", "free", "top", "elliptic", "asymmetric"}
+        Family of motions: "general" is any motion of a symmetric body in a field, "asymmetric" that of a body with
+        three moments, "top" a symmetric top with a dipole and a coupling to the field.
+    sigma : float or array_like, shape (N,), optional
+        Standard error of each measured component; of rotations, quaternions and axes an angle in radians. Without
+        `sigma` the scatter about the motion gives the standard error.
+    rotation : array_like, shape (N, 3, 3)
+        Matrices R(t) that take the body to the laboratory. Give exactly one of `rotation` to `signal`.
+    quaternion : array_like, shape (N, 4)
+        The same as unit quaternions, scalar last as SciPy has them.
+    axis : array_like, shape (N, 3)
+        The body's third axis R e3, along the axes of the laboratory.
+    angular_velocity : array_like, shape (N, 3)
+        Omega along the axes of the body, in rad/time.
+    field_in_body : array_like, shape (N, 3)
+        The field B' along the axes of the body, in 1/time; of tops the unit vector of its direction.
+    signal : (values, function)
+        Numbers (N,) or (N, m), and the function that makes them of rotations (M, 3, 3) for any M.
+    params : mapping or lmfit.Parameters, optional
+        Start values, bounds or expressions of parameters by name: a number, or a mapping with "value", "vary", "min",
+        "max", "expr" as `lmfit.create_params` takes it.
+    fix : mapping of str to float, optional
+        Parameters that are known, with their values: ``fix={"ratio": 1.5}``.
+    loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
+        Loss of `scipy.optimize.least_squares`; all but "linear" bear outliers.
+    epoch : float
+        Time at which the parameters hold.
+    scalar_first : bool
+        Whether the scalar is the first component of a quaternion.
+
+    Returns
+    -------
+    Fit
+        Parameters with errors, the motion, predictions, and sentences on what the data leave open; see `Fit`.
+
+    Raises
+    ------
+    AtlasError
+        For data of a wrong shape, an entry that is not finite, a matrix that is no rotation, an unknown parameter, a
+        value outside its bounds, fewer numbers than parameters, or where no motion of the family is found.
+
+    Notes
+    -----
+    Parameters, at the time `epoch`:
+
+    ==================  ==========================================================================================
+    ratio               I3/I2, in (0, 2]; of families with three moments, and tops, I1 and I3 in units of I2
+    B1, B2, B3, b       the field B' in the laboratory and its length, in 1/time
+    omega1 to omega3    angular velocity along the axes of the body, in rad/time
+    omega2              of elementary motions alone: its component along the part of the field across the axis
+    a1, a2, a3          rotation vector of R, in radians
+    k2, k3              of tops: coupling to the field over I2, in 1/time
+    linear, quadratic   of tops: parts of the potential over I2, in 1/time^2
+    n1, n2, n3          of tops: direction of the field, held at (0, 0, 1) unless freed by ``vary=True``
+    z, branch           of elliptic motions: see `EllipticMotion`
+    ==================  ==========================================================================================
+
+    Where attitudes are not measured, a is held at 0 and the field is along the axes that the body has at `epoch`. Where
+    the axis alone is measured, a3 is held at 0.
+
+    No start is needed: motions are sought from reproducible random starts on short arcs of the data, which grow. Data
+    that hardly change, or a signal of one number, may have several minima: see `Fit.warnings` and `Fit.alternatives`,
+    and give start values by `params`. Standard errors are of first order; no digit of a fit is certified.
+
+    Examples
+    --------
+    >>> t = [i / 10 for i in range(100)]
+    >>> motion = atlas.motion(1.3, (0.2, 0.4, 1.9), (0.5, 0.3, 1.7))
+    >>> found = atlas.fit(t, rotation=motion.rotation(t), sigma=1e-3)
+    >>> round(found.params["ratio"].value, 6)
+    1.3
+    """
+    model = model_of(family)
+    measured = {
+        "rotation": rotation, "quaternion": quaternion, "axis": axis, "angular_velocity": angular_velocity,
+        "field_in_body": field_in_body, "signal": signal,
+    }  # fmt: skip
+    data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first)
+    if loss not in LOSSES:
+        raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
+    if loss != "linear" and not data.known:
+        data = replace(data, sigma=data.sigma * GUESS * data.spread)
+    free, given_values = parameters_of(model, data, params, fix)
+    problem = Problem(model, data, free, loss, rate_of(data), given_values)
+    numbers = data.t.size * problem.width
+    if numbers <= len(problem.names):
+        raise AtlasError(f"{numbers} numbers do not determine {len(problem.names)} parameters: measure more times.")
+    tried = _tried(problem)
+    if loss != "linear" and not data.known:  # a robust loss needs the noise: once by a guess, once as it was found
+        noise = np.sqrt(problem.reduced(problem.residuals(tried[0][1])))
+        problem = Problem(model, replace(data, sigma=data.sigma * noise), free, loss, problem.rate, given_values)
+        tried = [(problem.chi_square(x), x) for _, x in tried]
+    steady = doubt = ""
+    if model.name == "general":
+        tried, steady, doubt = settled(problem, tried, good=_good(problem, tried[0][1]))
+        tried = tried if steady else of_ratio_one(problem, tried)
+    elif model.name == "asymmetric":
+        tried, steady = freely(problem, tried)
+    return Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
+
+
+def fit_file(file: Path, family: str = "general", *, kind: str | None = None, sigma: Any = None, **options: Any) -> Fit:
+    """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
+    t, data, known = of_file(file, kind)
+    return fit(t, family, sigma=known if sigma is None else sigma, **data, **options)
+
+
+def _tried(problem: Problem) -> list[tuple[float, Any]]:
+    """Return what starts lead to, the least squares and the values that are varied, the best first.
+
+    Few data whose noise is not known may be followed by a motion that is not theirs: then all starts are tried.
+    """
+    minima: list[tuple[float, tuple[float, Any]]] = []
+    sure = problem.data.known or problem.data.t.size * problem.width > MANY * len(problem.names)
+    for centre, there, start, count in tries(problem):
+        try:
+            x = grown(there, start, count)
+            x = problem.inside(there.carried(x, -centre)) if centre else x
+            chi = problem.chi_square(x)
+        except (AtlasError, np.linalg.LinAlgError):
+            continue  # no motion of the family starts so
+        again = any(centre != other and abs(chi - minimum) < SAME * minimum for other, (minimum, _) in minima)
+        minima.append((centre, (chi, x)))
+        if sure and (again or _good(problem, x)):
+            break
+    if not minima:
+        raise AtlasError(f"No {problem.model.name} motion was found in these data; give a start by params.")
+    return sorted((minimum for _, minimum in minima), key=lambda minimum: minimum[0])
+
+
+def _good(problem: Problem, x: Any) -> bool:
+    """Return whether the data are followed, up to noise."""
+    r = problem.residuals(x).reshape(problem.data.t.size, -1)
+    if problem.data.known:
+        allowed = SURE if problem.data.kind == "rotation" else 1.0  # others have false minima nearly as deep
+        return problem.reduced(r) < (
+            1 + allowed * np.sqrt(2 / (r.size - len(x))) if problem.loss == "linear" else ROBUST
+        )
+    small = np.median(np.linalg.norm(r * problem.data.sigma, axis=1)) < FOLLOWED * problem.data.spread
+    return bool(small and abs(lag(problem.data.t, r)) < SURE / np.sqrt(r.size))

@@ -1,0 +1,276 @@
+"""Other parameters that the data leave possible: other minima, equal solutions by symmetry, wider families.
+
+For rotations S, S' that permute axes up to signs, R -> S R S', B -> S B, Omega -> S'^T Omega is a motion of the body
+whose moments S' permutes alike; of tops n -> S n, and the linear potential changes sign where S' reverses e3. A signal
+that does not change under such a pair has several equally good explanations.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import permutations, product
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.errors import AtlasError
+from atlas.fitting.models import (
+    ATTITUDE,
+    DIRECTION,
+    IN_BODY,
+    OMEGA,
+    B,
+    Values,
+    attitude,
+    direction_of,
+    model_of,
+    state,
+    vector,
+)
+from atlas.fitting.parameters import Parameters, parameters_of
+from atlas.fitting.problem import Problem, minimum
+
+SAME_DATA = 1e-11
+"""Relative difference of two predictions that is rounding."""
+
+SAME_VALUES = 1e-9
+"""Difference of two values, in natural units, that is rounding."""
+
+SAME_MINIMUM = 1e-3
+"""Relative difference of chi square below which two minima are one."""
+
+BIASED = 5.0
+"""Standard errors by which a parameter differs in a wider family so that this family is named."""
+
+BETTER = 40.0
+"""Fall of chi square that noise does not give: with up to five more parameters once in ten million."""
+
+SHOWN = 4
+"""Minima that are listed at most."""
+
+_SIGNED = [
+    np.array(signs)[:, None] * np.eye(3)[list(order)]
+    for order in permutations(range(3))
+    for signs in product((1.0, -1.0), repeat=3)
+]
+ROTATIONS = [matrix for matrix in _SIGNED if np.linalg.det(matrix) > 0]
+"""The 24 rotations that permute the axes up to signs."""
+
+
+class Alternative(NamedTuple):
+    """Other parameters that the data leave possible.
+
+    Attributes
+    ----------
+    redchi : float
+        Reduced chi square.
+    values : dict of str to float
+        All parameters by name.
+    equal : bool
+        Whether they give the same data as the fit, exactly, by a symmetry.
+    family : str
+        Family of the motion.
+    """
+
+    redchi: float
+    values: Mapping[str, float]
+    equal: bool
+    family: str
+
+    def sentence(self, family: str, parameters: Parameters) -> str:
+        """Return a sentence on the alternative to the fitted parameters of a family."""
+        if self.equal:
+            return f"Equal by symmetry: {', '.join(_differences(parameters, self.values))}."
+        if self.family == family:
+            return f"Another start ended at a reduced chi square of {self.redchi:.3g}."
+        return (
+            f"The wider family {self.family} has a reduced chi square of {self.redchi:.3g} with "
+            f"{_biases(parameters, self.values)}: the errors hold for a motion of the family {family} only."
+        )
+
+
+def _biases(parameters: Parameters, values: Values) -> str:
+    off = [f"{name} off by {size:+.0f}" for name, size in biased(parameters, values).items()]
+    return f"{', '.join(off)} standard errors"
+
+
+def _differences(parameters: Parameters, values: Values) -> list[str]:
+    """Return the values that differ from those of the fit by more than a standard error, as name = value."""
+    return [
+        f"{name} = {values[name]:.5g}"
+        for name, p in parameters.items()
+        if name in values and abs(values[name] - p.value) > (p.stderr or SAME_VALUES)
+    ]
+
+
+def warnings_of(
+    parameters: Parameters, equal: list[Alternative], wider: list[tuple[float, Alternative]]
+) -> Iterator[str]:
+    """Yield a warning for equal solutions, and one for each wider family that lowers chi square by more than noise."""
+    if equal:
+        count = f"{len(equal)} other sets of parameters give" if len(equal) > 1 else "Another set of parameters gives"
+        different = ", ".join(_differences(parameters, equal[0].values))
+        yield (
+            f"{count} exactly the same data by symmetry, such as {different}: no measurement of this kind tells them "
+            "apart."
+        )
+    for fall, other in wider:
+        if fall > BETTER:
+            yield (
+                f"The wider family {other.family} lowers chi square by {fall:.3g}, more than noise does, with "
+                f"{_biases(parameters, other.values)}."
+            )
+
+
+@dataclass(frozen=True)
+class _Turned:
+    """What is seen of a motion with R -> S R S'; the arrays are those of the motion at the times of the data."""
+
+    seen: Mapping[str, FloatArray]
+    left: FloatArray
+    right: FloatArray
+
+    def rotation(self, t: FloatArray) -> FloatArray:
+        return np.asarray(self.left @ self.seen["rotation"][: t.size] @ self.right)
+
+    def angular_velocity(self, t: FloatArray) -> FloatArray:
+        return np.asarray(self.seen["angular_velocity"][: t.size] @ self.right)
+
+    def field_in_body(self, t: FloatArray) -> FloatArray:
+        return np.asarray(self.seen["field_in_body"][: t.size] @ self.right)
+
+
+def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bool) -> list[Alternative]:
+    """Return the other parameters that predict the same data by a symmetry, each once.
+
+    With `signs` only axes are reversed, none permuted. Fixed values, bounds and expressions are kept.
+    """
+    motion, values = problem.model.make(problem.values(x)), problem.values(x)
+    data, kind, one = problem.data, problem.data.kind, np.eye(3)
+    name = kind if kind in IN_BODY else "rotation"
+    seen = {name: np.asarray(getattr(motion, name)(data.t))}
+    omega = np.asarray(motion.angular_velocity(0.0))
+    group = [S for S in ROTATIONS if not signs or abs(np.diag(S)).all()]
+
+    def changes(S: FloatArray, right: FloatArray, times: int) -> bool:
+        first, other = (data.of(_Turned(seen, *pair), data.t[:times]) for pair in ((one, one), (S, right)))
+        if kind == "axis":
+            first, other = first[..., 2], other[..., 2]
+        return bool(abs(first - other).max() > SAME_DATA * abs(first).max(initial=1e-300))
+
+    known, found = [state(problem.model, kind, values, attitude(values), omega)], list[Alternative]()
+    for S, right in product([one] if kind in IN_BODY else group, group):
+        if changes(S, right, 3) or changes(S, right, data.t.size):
+            continue
+        for turned in _turned(problem, values, S, right, omega):
+            if any(_same(problem, turned, other) for other in known):
+                continue
+            known.append(turned)
+            free = np.array([turned[free_name] for free_name in problem.names])
+            low, high = problem.bounds
+            if (low <= free).all() and (free <= high).all():
+                full = problem.values(free)
+                if _same(problem, full, turned):
+                    found.append(Alternative(redchi, full, equal=True, family=problem.model.name))
+    return found
+
+
+def _turned(
+    problem: Problem, values: Values, S: FloatArray, right: FloatArray, omega: FloatArray
+) -> Iterator[dict[str, float]]:
+    """Yield the parameters of the motion S R S', none where they are none of the family; of tops both signs of n."""
+    model = problem.model
+    moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
+    turned = moments @ abs(right)
+    turned = turned / turned[1]
+    if ("I1" not in model.names and (turned != moments).any()) or (model.name == "top" and not right[2, 2]):
+        return
+    for sign in (1.0, -1.0) if model.name == "top" else (1.0,):
+        new = dict(values) | dict(zip(B, (S @ vector(values, B)).tolist(), strict=True))
+        if "I1" in model.names:
+            new |= {"I1": float(turned[0]), "I3": float(turned[2])}
+        if "z" in model.names:
+            new["z"] = values["z"] / float((moments @ abs(right))[1]) ** 2
+        if model.name == "top":
+            new |= {name: sign * values[name] for name in ("k2", "k3")}
+            new["linear"] = sign * float(right[2, 2]) * values["linear"]
+            new |= dict(zip(DIRECTION, (sign * S @ vector(values, DIRECTION)).tolist(), strict=True))
+        yield state(model, problem.data.kind, new, S @ attitude(values) @ right, right.T @ omega)
+
+
+def _same(problem: Problem, first: Values, other: Values) -> bool:
+    """Return whether two sets of parameters are one, up to rounding; attitudes are compared as matrices."""
+    names = [name for name in problem.model.names if name not in ATTITUDE]
+    off = max(abs(first[name] - other[name]) / (problem.units[name] + abs(first[name])) for name in names)
+    return bool(max(off, abs(attitude(first) - attitude(other)).max()) < SAME_VALUES)
+
+
+def other_minima(problem: Problem, tried: list[tuple[float, Any]], free: float) -> list[Alternative]:
+    """Return the other minima where starts ended, each once; `free` makes their chi square a reduced one."""
+    out: list[Alternative] = []
+    for chi, x in tried[1:]:
+        known = [tried[0][0] / free, *(found.redchi for found in out)]
+        if all(abs(chi / free - other) > SAME_MINIMUM * other for other in known):
+            out.append(Alternative(chi / free, problem.values(x), equal=False, family=problem.model.name))
+    return out[:SHOWN]
+
+
+def wider_families(
+    problem: Problem, x: FloatArray, parameters: Parameters, scale: float
+) -> list[tuple[float, Alternative]]:
+    """Return the fits of wider families that are good and have other values, each with its fall of chi square.
+
+    Good is a reduced chi square that is no surprise, other a value off by more than `BIASED` standard errors. `scale`
+    is the noise that was found, in units of the given one.
+    """
+    found = []
+    values = problem.values(x)
+    for family in problem.model.wider:
+        if problem.tied or (family == "top" and problem.data.kind == "field_in_body"):
+            continue  # of a top the direction is seen, not the field
+        try:
+            other, start = _within(problem, values, family)
+            best, _ = minimum(other, start, steady=False)
+        except (AtlasError, np.linalg.LinAlgError):
+            continue  # no such motion beside it
+        full, free = other.values(best), other.data.t.size * other.width - len(other.names)
+        redchi = other.chi_square(best) / free / scale**2
+        if family == "top":
+            full |= dict(zip(B, (full["k2"] * direction_of(full)).tolist(), strict=True)) | {"ratio": full["I3"]}
+        if abs(redchi - 1) < BIASED * np.sqrt(2 / free) and biased(parameters, full):
+            fall = (problem.chi_square(x) - other.chi_square(best)) / scale**2
+            found.append((fall, Alternative(redchi, full, equal=False, family=family)))
+    return found
+
+
+def biased(parameters: Parameters, values: Values) -> dict[str, float]:
+    """Return the parameters that differ by more than `BIASED` standard errors, with the differences in these."""
+    off = {
+        name: (values[name] - p.value) / p.stderr
+        for name, p in parameters.items()
+        if p.free and p.stderr and name in values and name not in ATTITUDE
+    }
+    return {name: size for name, size in off.items() if abs(size) > BIASED}
+
+
+def _within(problem: Problem, values: Values, family: str) -> tuple[Problem, FloatArray]:
+    """Return the problem of a wider family, and the start at which this has the same motion."""
+    model, own = model_of(family), problem.params
+    inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}
+    if family == "top":
+        b = float(np.linalg.norm(vector(values, B)))
+        inside |= {"k2": b, "k3": inside["I3"] * b, "linear": 0.0, "quadratic": 0.0}
+        n = vector(values, B) / (b or 1.0)
+        inside |= dict(zip(DIRECTION, n.tolist(), strict=True))
+    if "omega1" not in values:
+        motion = problem.model.make(values)
+        inside |= dict(zip(OMEGA, motion.angular_velocity(0.0).tolist(), strict=True))
+    longest = DIRECTION[int(np.argmax(abs(vector(inside, DIRECTION))))]
+    held = {name for name, p in own.items() if not p.free} | {longest}  # the length of a direction is not seen
+    held |= {"I3", "k3"} if "ratio" in held else set()
+    held -= {"a3"} if "I1" in model.names and problem.data.kind == "axis" else set()
+    params: dict[str, Any] = {name: {"value": inside.get(name, 0.0), "vary": name not in held} for name in model.names}
+    free, _ = parameters_of(model, problem.data, params)
+    other = Problem(model, problem.data, free, problem.loss, problem.rate)
+    other.followed = True
+    return other, other.inside(inside)

@@ -1,0 +1,264 @@
+"""What was measured of a motion: residuals in standard errors, and how they change as R turns.
+
+A small change of a parameter turns R by a vector v of the laboratory, dR/dp = [v]x R, see `Motion.sensitivity`; what
+that does to each kind of data is written here.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.arithmetic.inputs import FloatArray, number, real
+from atlas.checking.trajectory import BLOCK, FIELD, MATRIX, OMEGA, QUATERNION, opened
+from atlas.errors import AtlasError
+
+KINDS: Mapping[str, tuple[int, ...]] = {
+    "rotation": (3, 3), "quaternion": (4,), "axis": (3,), "angular_velocity": (3,), "field_in_body": (3,),
+}  # fmt: skip
+"""Kinds of data with their shapes at a time; a "signal" is any function of R."""
+
+AXIS = ("R13", "R23", "R33")
+
+FAR = 100
+"""Spans of the data within which they lie from the time at which the parameters hold."""
+
+LEAST = 5
+"""Times that a fit needs."""
+
+STEP = 1e-6
+"""Step of differences, in the natural unit of what is changed."""
+
+NO_ROTATION = 1.1
+"""An entry of what an integration lost, in the place of a rotation."""
+
+NEARLY_OPPOSITE = -0.99999
+"""Cosine of an angle below which the axis of a turn is not its skew part."""
+
+MOST = 1200
+"""Blocks of rows that are read: ten million rows."""
+NEAR = 0.5
+"""How far a measured matrix or vector may be from a rotation, or from length 1."""
+
+
+@dataclass(frozen=True)
+class Entries:
+    """Signal of some entries of R; a class, so that a fit of a file can be pickled."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+    def __call__(self, R: FloatArray) -> FloatArray:
+        """Return the entries (N, k) of rotations (N, 3, 3)."""
+        return R[:, self.rows, self.columns]
+
+
+@dataclass(frozen=True)
+class Data:
+    """Data of one kind at times (N,), sorted, with their standard errors (N, 1)."""
+
+    kind: str
+    t: FloatArray
+    values: FloatArray
+    sigma: FloatArray
+    function: Callable[[FloatArray], Any] | None = None
+    known: bool = True
+    """Whether the standard errors were given."""
+
+    def part(self, places: Any) -> "Data":
+        """Return some of the data."""
+        return replace(self, t=self.t[places], values=self.values[places], sigma=self.sigma[places])
+
+    @property
+    def spread(self) -> float:
+        """Size of the changes in the data: a difference as large as that means nothing in common."""
+        return 1.0 if self.kind in ("rotation", "axis") else float(self.values.std(0).max()) or 1.0
+
+    def of(self, motion: Any, t: FloatArray) -> FloatArray:
+        """Return what would be seen of a motion without noise, of an axis all of R; of each motion of a `Flow`."""
+        if self.kind == "angular_velocity":
+            return np.asarray(motion.angular_velocity(t))
+        if self.kind == "field_in_body":
+            return np.asarray(motion.field_in_body(t))
+        R = motion.rotation(t)
+        return self._signal(R) if self.kind == "signal" else R
+
+    def _signal(self, R: FloatArray) -> FloatArray:
+        function: Any = self.function
+        flat = R.reshape(-1, 3, 3)
+        lost = np.asarray(~(abs(flat) < NO_ROTATION).all((1, 2)))
+        values = real(function(np.where(lost[:, None, None], np.eye(3), flat)), "What the function of a signal returns")
+        if values.shape[:1] != flat.shape[:1] or values.ndim > 2:
+            raise AtlasError(
+                f"The function of a signal takes rotations ({len(flat)}, 3, 3) and returns as many numbers, "
+                f"not an array {values.shape}."
+            )
+        values = np.where(lost.reshape(-1, *[1] * (values.ndim - 1)), np.nan, values)
+        return values.reshape(*R.shape[:-2], -1)
+
+    def differences(self, motion: Any) -> FloatArray:
+        """Return data less motion, (N, k): of rotations three angles, in the laboratory, of axes two, in the body."""
+        values = self.of(motion, self.t)
+        if self.kind == "rotation":
+            return difference(self.values, values)
+        if self.kind == "axis":
+            x, y, z = np.moveaxis(np.vecmat(self.values, values), -1, 0)
+            across = np.hypot(x, y)
+            angle = np.arctan2(across, z) / np.where(across > 0, across, 1.0)
+            return np.stack([x * angle, y * angle], -1)
+        return np.asarray(self.values - values)
+
+    def slopes(self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return the derivatives of what is seen, (N, k, P), by which the differences shrink.
+
+        `v` (N, P, 3) are the turns of R, of angular velocities dv/dt; `fields` (P, 3) what the parameters add to the
+        `field`, and `rest` (N, 3) the differences where rotations are seen.
+        """
+        if self.kind == "rotation":
+            return np.asarray((_inverse_right(rest) @ v.swapaxes(1, 2)).reshape(len(v), 3, -1))
+        R = motion.rotation(self.t)
+        own = v @ R
+        """The turns about the axes of the body, (N, P, 3)."""
+        if self.kind == "axis":
+            return np.stack([own[..., 1], -own[..., 0]], 1)
+        if self.kind == "angular_velocity":
+            return np.asarray(own.swapaxes(1, 2))
+        if self.kind == "field_in_body":
+            return np.asarray(((fields - np.cross(v, field)) @ R).swapaxes(1, 2))
+        h = STEP
+        by = [
+            (
+                self._signal(Rotation.from_rotvec(h * e).as_matrix() @ R)
+                - self._signal(Rotation.from_rotvec(-h * e).as_matrix() @ R)
+            )
+            / (2 * h)
+            for e in np.eye(3)
+        ]
+        return np.asarray(np.einsum("ink,npi->nkp", np.stack(by), v))
+
+
+def difference(first: FloatArray, other: FloatArray) -> FloatArray:
+    """Return the rotation vectors, in the laboratory, from other rotations (..., 3, 3) to these."""
+    turn = first @ other.swapaxes(-1, -2)
+    skew = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], -1) / 2
+    sine, cosine = np.linalg.norm(skew, axis=-1), (np.trace(turn, axis1=-2, axis2=-1) - 1) / 2
+    vectors = skew * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0))[..., None]
+    for place in np.argwhere(cosine < NEARLY_OPPOSITE):  # the axis is the largest column of what is symmetric
+        i = tuple(place)
+        twice = (turn[i] + turn[i].T) / 2 - cosine[i] * np.eye(3)
+        axis = twice[np.argmax(np.diag(twice))]
+        size = np.copysign(np.linalg.norm(axis), axis @ skew[i])
+        vectors[i] = axis / size * np.arctan2(sine[i], cosine[i])
+    return np.asarray(vectors)
+
+
+def _inverse_right(rho: FloatArray) -> FloatArray:
+    """Return the matrices J with d log(D exp(-[v]x)) = -J v at D = exp([rho]x)."""
+    angle = np.linalg.norm(rho, axis=-1)
+    small = angle < 1e-3
+    x = np.where(small, 1.0, angle)
+    second = np.where(small, 1 / 12, 1 / x**2 - (1 + np.cos(x)) / (2 * x * np.sin(x)))
+    hat = np.cross(np.eye(3), rho[:, None, :])
+    return np.asarray(np.eye(3) + hat / 2 + second[:, None, None] * (hat @ hat))
+
+
+def of_arrays(t: Any, measured: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool) -> Data:
+    """Return the data of arrays, of one kind that is not None. Raises AtlasError for what cannot be fitted."""
+    kinds = [name for name, x in measured.items() if x is not None]
+    if len(kinds) != 1:
+        raise AtlasError(f"Give one of {', '.join(measured)}, not {' and '.join(kinds) or 'none'}.")
+    kind, times = kinds[0], real(t, "t")
+    if times.ndim != 1 or times.size < LEAST:
+        raise AtlasError(f"A fit needs an array (N,) of {LEAST} times or more, not {times.shape}.")
+    function = None
+    if kind == "signal":
+        if not (isinstance(measured[kind], tuple) and len(measured[kind]) == 2 and callable(measured[kind][1])):
+            raise AtlasError("signal = (values, function): numbers, and the function of rotations (N, 3, 3) they are.")
+        values, function = real(measured[kind][0], "The signal"), measured[kind][1]
+        if values.shape[:1] != times.shape or values.ndim > 2:
+            raise AtlasError(f"The signal at {times.size} times is an array ({times.size},), not {values.shape}.")
+        values = values.reshape(times.size, -1)
+    else:
+        values, wanted = real(measured[kind], f"The {kind}"), (times.size, *KINDS[kind])
+        if values.shape != wanted:
+            raise AtlasError(f"The {kind} at {times.size} times is an array {wanted}, not {values.shape}.")
+    values = _unit(kind, values, scalar_first)
+    known = sigma is not None
+    errors = real(1.0 if sigma is None else sigma, "sigma")
+    if errors.shape not in ((), times.shape) or not (errors > 0).all():
+        raise AtlasError(f"sigma is one positive standard error, or {times.size} of them, not {sigma!r}.")
+    order = np.argsort(times, kind="stable")
+    times = times[order] - number(epoch, "epoch")
+    span = times[-1] - times[0]
+    if span <= 0:
+        raise AtlasError("All times are equal.")
+    if min(abs(times)) > FAR * span and not times[0] <= 0 <= times[-1]:
+        raise AtlasError(
+            f"The data begin {abs(times).min():.3g} from t = 0, where the parameters hold, and span {span:.3g} only: "
+            "give epoch = t[0], the time of the parameters, or subtract it."
+        )
+    errors = np.broadcast_to(errors, times.shape)[order]
+    return Data(kind.replace("quaternion", "rotation"), times, values[order], errors[:, None], function, known)
+
+
+def _unit(kind: str, values: FloatArray, scalar_first: bool) -> FloatArray:
+    """Return rotations for matrices and quaternions, and axes of length 1. Raises AtlasError for what is none."""
+    if kind == "rotation":
+        U, size, V = np.linalg.svd(values)
+        bad = (abs(size - 1) > NEAR).any(-1) | (np.linalg.det(values) <= 0)
+        values = U @ V
+    elif kind in ("quaternion", "axis"):
+        length = np.linalg.norm(values, axis=-1)
+        bad = abs(length - 1) > NEAR
+        values = values / np.where(bad, 1.0, length)[:, None]
+        if kind == "quaternion":
+            values = Rotation.from_quat(np.where(bad[:, None], 1.0, values), scalar_first=scalar_first).as_matrix()
+    else:
+        return values
+    if bad.any():
+        what = {"rotation": "rotation matrix", "quaternion": "quaternion of length 1", "axis": "vector of length 1"}
+        raise AtlasError(f"Row {int(np.argmax(bad))} (from 0) of the {kind} is no {what[kind]}, by more than {NEAR}.")
+    return values
+
+
+def of_file(path: Path, kind: str | None) -> tuple[FloatArray, dict[str, Any], float | None]:
+    """Return times, data as `fit` takes them, and sigma, out of a CSV file, see `atlas.checking.trajectory`.
+
+    Of what its columns hold it is the first of rotations, quaternions, the axis R13, R23, R33, Omega and K, or else
+    what there is of R, as a signal; or the `kind`. Raises AtlasError for a file that has no such columns.
+    """
+    with opened(path, fields=True) as file:
+        blocks = [*islice(file.blocks, MOST)]
+        if next(file.blocks, None) is not None:
+            raise AtlasError(f"{file.file} has more than {MOST * BLOCK} rows: fit a part of them.")
+        names = list(file.names)
+        known = file.parameters.get("sigma")
+    x = {name: np.concatenate([block[name] for block in blocks]) for name in names}
+    columns = {
+        "rotation": MATRIX,
+        "quaternion": QUATERNION,
+        "axis": AXIS,
+        "angular_velocity": OMEGA,
+        "field_in_body": FIELD,
+    }
+    there = [name for name, wanted in columns.items() if set(wanted) <= set(names)]
+    entries = [name for name in names if name in MATRIX]
+    there += ["signal"] if entries and (kind == "signal" or not there) else []
+    if not there or (kind is not None and kind not in there):
+        raise AtlasError(
+            f"{file.file} has no columns of {(kind or 'a kind of data').replace('_', ' ')}: there are "
+            f"{', '.join(file.names.values())}. A fit takes R11 to R33, or only R13, R23, R33 of the axis, a "
+            "quaternion, Omega1 to Omega3, or K1 to K3."
+        )
+    kind = kind or there[0]
+    if kind == "signal":
+        rows, columns_of_R = zip(*((int(name[1]) - 1, int(name[2]) - 1) for name in entries), strict=True)
+        signal = np.column_stack([x[name] for name in entries]), Entries(rows, columns_of_R)
+        return x["t"], {"signal": signal}, known[0] if known else None
+    values = np.column_stack([x[name] for name in columns[kind]])
+    values = values.reshape(-1, 3, 3) if kind == "rotation" else values
+    return x["t"], {kind: values, "scalar_first": kind == "quaternion"}, known[0] if known else None

@@ -1,0 +1,113 @@
+"""Motions of any family by Taylor series, many at once: what a fit seeks with, before closed forms take over.
+
+Every family here is a body with M = I Omega + k b and the potential U = linear nu + quadratic nu^2/2, nu = b3, where b
+is the field in the body, a constant vector of the laboratory. With g = tr k - 2 k the equations of motion are
+
+    R' = R [Omega]x,    I Omega' = (I Omega - g b) x Omega + (linear + quadratic b3) b x e3,
+
+a charged body being k = I, b = K.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+
+ORDERS = 10, 18
+"""Orders of the series for the first and the second of these errors."""
+
+ERROR, FINE = 1e-5, 1e-11
+"""Error of a step, while a motion is sought and where it is found."""
+
+SLOWEST = 0.05
+"""Share of the motions that are too fast for the common step, and wrong then."""
+
+LONGEST = 20000
+"""Steps that are made at most."""
+
+
+HAT = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], float)
+"""The matrix [Omega]x, row by row, is Omega times this."""
+
+
+@dataclass(frozen=True)
+class Flow:
+    """Motions that start at t = 0, S of them: moments and couplings (S, 3), potential (S,), field, R and Omega."""
+
+    moments: FloatArray
+    coupling: FloatArray
+    potential: FloatArray
+    """Linear and quadratic, (S, 2)."""
+    field: FloatArray
+    attitude: FloatArray
+    omega: FloatArray
+    error: float = ERROR
+
+    @property
+    def order(self) -> int:
+        """Order of the series, by the error of a step: lower orders are cheaper where that is large."""
+        return round(float(np.interp(-np.log(self.error), -np.log([ERROR, FINE]), ORDERS)))
+
+    def at(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return R (S, N, 3, 3) and Omega (S, N, 3) at times (N,) in any order, nan where there are too many steps.
+
+        What comes before t = 0 is made together with what comes after, as motions whose time runs backwards.
+        """
+        signs, n, end = [sign for sign in (1.0, -1.0) if (sign * t >= 0).any()], self.order, abs(t).max(initial=0.0)
+        S, both = len(self.omega), len(signs)
+        out = np.full((S, t.size, 4, 3), np.nan)
+        g = self.coupling.sum(-1, keepdims=True) - 2 * self.coupling
+        moments, gyration, field = (np.tile(x, (both, 1)) for x in (self.moments, g, self.field))
+        linear, quadratic = np.tile(self.potential, (both, 1)).T[..., None]
+        pulled, sign = bool(self.potential.any()), np.repeat(signs, S)[:, None, None]
+        left = np.zeros((both * S, 4, n + 1, 3))  # the series of the rows of R, and of I Omega - g b
+        right = np.zeros((both * S, n + 1, 3, 3))  # that of [Omega]x, the last first
+        b, flat = np.zeros((both * S, n + 1, 3)), left.reshape(both * S, 4, -1)
+        state = np.concatenate([self.attitude, (self.moments * self.omega)[:, None]], 1)  # R and I Omega
+        state, now = np.tile(state, (both, 1, 1)), 0.0
+        views = [  # of each order: slices cost as much as the sums
+            (left[:, :, k], left[:, 3, k], b[:, k], right[:, n - k].reshape(-1, 9), flat[:, :, : 3 * (k + 1)],
+             right[:, n - k :].reshape(both * S, -1, 3)) for k in range(n + 1)
+        ]  # fmt: skip
+        factors = [sign / (k + 1) for k in range(n)]
+        for _ in range(LONGEST):
+            for k, (rows, last_row, b_k, hat, rows_so_far, hats_so_far) in enumerate(views):
+                np.vecmat(field, state[:, :3], out=b_k)
+                rows[:] = state
+                np.subtract(last_row, gyration * b_k, out=last_row)
+                if k == n:
+                    break
+                np.matmul(state[:, 3] / moments, HAT, out=hat)
+                state = rows_so_far @ hats_so_far
+                if pulled:
+                    across = linear * b_k[:, :2] + quadratic * np.vecmat(b[:, k::-1, 2], b[:, : k + 1, :2])
+                    state[:, 3, :2] += across[:, ::-1] * [1.0, -1.0]
+                state *= factors[k]
+            size = np.maximum(abs(left[:, :3, n]).max((1, 2)), abs(left[:, :3, n - 1]).max((1, 2)) ** (n / (n - 1)))
+            own = (self.error / np.maximum(size, 1e-300)) ** (1 / n)
+            h = float(np.sort(np.where(np.isfinite(own), own, np.inf))[int(SLOWEST * both * S)])
+            if not np.isfinite(h):
+                break
+            for series, side in zip(np.split(left, both), signs, strict=True):
+                places = np.flatnonzero((side * t >= now) & (side * t <= now + h))
+                out[:, places] = ((side * t[places] - now)[:, None] ** np.arange(n + 1) @ series).swapaxes(1, 2)
+            now += h
+            if now > end:
+                break
+            state = h ** np.arange(n + 1) @ left
+            state[:, 3] += gyration * np.vecmat(field, state[:, :3])
+        R = out[:, :, :3]
+        return R, (out[:, :, 3] + g[:, None] * np.vecmat(self.field[:, None], R)) / self.moments[:, None]
+
+    def rotation(self, t: FloatArray) -> FloatArray:
+        """Return R, (S, N, 3, 3)."""
+        return self.at(t)[0]
+
+    def angular_velocity(self, t: FloatArray) -> FloatArray:
+        """Return Omega in the body, (S, N, 3)."""
+        return self.at(t)[1]
+
+    def field_in_body(self, t: FloatArray) -> FloatArray:
+        """Return the field in the body, (S, N, 3)."""
+        return np.asarray(np.vecmat(self.field[:, None], self.at(t)[0]))

@@ -1,0 +1,120 @@
+"""Least squares of many motions at once, by Levenberg and Marquardt with geodesic acceleration.
+
+What data hardly determine makes valleys that are narrow and bent; the second derivative along a step follows the bend
+(Transtrum and Sethna, arXiv:1201.5885), where plain steps creep.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.fitting.data import STEP
+
+RHO: Mapping[str, Callable[..., Any]] = {
+    "linear": lambda z: z, "soft_l1": lambda z: 2 * (np.sqrt(1 + z) - 1),
+    "huber": lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1), "cauchy": np.log1p, "arctan": np.arctan,
+}  # fmt: skip
+"""SciPy's losses: what they leave of a square."""
+
+SCORE: Mapping[str, Callable[..., Any]] = {
+    "linear": np.ones_like, "soft_l1": lambda z: 1 / np.sqrt(1 + z),
+    "huber": lambda z: 1 / np.sqrt(np.maximum(z, 1)), "cauchy": lambda z: 1 / (1 + z),
+    "arctan": lambda z: 1 / (1 + z * z),
+}  # fmt: skip
+"""Their derivatives."""
+
+SPIN_UNSEEN = ("axis", "signal")
+"""Data that do not show the spin about the axis by itself."""
+
+BEND = 0.75
+"""Largest part of a step by which it is bent."""
+
+PROBE = 0.1
+"""Part of a step at which its bend is taken."""
+
+
+class Crowd:
+    """Motions of one problem at once, (M, n) values of what is varied, by least squares on some of the data."""
+
+    def __init__(self, problem: Any, X: FloatArray) -> None:
+        self.problem, self.X = problem, problem.inner(X)
+        self.damping, self.costs = np.full(len(X), 1e-2), np.full(len(X), np.inf)
+        free = problem.data.kind in SPIN_UNSEEN and not problem.tied
+        self.spin = problem.names.index("omega3") if free and "omega3" in problem.names else None
+
+    def _straight(self, X: FloatArray) -> FloatArray:
+        """Return coordinates of steps: M3 for omega3, which an axis tells together with I3 only."""
+        if self.spin is None:
+            return X
+        I3, more = self.problem.spin(X)
+        Y = X.copy()
+        Y[..., self.spin] = I3 * X[..., self.spin] + more
+        return Y
+
+    def _back(self, Y: FloatArray) -> FloatArray:
+        if self.spin is None:
+            return np.asarray(self.problem.inner(Y))
+        I3, more = self.problem.spin(Y)
+        X = Y.copy()
+        X[..., self.spin] = (Y[..., self.spin] - more) / np.where(I3 == 0, 1.0, I3)  # from 1 a whole step may end at 0
+        return np.asarray(self.problem.inner(X))
+
+    def _slopes(self, X: FloatArray, places: Any) -> tuple[FloatArray, FloatArray]:
+        """Return residuals (M, N k) and their derivatives in the coordinates (M, n, N k)."""
+        r, J = self.problem.turned(X, places)
+        if self.spin is not None:
+            M, n = X.shape
+            h = STEP * self.problem.units_of_free
+            ends = [(self._straight(X)[:, None] + s * np.diag(h)).reshape(-1, n) for s in (1, -1)]
+            up, down = ((e[:, self.spin] - more) / I3 for e in ends for I3, more in [self.problem.spin(e)])
+            by = ((up - down).reshape(M, n) / (2 * h))[:, :, None]
+            spin = J[:, self.spin : self.spin + 1]
+            J = J + by * spin
+            J[:, self.spin] = (by * spin)[:, self.spin]
+        return r, J
+
+    def _cost(self, r: FloatArray) -> FloatArray:
+        """Return the sums of squares, of what the loss leaves of them."""
+        return np.asarray(RHO[self.problem.loss](r * r).sum(-1))
+
+    def refine(self, places: Any, rounds: int, decrement: float = 0.0) -> None:
+        """Make some steps, or until chi square would fall by a part of itself a number only."""
+        problem = self.problem
+        r, J = self._slopes(self.X, places)
+        self.costs = self._cost(r)
+        for _ in range(rounds):
+            Y, w = self._straight(self.X), SCORE[problem.loss](r * r)
+            A, g = (J * w[:, None]) @ J.swapaxes(1, 2), (J @ (w * r)[..., None])[..., 0]
+            size = np.sqrt(np.maximum(np.einsum("mii->mi", A), 1e-300))
+            A = A / (size[:, :, None] * size[:, None])
+            damped = A + self.damping[:, None, None] * np.eye(A.shape[-1])
+            step = -np.linalg.solve(damped, (g / size)[..., None])[..., 0] / size
+            longest = abs(step / problem.units_of_free).max(-1, keepdims=True)
+            step = step / np.maximum(longest, 1.0)
+            ahead = problem.apart(self._back(Y + PROBE * step), places)
+            bend = 2 / PROBE * ((ahead - r) / PROBE - (step[:, None] @ J)[:, 0])
+            turn = -np.linalg.solve(damped, ((J @ (w * bend)[..., None])[..., 0] / size)[..., None])[..., 0] / size / 2
+            much = np.linalg.norm(turn * size, axis=-1) > BEND * np.linalg.norm(step * size, axis=-1)
+            new = self._back(Y + step + np.where(much[:, None], 0.0, turn))
+            new_slopes = self._slopes(new, places)
+            costs = self._cost(new_slopes[0])
+            better = costs < self.costs
+            self.X = np.where(better[:, None], new, self.X)
+            fallen = (self.costs - costs) / np.maximum(self.costs, 1e-300) * r.shape[-1]
+            r, J = np.where(better[:, None], new_slopes[0], r), np.where(better[:, None, None], new_slopes[1], J)
+            self.damping = np.clip(np.where(better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
+            self.costs = np.where(better, costs, self.costs)
+            if decrement and (better & (fallen < decrement) | (self.damping > 1e3)).all():
+                break
+
+    def drop(self, count: int) -> None:
+        """Keep the best motions, each once."""
+        best: list[int] = []
+        for i in np.argsort(self.costs, kind="stable"):
+            if all(abs((self.X[i] - self.X[j]) / self.problem.units_of_free).max() > 0.02 for j in best):
+                best.append(int(i))
+            if len(best) == count:
+                break
+        self.X, self.damping, self.costs = self.X[best], self.damping[best], self.costs[best]

@@ -1,0 +1,275 @@
+"""Families of motions with their parameters by name: what a fit varies."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.errors import AtlasError
+from atlas.fitting.data import STEP
+from atlas.fitting.flow import Flow
+from atlas.motions.any_body import motion as of_any
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.nutation.kernel_elliptic import EllipticMotion
+from atlas.motions.nutation.kernel_general import GeneralMotion
+from atlas.motions.nutation.kernel_top import TopMotion
+
+Values = Mapping[str, float]
+
+B, OMEGA, ATTITUDE, DIRECTION = (tuple(f"{x}{i}" for i in "123") for x in ("B", "omega", "a", "n"))
+
+IN_BODY = ("angular_velocity", "field_in_body")
+"""Data along the axes of the body, which do not see the laboratory."""
+
+
+def vector(p: Values, names: Sequence[str]) -> FloatArray:
+    """Return the components by these names, zero where there are none."""
+    return np.array([p.get(name, 0.0) for name in names])
+
+
+def attitude(p: Values) -> FloatArray:
+    """Return R at the time of the parameters, (3, 3), from the rotation vector a."""
+    return np.asarray(Rotation.from_rotvec(vector(p, ATTITUDE)).as_matrix())
+
+
+def _general(p: Values) -> Any:
+    A = attitude(p)
+    return GeneralMotion.in_laboratory(p.get("ratio", 1.0), vector(p, B), A, A @ vector(p, OMEGA))
+
+
+def _elementary(p: Values) -> Any:
+    """Return an elementary motion: e2 is where the field is at the start, so that omega1 = 0."""
+    A, K = attitude(p), vector(p, B)
+    _, turn = in_plane(A.T @ K)
+    K = turn @ (A.T @ K)
+    motion = ElementaryMotion(p["ratio"], (K[1], K[2]), p["omega2"])
+    return of_any(p["ratio"], vector(p, B), turn.T @ np.array([0.0, p["omega2"], motion.omega3]), A)
+
+
+def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:
+    """Return Omega (3, ...) of elementary motions on the hyperbola (67), of fields K (3, ...) in the body."""
+    across = np.sqrt(K[0] * K[0] + K[1] * K[1])
+    along = K[2] * w * (w + (2 - r) * across) / (r * across * (across + w))
+    return np.stack([w * K[0] / across, w * K[1] / across, along])
+
+
+def _started(p: Values) -> dict[str, FloatArray]:
+    """Return the derivatives of Omega at the start of an elementary motion in its parameters, each (3,)."""
+    A, field, h = attitude(p), vector(p, B), 1e-30
+    x = np.array([p["ratio"], *(A.T @ field), p["omega2"]])
+    r, K1, K2, K3, w = x[:, None] + 1j * h * np.eye(5)
+    with np.errstate(all="ignore"):
+        slopes = _on_hyperbola(r, np.stack([K1, K2, K3]), w).imag / h
+    if not np.isfinite(slopes).all():
+        raise AtlasError("On a vertical line of the hyperbola omega2 and the field do not tell Omega.")
+    turned = A.T @ np.cross(field, _left(vector(p, ATTITUDE)), axisb=0, axisc=0)
+    by = {"ratio": slopes[:, 0], "omega2": slopes[:, 4]}
+    return by | dict(zip((*B, *ATTITUDE), [*(slopes[:, 1:4] @ A.T).T, *(slopes[:, 1:4] @ turned).T], strict=True))
+
+
+def in_plane(K: FloatArray) -> tuple[float, FloatArray]:
+    """Return the component of a field across e3, and the turn about e3 that brings it to e2."""
+    size = float(np.hypot(K[0], K[1]))
+    c, s = (K[1] / size, K[0] / size) if size else (1.0, 0.0)
+    return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+
+def _top(p: Values) -> Any:
+    A = attitude(p)
+    return TopMotion.in_laboratory(
+        (1.0, p["I3"]), direction_of(p), A, A @ vector(p, OMEGA),
+        coupling=(p["k2"], p["k3"]), linear=p["linear"], quadratic=p["quadratic"],
+    )  # fmt: skip
+
+
+def direction_of(p: Values) -> FloatArray:
+    """Return the direction of a top's field, of length 1."""
+    n = vector(p, DIRECTION)
+    return np.asarray(n / (np.linalg.norm(n) or 1.0))
+
+
+def _elliptic(p: Values) -> Any:
+    return EllipticMotion.in_laboratory(
+        (p["I1"], 1.0, p["I3"]), vector(p, B), attitude(p), z=p["z"], branch=int(p["branch"])
+    )
+
+
+def _asymmetric(p: Values) -> Any:
+    return of_any((p["I1"], 1.0, p["I3"]), vector(p, B), vector(p, OMEGA), attitude(p))
+
+
+def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
+    """Return the motions of parameters (S,), as a body or top to be integrated; without one they are no numbers."""
+    size = max(np.size(x) for x in p.values())
+    parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
+
+    def several(names: Sequence[str], none: float = 0.0) -> FloatArray:
+        return np.stack([parameters.get(name, np.full(size, none)) for name in names], -1)
+
+    A = Rotation.from_rotvec(several(ATTITUDE)).as_matrix()
+    moments = np.ones((size, 3))
+    moments[:, 0], moments[:, 2] = parameters.get("I1", 1.0), parameters.get("I3", parameters.get("ratio", 1.0))
+    coupling, potential, field, omega = moments, np.zeros((size, 2)), several(B), several(OMEGA)
+    K = np.vecmat(field, A)
+    if model.name == "top":
+        coupling, potential = several(("k2", "k2", "k3")), several(("linear", "quadratic"))
+        field = several(DIRECTION)
+        field = field / np.linalg.norm(field, axis=-1, keepdims=True)
+    elif model.name == "elementary":
+        omega = _on_hyperbola(moments[:, 2], K.T, parameters["omega2"]).T
+    elif model.name == "elliptic":
+        z, D = parameters["z"][:, None], moments.prod(-1, keepdims=True)
+        v = parameters["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
+        omega = -(1 + v / (z * moments + D)) * K
+    body = 2 * moments.max(-1) <= moments.sum(-1)
+    return Flow(moments, coupling, potential, field, A, np.where(body[:, None], omega, np.nan), error)
+
+
+@dataclass(frozen=True)
+class Model:
+    """A family: its parameters with those that stand unless they are freed, and what makes its motion."""
+
+    name: str
+    names: tuple[str, ...]
+    make: Callable[[Values], Any]
+    fixed: Mapping[str, float]
+    exact: bool = False
+    """Whether the motion has derivatives in all parameters by itself."""
+    start: Callable[[Values], Mapping[str, FloatArray]] | None = None
+    """Derivatives of Omega at the start in the parameters, where these tell it."""
+    slow: bool = False
+    """Whether an integration is faster than the closed form, over the times of a usual measurement."""
+    wider: tuple[str, ...] = ()
+    """Families that have all its motions and more."""
+
+    def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
+        """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
+        if self.exact:
+            with suppress(
+                AtlasError, ZeroDivisionError
+            ):  # on a separatrix, and where a sum is too large: by differences
+                start = self.start(p) if self.start else {}
+                own = [x for x in names if x not in ATTITUDE and not (start and x in OMEGA)]
+                asked = [*own, *(OMEGA if start else ()), *ATTITUDE]
+                by, turns = np.zeros((len(names), len(asked))), _left(vector(p, ATTITUDE))
+                for row, name in zip(by, names, strict=True):
+                    if name in own:
+                        row[own.index(name)] = 1.0
+                    elif name in ATTITUDE:
+                        row[-3:] = turns[:, ATTITUDE.index(name)]
+                    if start:
+                        row[len(own) : -3] = start[name]
+                return np.asarray(by @ motion.sensitivity(t, asked))
+        out = np.empty((t.size, len(names), 3))
+        for j, name in enumerate(names):
+            h = STEP * units[name]
+            up, down = (self._beside(p, name, step) for step in (h, -h))
+            width = up[1] - down[1]
+            turn = up[0].rotation(t) @ down[0].rotation(t).swapaxes(1, 2)
+            out[:, j] = Rotation.from_matrix(turn).as_rotvec() / width
+        return out
+
+    def _beside(self, p: Values, name: str, step: float) -> tuple[Any, float]:
+        """Return a motion beside another, and the step; the other itself where there is none."""
+        try:
+            return self.make({**p, name: p[name] + step}), step
+        except AtlasError:
+            return self.make(p), 0.0
+
+
+def _left(a: FloatArray) -> FloatArray:
+    """Return J with R(a + da) = (1 + [J da]x) R(a)."""
+    angle = float(np.linalg.norm(a))
+    hat = np.cross(np.eye(3), a)
+    if angle < STEP:
+        return np.asarray(np.eye(3) + hat / 2)
+    sine, rest = np.sinc(angle / np.pi), 2 * np.sin(angle / 2) ** 2 / angle**2
+    return np.asarray(np.eye(3) + rest * hat + (1 - sine) / angle**2 * (hat @ hat))
+
+
+_FIELD = (*B, *OMEGA, *ATTITUDE)
+MODELS: Mapping[str, Model] = {
+    m.name: m
+    for m in (
+        Model("general", ("ratio", *_FIELD), _general, {}, exact=True, wider=("asymmetric", "top")),
+        Model("ball", _FIELD, _general, {}, exact=True, wider=("general", "asymmetric")),
+        Model("free", ("ratio", *OMEGA, *ATTITUDE), _general, {}, exact=True, wider=("general", "asymmetric")),
+        Model(
+            "elementary", ("ratio", *B, "omega2", *ATTITUDE), _elementary, {},
+            exact=True, start=_started, wider=("general", "asymmetric"),
+        ),
+        Model(
+            "top", ("I3", "k2", "k3", "linear", "quadratic", *DIRECTION, *OMEGA, *ATTITUDE), _top,
+            {"n1": 0.0, "n2": 0.0, "n3": 1.0},
+        ),
+        Model(
+            "elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0},
+            slow=True, wider=("asymmetric",),
+        ),
+        Model("asymmetric", ("I1", "I3", *_FIELD), _asymmetric, {}, exact=True, slow=True),
+    )
+}  # fmt: skip
+"""Families by name."""
+
+
+def model_of(family: Any) -> Model:
+    """Return a family. Raises AtlasError for another name."""
+    if family not in MODELS:
+        raise AtlasError(f"The family of a fit is one of {', '.join(MODELS)}, not {family!r}.")
+    return MODELS[family]
+
+
+def field_of(model: Model, p: Values) -> FloatArray:
+    """Return what `field_in_body` shows of a motion, in the laboratory."""
+    return direction_of(p) if model.name == "top" else vector(p, B)
+
+
+def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
+    """Return parameters with R and Omega as they are at another time, as data of a kind see them."""
+    field = vector(p, B)
+    if model.name == "top" and kind in IN_BODY:
+        R = upright(R.T @ direction_of(p)).T
+    elif kind in IN_BODY:
+        field, R = R.T @ field, np.eye(3)
+    elif unseen(model, kind):
+        shown = upright(R[:, 2])
+        omega, R = shown.T @ R @ omega, shown
+    parameters = {
+        **p,
+        **_named(B, field),
+        **_named(OMEGA, omega),
+        **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec()),
+    }
+    return (
+        parameters | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])}
+        if model.name == "elementary"
+        else parameters
+    )
+
+
+def upright(n: FloatArray) -> FloatArray:
+    """Return the shortest turn that takes e3 to a unit vector."""
+    across = float(np.hypot(n[0], n[1]))
+    angle = np.arctan2(across, n[2]) / (across or 1.0)
+    return np.asarray(Rotation.from_rotvec([-n[1] * angle, n[0] * angle, 0.0]).as_matrix())
+
+
+def _named(names: Sequence[str], v: FloatArray) -> dict[str, float]:
+    return dict(zip(names, v.tolist(), strict=True))
+
+
+def units_of(model: Model, rate: float) -> dict[str, float]:
+    """Return the natural unit of each parameter, with a rate of the motion."""
+    sizes = {**dict.fromkeys((*B, *OMEGA, "k2", "k3"), rate), "linear": rate * rate, "quadratic": rate * rate}
+    return {name: sizes.get(name, 1.0) for name in model.names}
+
+
+def unseen(model: Model, kind: str) -> dict[str, float]:
+    """Return the parameters of the attitude that these data do not see, with the values that they are given."""
+    if kind in IN_BODY:
+        return {"a3": 0.0} if model.name == "top" else dict.fromkeys(ATTITUDE, 0.0)
+    return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

@@ -1,0 +1,316 @@
+"""Small nutations: where the axis hardly nutates, chi square has a minimum at each frequency that this may have.
+
+An elementary motion is one of a body of any ratio, with a field that goes with it. Along this valley the angle theta
+between axis and field oscillates at another frequency nu, and a small nutation, of size e, is R' = (1 + [v]x) R with
+
+    v = e cos(nu t) n + e sin(nu t) / nu (psi B + phi e3),
+
+n across field and axis, psi and phi the derivatives in theta of the rates of precession and spin. A periodogram of what
+an elementary motion leaves of the data, along the valley, tells which nutation there is, and so which body. Where the
+axis alone is seen, the spin is as free as the ratio, and each frequency is that of some spin.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.errors import AtlasError
+from atlas.fitting.least import SCORE
+from atlas.fitting.models import ATTITUDE, OMEGA, B, Values, attitude, in_plane, model_of, state, upright, vector
+from atlas.fitting.parameters import parameters_of
+from atlas.fitting.problem import Problem
+from atlas.fitting.search import grown
+
+HEIGHT = 1.0
+"""Nutation in standard errors of the data from which on one that is good is the one."""
+
+BEYOND = 14.0
+"""By how much chi square tells a nutation from noise, beyond what the best of so many frequencies takes off."""
+
+PHASE, MOST, FASTEST = 1.0, 10000, 10.0
+"""Radians at the end between nutations that are tried, how many they are at most, and how fast, in rates."""
+
+EVEN = 1e-3
+"""Part of a step by which steps of time differ that show no more than frequencies up to Nyquist's."""
+
+PEAKS = 6
+"""How many of them are followed."""
+
+APART = 0.01
+"""Difference of ratios that are not the same."""
+
+FINE = 20001
+"""Ratios of which the frequencies are computed, from which those are taken."""
+
+SMALL, LEVEL = 0.6, 2.0
+"""Ratios below which one of 1 is tried, and by how much chi square may rise for it."""
+
+STRIDE = 0.4
+"""Largest step on the way there, in the logarithm of the ratio."""
+
+MODERATE = 0.2, 1.8
+"""Ratios of bodies whose spins are tried where the axis alone is seen."""
+
+FLAT = 1e-6
+"""Sine of the angle between axis and field below which there is no nutation in it."""
+
+BLOCK = 400_000
+"""Turns that are computed at once."""
+
+
+def settled(
+    problem: Problem, tried: list[tuple[float, Any]], *, good: bool
+) -> tuple[list[tuple[float, Any]], str, str]:
+    """Return what was tried with the best small nutations, or one without any before all; and what is said of these.
+
+    The sentences are of what is not determined, and of a doubt. A line that is sought among N frequencies lowers chi
+    square by some 2 log N, whether or not it is there. Nothing is changed where the nutation is not small, or there is
+    no elementary motion beside it.
+    """
+    (_, x), data = tried[0], problem.data
+    motion, values = problem.motion(x)
+    noise = np.median(data.sigma) * (1.0 if data.known else np.sqrt(problem.reduced(problem.residuals(x))))
+    if not values["b"] or (good and _nutation(problem, x) > HEIGHT * noise):
+        return tried, "", ""
+    try:
+        other, mean = _elementary(problem, motion, values)
+        motion, steady = other.motion(mean)
+        steady = steady | dict(zip(OMEGA, motion.angular_velocity(0.0).tolist(), strict=True))
+        level = problem.inside(steady)
+        least = problem.chi_square(level)
+        slopes = other.jacobian(mean)
+    except AtlasError:
+        return tried, "", ""
+    count, starts = _nutations(problem, motion, steady, slopes)
+    for promise, begin in starts:
+        if promise < least - tried[0][0] - 2 * BEYOND:
+            break
+        nutating = grown(problem, problem.inside(begin), data.t.size)
+        tried = sorted([*tried, (problem.chi_square(nutating), nutating)], key=lambda minimum: minimum[0])
+    best, x = tried[0]
+    scale = problem.noise(best)
+    fallen, chance = (least - best) / scale, 2 * np.log(max(count, data.t.size))
+    if fallen > chance + BEYOND:
+        return tried, "", _rival(problem, tried, scale)
+    words = (
+        f"No nutation is seen beyond noise: one of {_nutation(problem, x):.2g} in the cosine between axis and field "
+        f"lowers chi square by {max(fallen, 0.0):.3g}, as noise does by some {chance:.2g}. The motion is taken for an "
+        "elementary one, with the axis at a constant angle to the field."
+    )
+    return [(least, level), *tried], words, ""
+
+
+def of_ratio_one(problem: Problem, tried: list[tuple[float, Any]]) -> list[tuple[float, Any]]:
+    """Return what was tried, before all a body of ratio 1 where the axis alone is seen and follows from that as well.
+
+    The axis tells M3 = I3 (Omega3 + K3), and hardly the ratio. At small ratios, where omega3 is as large as you please,
+    derivatives at one place do not show how far the field goes with the ratio.
+    """
+    best, x = tried[0]
+    values, ratio = problem.values(x), problem.params["ratio"]
+    if problem.data.kind != "axis" or not ratio.vary or not ratio.min < 1 < ratio.max or values["ratio"] > SMALL:
+        return tried
+    chi, other = best, x
+    for r in np.geomspace(values["ratio"], 1.0, 2 + int(-np.log(values["ratio"]) / STRIDE))[1:].tolist():
+        params = problem.params.changed(ratio={"value": r, "vary": False})
+        held = Problem(problem.model, problem.data, params, problem.loss, problem.rate)
+        K3 = float(attitude(values)[:, 2] @ vector(values, B))
+        start = values | {"ratio": r, "omega3": (values["omega3"] + K3) * values["ratio"] / r - K3}
+        try:
+            values = held.values(grown(held, held.inside(start), problem.data.t.size))
+            other = problem.inside(values)
+            chi = problem.chi_square(other)
+        except AtlasError:
+            return tried
+    return [(chi, other), *tried] if chi - best < LEVEL * problem.noise(best) else tried
+
+
+def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem, FloatArray]:
+    """Return the least squares of elementary motions, and what they lead to from the mean of one that hardly nutates.
+
+    Its rates of precession and spin, and its attitude with both turned back, are the means over the times of the data.
+    Where the axis alone is seen, they lead from the circle through the data too, which may have more turns.
+    """
+    model, data, t = model_of("elementary"), problem.data, problem.data.t
+    params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
+    other = Problem(model, data, params, problem.loss, problem.rate)
+    axis, e3 = vector(values, B) / values["b"], np.array([0.0, 0.0, 1.0])
+    rates = float(motion.precession_rate), float(motion.spin_rate)
+    if not np.isfinite(rates).all():
+        raise AtlasError("A separatrix has no mean rates.")
+    about, own = (Rotation.from_rotvec(np.outer(-rate * t, n)) for rate, n in zip(rates, (axis, e3), strict=True))
+    mean = (about * Rotation.from_matrix(motion.rotation(t)) * own).mean()
+    steady = [(axis, rates[0], mean)]
+    if data.kind == "axis":
+        steady.append(_circle(t, data.values))
+    found = []
+    for n, rate, at_rest in steady:
+        omega = rate * at_rest.inv().apply(n) + rates[1] * e3
+        start = {**values, **dict(zip((*B, *OMEGA, *ATTITUDE), [*n, *omega, *at_rest.as_rotvec()], strict=True))}
+        with np.errstate(all="ignore"):
+            field = n * _Steady(motion, start | {"b": 1.0}).modes(np.array([values["ratio"]])).field
+        across = float((in_plane(at_rest.inv().apply(field))[1] @ omega)[1])
+        x = other.inside({**start, **dict(zip(B, field.tolist(), strict=True)), "omega2": across})
+        found.append(grown(other, x, t.size))
+    return other, min(found, key=other.chi_square)
+
+
+def _circle(t: FloatArray, axes: FloatArray) -> tuple[FloatArray, float, Rotation]:
+    """Return the direction about which axes (N, 3) go round, their rate, and the shortest turn to where they start."""
+    n = np.linalg.eigh(np.cov(axes.T))[1][:, 0]
+    first = np.cross(np.cross(n, axes[0]), n)
+    first /= np.linalg.norm(first) or 1.0
+    second = np.cross(n, first)
+    rate, phase = np.polyfit(t, np.unwrap(np.arctan2(axes @ second, axes @ first)), 1)
+    along = float((axes @ n).mean())
+    start = along * n + np.sqrt(max(1 - along**2, 0.0)) * (np.cos(phase) * first + np.sin(phase) * second)
+    return n, float(rate), Rotation.from_matrix(upright(start))
+
+
+def _rival(problem: Problem, tried: list[tuple[float, Any]], scale: float) -> str:
+    """Return what is said of another body whose motion follows the data as well."""
+    best = problem.values(tried[0][1])["ratio"]
+    for chi, x in tried[1:]:
+        values = problem.values(x)
+        if (chi - tried[0][0]) / scale < BEYOND and abs(values["ratio"] - best) > APART:
+            return (
+                f"A body of ratio {values['ratio']:.4g} in a field b = {values['b']:.4g} follows these data as well: "
+                f"chi square is larger by {(chi - tried[0][0]) / scale:.2g} only."
+            )
+    return ""
+
+
+def _nutation(problem: Problem, x: FloatArray) -> float:
+    """Return the standard deviation of the cosine between axis and field."""
+    motion, values = problem.motion(x)
+    return float((np.asarray(motion.column(3, problem.data.t)) @ vector(values, B)).std() / values["b"])
+
+
+class _Modes(NamedTuple):
+    """Small nutations about one elementary motion, of bodies of several ratios or spins omega3, each (M,)."""
+
+    ratio: FloatArray
+    omega3: FloatArray
+    field: FloatArray
+    """Size of the field, along its direction."""
+    frequency: FloatArray
+    precession: FloatArray
+    """Derivative of the rate of precession in theta."""
+    spin: FloatArray
+
+    def part(self, places: Any) -> "_Modes":
+        """Return some of them."""
+        return _Modes(*(x[places] for x in self))
+
+
+class _Steady:
+    """An elementary motion: direction of the field, theta, rates of precession and spin."""
+
+    def __init__(self, motion: Any, values: Values) -> None:
+        self.motion, self.values, self.R = motion, values, attitude(values)
+        self.axis, self.omega = vector(values, B) / values["b"], vector(values, OMEGA)
+        K = self.R.T @ self.axis
+        self.cosine, self.sine = K[2], float(np.hypot(K[0], K[1]))
+        self.rate = (K[:2] @ self.omega[:2]) / self.sine**2
+
+    def modes(self, ratio: FloatArray, omega3: FloatArray | None = None) -> _Modes:
+        """Return the nutation of each ratio, of another spin if one is given, nan where there is none."""
+        r, w = np.broadcast_arrays(ratio, self.omega[2] if omega3 is None else omega3)
+        k, u, s = self.rate, self.cosine, self.sine
+        b = k * (u * k - r * w) / (r * w + (r - 2) * u * k)
+        across = r * w + (r - 2) * b * u - u * k  # the derivative in theta of Omega across the axis, k s
+        bend = 2 * b * s + k * s - u * across / s + u * u * k / s
+        precession = (across - u * k) / s
+        frequency = np.sqrt(across**2 + k * s * bend + r * (b * s) ** 2 + r * w * b * u)
+        return _Modes(r, w, b, frequency, precession, b * s - u * precession + s * k)
+
+    def turns(self, t: FloatArray, modes: _Modes) -> FloatArray:
+        """Return the turns v of unit nutations cos(nu t) and sin(nu t), (N, 2 M, 3)."""
+        e3 = np.asarray(self.motion.column(3, t))
+        n = np.cross(self.axis, e3) / self.sine
+        phase = np.outer(t, modes.frequency)
+        c, s = np.cos(phase)[:, :, None], np.sin(phase)[:, :, None]
+        pace = (np.outer(modes.precession, self.axis) + modes.spin[:, None] * e3[:, None]) / modes.frequency[:, None]
+        return np.concatenate([c * n[:, None] + s * pace, s * n[:, None] - c * pace], 1)
+
+    def beside(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
+        """Return the parameters of a motion with one nutation, of two amplitudes."""
+        h = 1e-4 / problem.rate
+        back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
+        R, steady = Rotation.from_rotvec(here).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
+        omega = steady + self.R.T @ (ahead - back) / (2 * h)
+        field = dict(zip(B, (mode.field[0] * self.axis).tolist(), strict=True))
+        return state(
+            problem.model, problem.data.kind, {**self.values, **field, "ratio": float(mode.ratio[0])}, R, omega
+        )
+
+
+def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> tuple[int, list[tuple[float, Values]]]:
+    """Return how many nutations were tried and the best, by how much chi square is to fall, and where they start.
+
+    `J` are the derivatives of the residuals in the parameters of the elementary motion, which follow a nutation.
+    """
+    data = problem.data
+    steady, span = _Steady(motion, values), float(np.ptp(data.t))
+    if data.kind == "field_in_body" or steady.sine < FLAT:
+        return 0, []  # the size of the field is seen, or there is no such angle
+    ratio = problem.params["ratio"]
+    r = np.linspace(ratio.min, ratio.max, FINE)[1:-1] if ratio.vary else np.array([values["ratio"]])
+    nyquist, steps = np.pi * data.t.size / span, np.diff(data.t)
+    even = np.ptp(steps) < EVEN * steps.mean()
+    fastest = nyquist if even else max(FASTEST * problem.rate, 2 * nyquist)
+    with np.errstate(all="ignore"):
+        lines = [steady.modes(r)]
+        if data.kind == "axis":
+            body = float(np.clip(values["ratio"], *MODERATE)) if ratio.vary else values["ratio"]
+            lines.append(steady.modes(np.array(body), np.linspace(-1.0, 1.0, FINE) * nyquist / body))
+    spaced = [part for line in lines for part in _spaced(line, fastest, span)]
+    if not spaced:
+        return 0, []
+    modes = _Modes(*map(np.concatenate, zip(*spaced, strict=True)))
+    falls, sizes = _periodogram(problem, steady, modes, problem.inside(values), J)
+    higher = np.r_[True, falls[1:] > falls[:-1]] & np.r_[falls[:-1] >= falls[1:], True]
+    best = sorted(np.flatnonzero(higher), key=lambda i: -falls[i])[:PEAKS]
+    return falls.size, [(float(falls[i]), steady.beside(problem, modes.part([i]), sizes[i])) for i in best]
+
+
+def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
+    """Return those of a row of nutations below a frequency that differ by `PHASE` over the times; none if none is."""
+    there = np.flatnonzero(modes.frequency < fastest)  # no nan
+    if not there.size:
+        return []
+    passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[there])))) * span
+    marks = np.arange(0.0, passed[-1], max(PHASE, passed[-1] / MOST)) if there.size > 1 else np.zeros(1)
+    return [modes.part(there[np.searchsorted(passed, marks)])]
+
+
+def _periodogram(
+    problem: Problem, steady: _Steady, modes: _Modes, x: FloatArray, J: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return by how much each nutation lowers chi square (M,), and its amplitudes (M, 2)."""
+    data, M = problem.data, modes.ratio.size
+    r = problem.residuals(x)
+    weight = np.sqrt(SCORE[problem.loss](r * r))
+    U, size, _ = np.linalg.svd(J * weight[:, None], full_matrices=False)
+    U = U[:, size > 1e-9 * size.max(initial=0.0)]
+    r = weight * r - U @ (U.T @ (weight * r))
+    rest = data.differences(steady.motion) if data.kind == "rotation" else np.zeros(3)
+    rows = []
+    for first in range(0, M, block := max(1, BLOCK // data.t.size)):
+        some_modes = modes.part(slice(first, first + block))
+        if data.kind == "angular_velocity":
+            h = 1e-4 / problem.rate
+            v = (steady.turns(data.t + h, some_modes) - steady.turns(data.t - h, some_modes)) / (2 * h)
+        else:
+            v = steady.turns(data.t, some_modes)
+        seen = data.slopes(steady.motion, v, np.zeros(3), np.zeros(3), rest) / data.sigma[:, :, None]
+        C = seen.reshape(r.size, -1) * weight[:, None]
+        C -= U @ (U.T @ C)
+        C = C.reshape(r.size, 2, -1)
+        square, by = np.einsum("nim,njm->mij", C, C, optimize=True), np.einsum("nim,n->mi", C, r)
+        size = np.linalg.solve(square, by[:, :, None])[:, :, 0]
+        rows.append(np.column_stack([np.vecdot(size, by), size]))
+    falls, *sizes = np.concatenate(rows).T
+    return falls, np.transpose(sizes)

@@ -1,0 +1,169 @@
+"""Parameters of a fit: values, bounds, expressions. Only expressions load lmfit, which evaluates them."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import hypot, inf, isfinite, isnan
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.fitting.data import Data
+from atlas.fitting.models import B, Model, Values, unseen
+
+LIMITS = {"ratio": (0.0, 2.0), "I1": (0.0, inf), "I3": (0.0, inf)}
+"""Bounds of moments of inertia; the lower one is excluded."""
+
+LENGTH = "sqrt(B1**2 + B2**2 + B3**2)"
+"""Expression of `b`, the one that needs no lmfit."""
+
+KEYS = ("value", "vary", "min", "max", "expr")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter as lmfit has it; `stderr` and `correl` are None where the data do not determine the parameter."""
+
+    value: float
+    vary: bool = True
+    min: float = -inf
+    max: float = inf
+    expr: str | None = None
+    stderr: float | None = None
+    correl: Mapping[str, float] | None = None
+
+    @property
+    def free(self) -> bool:
+        """Whether the fit varies the parameter itself."""
+        return self.vary and self.expr is None
+
+
+class Parameters(Mapping[str, Parameter]):
+    """Parameters of one fit by name."""
+
+    def __init__(self, parameters: Mapping[str, Parameter]) -> None:
+        self._by_name = dict(parameters)
+        self._lmfit: Any = None
+
+    def __getitem__(self, name: str) -> Parameter:
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        return len(self._by_name)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"_lmfit": None}
+
+    def changed(self, **parameters: Mapping[str, Any]) -> "Parameters":
+        """Return a copy in which the named parameters have other attributes."""
+        return Parameters(self._by_name | {name: replace(self[name], **new) for name, new in parameters.items()})
+
+    def values_with(self, free: Values) -> dict[str, float]:
+        """Return the values of all parameters, with those of `free` in place of their own."""
+        values = {name: free.get(name, p.value) for name, p in self.items()}
+        tied = [name for name, p in self.items() if p.expr]
+        if tied == ["b"] and self["b"].expr == LENGTH:
+            return values | {"b": hypot(*(values[name] for name in B))}
+        return self._evaluated(values) if tied else values
+
+    def _evaluated(self, values: Values) -> dict[str, float]:
+        self._lmfit = self.to_lmfit() if self._lmfit is None else self._lmfit
+        for name, p in self.items():
+            if p.expr is None:
+                self._lmfit[name].value = values[name]
+        self._lmfit.update_constraints()
+        return dict(self._lmfit.valuesdict())
+
+    def to_lmfit(self) -> Any:
+        """Return `lmfit.Parameters`. Raises AtlasError for an expression that has no value."""
+        import lmfit
+
+        parameters = lmfit.Parameters()
+        try:
+            for name, p in sorted(self.items(), key=lambda item: item[1].expr is not None):
+                parameters.add(name, None if p.expr else p.value, vary=p.vary, min=p.min, max=p.max, expr=p.expr)
+            parameters.update_constraints()
+        except (NameError, SyntaxError, TypeError, ValueError) as error:
+            raise AtlasError(f"An expression among the parameters has no value: {error}.") from error
+        ordered = lmfit.Parameters()
+        ordered.add_many(*(parameters[name] for name in self))
+        for name, p in self.items():
+            ordered[name].stderr, ordered[name].correl = p.stderr, p.correl
+        return ordered
+
+
+def parameters_of(model: Model, data: Data, params: Any, fix: Any = None) -> tuple[Parameters, dict[str, float]]:
+    """Return the parameters of a family with the user's, and the values that these give to start from.
+
+    Raises AtlasError for an unknown name, a name in both `params` and `fix`, and a value outside its bounds.
+    """
+    typed = _typed(params) | _typed(fix, held=True)
+    if twice := sorted({*(params or ())} & {*(fix or ())}):
+        raise AtlasError(f"{twice[0]} is in both fix and params: give it in one of them.")
+    hidden, found = unseen(model, data.kind), dict[str, Parameter]()
+    for name in model.names:
+        low, high = LIMITS.get(name, (-inf, inf))
+        value = model.fixed.get(name, hidden.get(name, 1.0 if name in LIMITS else 0.0))
+        found[name] = Parameter(value, name not in model.fixed and name not in hidden, low, high)
+    start = dict[str, float]()
+    for name, given in typed.items():
+        if name not in found and "expr" not in given:
+            raise AtlasError(f"{model.name.capitalize()} motions have no {name!r}: there are {', '.join(model.names)}.")
+        own = found.get(name, Parameter(0.0))
+        low, high = max(given.get("min", -inf), own.min), min(given.get("max", inf), own.max)
+        p = replace(own, **{"vary": True, **given, "min": low, "max": high})
+        if not (p.vary or "value" in given or p.expr or name in model.fixed):
+            raise AtlasError(f"{name} is held, but has no value: give one.")
+        if p.expr is None and "value" in given:
+            _check_value(name, p)
+            if p.vary:
+                start[name] = p.value
+        found[name] = p
+    if all(name in model.names for name in B):
+        found.setdefault("b", Parameter(0.0, vary=False, expr=LENGTH))
+    return Parameters(found), start
+
+
+def _typed(params: Any, *, held: bool = False) -> dict[str, dict[str, Any]]:
+    """Return the attributes that a user gave, by name."""
+    if params is not None and not isinstance(params, Mapping):
+        raise AtlasError(f"{'fix' if held else 'params'} is a mapping of names to values, not {params!r}.")
+    typed = dict[str, dict[str, Any]]()
+    for name, p in (params or {}).items():
+        given = {"value": p, "vary": False} if held else _attributes(name, p)
+        for key in given.keys() & {"value", "min", "max"}:
+            try:
+                given[key] = float(given[key])
+            except (TypeError, ValueError) as error:
+                raise AtlasError(f"{name}: {key} must be a number, not {given[key]!r}.") from error
+        low, high = given.get("min", -inf), given.get("max", inf)
+        if not low <= high:
+            raise AtlasError(f"{name}: min must not exceed max, but they are {low!r} and {high!r}.")
+        typed[name] = given
+    return typed
+
+
+def _attributes(name: str, p: Any) -> dict[str, Any]:
+    """Return the attributes of a number, of a mapping such as lmfit.create_params takes, or of an lmfit.Parameter."""
+    if isinstance(p, Mapping):
+        if unknown := sorted({*p} - {*KEYS, "brute_step", "is_init_value"}):
+            raise AtlasError(f"{name} has no attribute {unknown[0]!r}: there are {', '.join(KEYS)}.")
+        return {key: p[key] for key in KEYS if p.get(key) is not None}
+    if not hasattr(p, "vary"):
+        return {"value": p}
+    value = getattr(p, "init_value", None) if p.value in (p.min, p.max) else None
+    given = {"value": p.value if value is None else value, "vary": p.vary, "min": p.min, "max": p.max, "expr": p.expr}
+    if p.expr is not None or given["value"] == -inf:
+        del given["value"]  # none was given
+    return {key: x for key, x in given.items() if x is not None}
+
+
+def _check_value(name: str, p: Parameter) -> None:
+    """Raise AtlasError for nan, and for a fixed value outside its bounds."""
+    low, high = p.min, p.max
+    below = LIMITS.get(name, (-inf, inf))[0]
+    if isnan(p.value) or not (p.vary or (isfinite(p.value) and below < p.value and low <= p.value <= high)):
+        span = f"{'(' if low == below else '['}{low:g}, {high:g}{']' if isfinite(high) else ')'}"
+        bounds = "" if low == -inf and high == inf else f" in {span} and"
+        raise AtlasError(f"{name} must be{bounds} finite, not {p.value:g}.")

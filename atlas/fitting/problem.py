@@ -1,0 +1,282 @@
+"""Least squares of one family on some data: residuals and their derivatives."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.errors import AtlasError
+from atlas.fitting.data import STEP, Data
+from atlas.fitting.flow import ERROR, FINE
+from atlas.fitting.least import RHO
+from atlas.fitting.models import (
+    ATTITUDE,
+    DIRECTION,
+    OMEGA,
+    B,
+    Model,
+    Values,
+    field_of,
+    flow,
+    state,
+    units_of,
+    unseen,
+)
+from atlas.fitting.parameters import Parameters
+from atlas.lazy import cached_property
+
+HUGE, LOST = 1e6, 1e100
+"""A residual where there is no motion, and size from which on one is taken for that."""
+
+LONG = 3000.0
+"""Radians up to which motions without a fast closed form are integrated."""
+
+FULL: Mapping[str, Any] = {"ftol": 1e-5, "xtol": 1e-9, "gtol": 1e-10, "max_nfev": 60}
+"""Where SciPy's least squares end."""
+
+
+Vector: TypeAlias = Sequence[float] | FloatArray
+
+MEDIAN = 0.4549364
+"""Median of the square of a normal variable."""
+
+
+def lag(t: FloatArray, r: FloatArray) -> float:
+    """Return the correlation of residuals (N, k) at neighbouring times: 0 for white noise."""
+    r = r[np.argsort(t, kind="stable")]
+    return float((r[1:] * r[:-1]).sum() / ((r * r).sum() or 1.0))
+
+
+class Problem:
+    """Least squares of a family on data: the parameters say what is varied, between which bounds."""
+
+    def __init__(
+        self, model: Model, data: Data, params: Parameters, loss: str, rate: float, given: Values | None = None
+    ) -> None:
+        self.model, self.data, self.params, self.loss = model, data, params, loss
+        self.names = [name for name, p in params.items() if p.free]
+        self.rate, self.units = rate, units_of(model, rate)
+        self.given = given or {}
+        """Values that a user gave to start from."""
+        self.units_of_free = np.array([self.units[name] for name in self.names])
+        self.error = float(np.clip(1e-2 * np.median(data.sigma) / data.spread, FINE, ERROR))
+        self.followed = model.slow and float(np.ptp(data.t)) * rate < LONG
+        """Whether motions are integrated, not in closed form."""
+        self.together = True
+        """Whether motions are sought, many at once, by integrations."""
+        self._kept: tuple[Any, Any] = (None, None)
+        self._kept_slopes: tuple[Any, Any] = (None, None)
+
+    def shifted(self, centre: float, rate: float) -> "Problem":
+        """Return the same with times from another one on, and another typical rate."""
+        data = replace(self.data, t=self.data.t - centre)
+        return Problem(self.model, data, self.params, self.loss, rate, self.given)
+
+    @cached_property
+    def pinned(self) -> bool:
+        """Whether something is known of the state at t = 0, from which the search must start then."""
+        state = {*OMEGA, *ATTITUDE, *(B if "a1" in self.gauge else ())} - self.gauge.keys()
+        return any(
+            p.expr is not None or not p.vary or np.isfinite([p.min, p.max]).any() or name in self.given
+            for name, p in self.params.items() if name in state
+        )  # fmt: skip
+
+    @cached_property
+    def gauge(self) -> dict[str, float]:
+        """What the data never show."""
+        return unseen(self.model, self.data.kind)
+
+    @cached_property
+    def tied(self) -> bool:
+        """Whether some of the family's parameters are expressions of others."""
+        return any(self.params[name].expr is not None for name in self.model.names)
+
+    @cached_property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Least and largest values of what is varied."""
+        return tuple(np.array([getattr(self.params[name], x) for name in self.names]) for x in ("min", "max"))  # type: ignore[return-value]
+
+    def values(self, x: Vector) -> dict[str, float]:
+        """Return all parameters, of those that are varied."""
+        return self.params.values_with(dict(zip(self.names, map(float, x), strict=True)))
+
+    def several(self, X: FloatArray) -> dict[str, FloatArray]:
+        """Return all parameters, each (M,), of M motions."""
+        if self.tied:
+            rows = [self.values(x) for x in X]
+            return {name: np.array([row[name] for row in rows]) for name in self.model.names}
+        stand = {name: np.full(len(X), self.params[name].value) for name in self.model.names if name not in self.names}
+        return {**stand, **dict(zip(self.names, X.T, strict=True))}
+
+    def inner(self, X: FloatArray) -> FloatArray:
+        """Return values between the bounds."""
+        low, high = self.bounds
+        gap = np.minimum(1e-3, (high - low) / 4)
+        return np.asarray(np.clip(X, low + gap, high - gap))
+
+    def inside(self, values: Values) -> FloatArray:
+        """Return a start between the bounds."""
+        return self.inner(np.array([values.get(name, self.params[name].value) for name in self.names]))
+
+    def motion(self, x: Vector) -> tuple[Any, dict[str, float]]:
+        """Return the motion, and all parameters."""
+        key = tuple(x)
+        if self._kept[0] != key:
+            values = self.values(x)
+            self._kept = key, (self._made(values), values)
+        return self._kept[1]  # type: ignore[no-any-return]
+
+    def carried(self, x: Vector, time: float) -> dict[str, float]:
+        """Return the parameters that a motion has at another time."""
+        motion, values = self.motion(list(x))
+        R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
+        return state(self.model, self.data.kind, values, R.reshape(3, 3), omega.reshape(3))
+
+    def _made(self, values: Values) -> Any:
+        if not self.followed:
+            return self.model.make(values)
+        return flow(self.model, {name: np.array([values[name]]) for name in self.model.names}, self.error)
+
+    def alone(self) -> "Problem":
+        """Return the same for one motion at a time, with closed forms where they are fast."""
+        other = self.shifted(0.0, self.rate)
+        other.together = False
+        return other
+
+    def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
+        """Return the residuals of motions, (M, N k), huge ones where there is none."""
+        if not (self.together or self.followed):
+            return np.stack([self.residuals(x, places) for x in X])
+        data = self.data.part(places)
+        with np.errstate(all="ignore"):
+            r = data.differences(flow(self.model, self.several(X), self.error)) / data.sigma
+        return np.where(abs(r) < LOST, r, HUGE).reshape(len(X), -1)
+
+    def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
+        """Return the residuals of motions (M, N k), and their derivatives by differences (M, n, N k)."""
+        M, n = X.shape
+        if not (self.together or self.followed):
+            r = self.apart(X, places)
+            return r, np.stack([self._jacobian(x, row, places) for x, row in zip(X, r, strict=True)])
+        h = STEP * self.units_of_free
+        moved = X[:, None] + np.concatenate([np.zeros((1, n)), np.diag(h)])
+        r = self.apart(moved.reshape(-1, n), places).reshape(M, n + 1, -1)
+        return r[:, 0], (r[:, 1:] - r[:, :1]) / h[:, None]
+
+    def _jacobian(self, x: FloatArray, r: FloatArray, places: Any) -> FloatArray:
+        """Return the derivatives (n, N k), zero where there is no motion."""
+        try:
+            return np.asarray(self.jacobian(x, places).T)
+        except AtlasError:
+            return np.zeros((len(x), r.size))
+
+    def spin(self, X: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return I3, and what M3 has besides I3 omega3, at t = 0, each (M,)."""
+        motions = flow(self.model, self.several(X), self.error)
+        return motions.moments[:, 2], motions.coupling[:, 2] * np.vecdot(motions.field, motions.attitude[:, :, 2])
+
+    def chain(self, x: Vector, names: Sequence[str]) -> FloatArray:
+        """Return the derivatives of parameters in those that are varied, (len(names), free)."""
+        if not self.tied and all(name in self.model.names for name in names):
+            return np.array([[float(name == free) for free in self.names] for name in names])
+        out = np.empty((len(names), len(self.names)))
+        for j, free in enumerate(self.names):
+            h = STEP * self.units[free]
+            up, down = (self.values([*x[:j], x[j] + step, *x[j + 1 :]]) for step in (h, -h))
+            out[:, j] = [(up[name] - down[name]) / (2 * h) for name in names]
+        return out
+
+    def residuals(self, x: Vector, places: Any = slice(None)) -> FloatArray:
+        """Return the differences in standard errors, (N k,); huge ones where there is no motion."""
+        if self.followed:
+            return self._integrated(x, places)[0]
+        data = self.data.part(places)
+        try:
+            motion, _ = self.motion(list(x))
+            return np.asarray(data.differences(motion) / data.sigma).ravel()
+        except AtlasError:
+            return np.full(data.sigma.size * self.width, HUGE)
+
+    def _integrated(self, x: Vector, places: Any) -> tuple[FloatArray, FloatArray]:
+        """Return residuals and derivatives, which one integration gives; those of all data are kept till the next."""
+        key = tuple(x) if isinstance(places, slice) else None
+        if key is None or self._kept_slopes[0] != key:
+            r, J = self.turned(np.array([x]), places)
+            self._kept_slopes = key, (r[0], J[0])
+        return self._kept_slopes[1]  # type: ignore[no-any-return]
+
+    @cached_property
+    def width(self) -> int:
+        """Numbers at a time."""
+        return int({"axis": 2, "signal": self.data.values.shape[-1]}.get(self.data.kind, 3))
+
+    def jacobian(self, x: Vector, places: Any = slice(None)) -> FloatArray:
+        """Return the derivatives of the residuals in what is varied, (N k, free)."""
+        return np.asarray(self.slopes(x, places).reshape(-1, len(self.names)))
+
+    def slopes(self, x: Vector, places: Any = slice(None)) -> FloatArray:
+        """Return the derivatives, (N, k, free)."""
+        x, data = list(x), self.data.part(places)
+        if self.followed:
+            J = self._integrated(x, places)[1]
+            return np.asarray(np.moveaxis(J.reshape(len(x), data.t.size, -1), 0, -1))
+        motion, values = self.motion(x)
+        chain = self.chain(x, self.model.names)
+        moved = [i for i, row in enumerate(chain) if row.any()]
+        names = [self.model.names[i] for i in moved]
+        v = self._vectors(values, names, data.t, motion)
+        fields = np.array([self._field_by(name, values) for name in names]).reshape(-1, 3)
+        rest = data.differences(motion) if data.kind == "rotation" else np.zeros(3)
+        slopes = data.slopes(motion, v, field_of(self.model, values), fields, rest)
+        return np.asarray(-(slopes @ chain[moved]) / data.sigma[:, :, None])
+
+    def _vectors(self, values: Values, names: Sequence[str], t: FloatArray, motion: Any) -> FloatArray:
+        """Return the turns of R, (N, P, 3), or their derivatives in time where rates are seen."""
+        if self.data.kind != "angular_velocity":
+            return self.model.vectors(values, names, t, self.units, motion)
+        h = 1e-4 / self.rate
+        both = self.model.vectors(values, names, np.concatenate([t + h, t - h]), self.units, motion)
+        return np.asarray((both[: t.size] - both[t.size :]) / (2 * h))
+
+    def _field_by(self, name: str, values: Values) -> FloatArray:
+        """Return the derivative of what `field_in_body` shows, in the laboratory."""
+        if name in B:
+            return np.asarray(np.eye(3)[B.index(name)])
+        if name in DIRECTION:
+            h = STEP
+            up, down = (field_of(self.model, {**values, name: values[name] + step}) for step in (h, -h))
+            return np.asarray((up - down) / (2 * h))
+        return np.zeros(3)
+
+    def reduced(self, r: FloatArray) -> float:
+        """Return the reduced chi square, with a robust loss that of the bulk, from the median."""
+        if self.loss == "linear":
+            return float((r * r).sum() / (r.size - len(self.names)))
+        return float(np.median(r * r)) / MEDIAN
+
+    def chi_square(self, x: Vector) -> float:
+        """Return the sum of squares, of what the loss leaves of them."""
+        z = self.residuals(x) ** 2
+        return float(np.sum(RHO[self.loss](z)))
+
+    def noise(self, chi: float) -> float:
+        """Return the unit of differences of chi square: 1, or its least value a number where sigma is a guess."""
+        known = self.data.known and self.loss == "linear"
+        return 1.0 if known else chi / (self.data.t.size * self.width - len(self.names))
+
+
+def minimum(problem: Problem, x: FloatArray, *, steady: bool) -> tuple[FloatArray, FloatArray]:
+    """Return the least squares nearest to a start, or the start itself where it is steady, and the Jacobian there.
+
+    With a robust loss the Jacobian is the one that SciPy has weighted.
+    """
+    from scipy.optimize import least_squares
+
+    with np.errstate(invalid="ignore"):  # where a combination is not determined
+        found = least_squares(
+            problem.residuals, x, problem.jacobian, problem.bounds, loss=problem.loss, x_scale="jac",
+            **dict(FULL) | ({"gtol": np.inf} if steady else {}),
+        )  # fmt: skip
+    return np.asarray(found.x), np.asarray(found.jac)

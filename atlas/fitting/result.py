@@ -1,0 +1,391 @@
+"""What a fit found: the parameters with their errors, what the data do not see, whether the family is the right one."""
+
+import re
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray, positive, real
+from atlas.display import notebook
+from atlas.errors import AtlasError
+from atlas.fitting.alternatives import Alternative, equal_solutions, other_minima, warnings_of, wider_families
+from atlas.fitting.data import KINDS, Data
+from atlas.fitting.least import SCORE
+from atlas.fitting.parameters import Parameters
+from atlas.fitting.problem import Problem, lag, minimum
+from atlas.fitting.seen import Seen, gauge
+from atlas.lazy import cached_property
+from atlas.pictures import Curve, Layer, Plane, Points, Scene
+from atlas.trial.ledger.plain import html_table, table
+
+RENAMED = {"doubts": "warnings", "rivals": "alternatives"}
+"""Attributes of a fit by their former names."""
+
+SURPRISE = 5.0
+"""Standard deviations of chi square and of a correlation that are no chance."""
+
+FOLLOWED = 0.2
+"""Part of the spread of the data within which a motion follows them."""
+
+HEAVY, MANY = 3.0, 20
+"""Root mean square of residuals beside their median, and count of measured numbers, from which some are outliers: that
+of many normal ones is 1.5, of fewer than so many now and then 3."""
+
+FARTHEST = 1e9
+"""Spans of the data after which no horizon is looked for."""
+
+
+class Prediction(NamedTuple):
+    """A predicted quantity and its standard errors: of rotations angles about the laboratory's axes, (..., 3)."""
+
+    value: FloatArray
+    sigma: FloatArray
+
+
+@dataclass(eq=False)
+class Fit:
+    """A fitted motion, as `atlas.fit` returns it; `str`, or `report()`, is the text that `atlas fit` prints.
+
+    Attributes
+    ----------
+    params : lmfit.Parameters
+        Values with ``stderr`` and ``correl``, both None where the data do not determine a parameter. Reading this
+        attribute loads lmfit; `names`, `covariance` and `record()` do not.
+    names : tuple of str
+        The varied parameters, in the order of `covariance`.
+    covariance : ndarray, shape (n, n)
+        Covariance of the varied parameters.
+    redchi : float
+        Chi square over the degrees of freedom `nfree`; 1 where sigma was not given, for the scatter is `sigma` then.
+    sigma : float or ndarray, shape (N,)
+        Standard error of a measurement, given or found; `known` says which.
+    t : ndarray, shape (N,)
+        Times, ascending.
+    residuals : ndarray, shape (N, k)
+        Data minus motion at `t`, in standard errors.
+    motion : Motion
+        The fitted motion; its time 0 is `epoch`.
+    undetermined : tuple of str
+        A sentence for each combination of parameters that the data do not determine.
+    warnings : tuple of str
+        A sentence for each sign that the motion or its parameters are not the true ones; `atlas fit` then exits with 1.
+    alternatives : tuple of Alternative
+        Other parameters that the data leave possible, each with `redchi`, `values`, `equal` and `family`: solutions
+        that are equal by a symmetry of the data (`equal` is True, and a warning says so), wider families that fit as
+        well with other values, and other minima of chi square.
+    family, kind, epoch : str, str, float
+        Family of motions, kind of data, and time of the parameters.
+
+    Notes
+    -----
+    A fit can be copied and pickled; a signal's function must then be one that pickle takes, defined in a module.
+    """
+
+    family: str
+    kind: str
+    epoch: float
+    parameters: Parameters
+    names: tuple[str, ...]
+    covariance: FloatArray
+    residuals: FloatArray
+    t: FloatArray
+    sigma: Any
+    redchi: float
+    motion: Any
+    undetermined: tuple[str, ...]
+    warnings: tuple[str, ...]
+    alternatives: tuple[Alternative, ...]
+    problem: Problem
+    _free: FloatArray
+    _units: FloatArray
+    _whole: FloatArray
+
+    @classmethod
+    def of(
+        cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
+    ) -> "Fit":
+        """Return the fit from the best of what was tried; a steady motion stays where it was found."""
+        data = problem.data
+        x, jac = minimum(problem, tried[0][1], steady=bool(steady))
+        motion = problem.model.make(problem.values(x))
+        r, J = problem.residuals(x), problem.jacobian(x)
+        free = r.size - len(x)
+        score = SCORE[problem.loss](r * r)
+        redchi = problem.reduced(r)
+        scale = 1.0 if data.known else float(np.sqrt(redchi))
+        seen = Seen(problem, motion, x, J, jac if problem.loss != "linear" else J, score * r, scale)
+        sigma = data.sigma[:, 0] * scale
+        residuals = (r / scale).reshape(data.t.size, -1)
+        redchi = redchi / scale**2
+        parameters = seen.parameters()
+        words = seen.words()
+        equal = equal_solutions(problem, x, redchi, signs=bool(words or steady))
+        wider = [] if steady or problem.loss != "linear" else wider_families(problem, x, parameters, scale)
+        return cls(
+            family=problem.model.name, kind=data.kind, epoch=epoch, parameters=parameters,
+            names=tuple(problem.names), covariance=seen.covariance, residuals=residuals, t=data.t + epoch,
+            sigma=float(sigma[0]) if np.ptp(sigma) == 0 else sigma, redchi=redchi, motion=motion,
+            undetermined=(*[steady] * bool(steady), *words, *gauge(problem)),
+            warnings=(*[doubt] * bool(doubt), *_warnings(problem, x, residuals, redchi, free),
+                      *warnings_of(parameters, equal, wider)),
+            alternatives=(*equal, *(other for _, other in wider), *other_minima(problem, tried, free * scale**2)),
+            problem=problem,
+            _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole,
+        )  # fmt: skip
+
+    def __getattr__(self, name: str) -> Any:
+        """Say the new name of an attribute that was renamed."""
+        new = RENAMED.get(name)
+        raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a pickle holds: lmfit's objects are made again when they are read."""
+        return {name: value for name, value in self.__dict__.items() if name != "params"}
+
+    def __repr__(self) -> str:
+        return f"<Fit: {self._title}>"
+
+    @cached_property
+    def params(self) -> Any:
+        """The parameters as `lmfit.Parameters`, with ``stderr`` and ``correl``."""
+        return self.parameters.to_lmfit()
+
+    @property
+    def nfree(self) -> int:
+        """Degrees of freedom: numbers measured minus parameters varied."""
+        return self.residuals.size - len(self.names)
+
+    @property
+    def _x(self) -> FloatArray:
+        return np.array([self.parameters[name].value for name in self.names])
+
+    def predict(self, t: Any, of: str = "") -> Prediction:
+        """Return what is to be expected at times of any shape, with its standard errors.
+
+        `of` is "rotation", "axis", "angular_velocity", "field_in_body" or, where one was fitted, "signal": what was
+        measured, without it. The standard error of a rotation is the angle about each axis of the laboratory; where it
+        depends on what the data do not determine, it is infinite. Raises AtlasError for another name, and for times as
+        `rotation` does.
+        """
+        kind = {"quaternion": "rotation", "": self.kind}.get(of, of)
+        if kind not in (*KINDS, "signal") or (kind == "signal" and self.kind != "signal"):
+            raise AtlasError(f"Predicted are rotation, axis, angular_velocity, field_in_body and signal, not {of!r}.")
+        times = real(t, "t")
+        flat = times.ravel() - self.epoch
+        own = self.problem.data
+        data = Data(kind, flat, np.zeros((flat.size, 1)), np.ones((flat.size, 1)), own.function)
+        value = data.of(self.motion, flat)
+        if kind == "axis":
+            R, value = value, value[:, :, 2]
+        there = Problem(
+            self.problem.model,
+            replace(data, values=value if kind != "axis" else R),
+            self.problem.params,
+            "linear",
+            self.problem.rate,
+        )
+        there.followed = False
+        J = -there.slopes(self._x)
+        if kind == "axis":
+            J = R[:, :, :1] * J[:, :1] + R[:, :, 1:2] * J[:, 1:]
+        sigma = np.sqrt(np.einsum("nki,ij,nkj->nk", J, self._whole, J).clip(0))
+        lost = abs(J @ self._free).sum(-1) > 1e-6 * abs(J * self._units).max(initial=1.0)
+        sigma = np.where(lost, np.inf, sigma)
+        return Prediction(value.reshape(*times.shape, *value.shape[1:]), sigma.reshape(*times.shape, -1))
+
+    def horizon(self, error: float, of: str = "") -> float:
+        """Return the time up to which a prediction is good: its largest standard error stays below `error` till then.
+
+        In radians for rotations and axes. Infinite if it is good for 1e9 spans of the data. Where it is not good after
+        their end, the last of their times at which it is, and minus infinity if it is at none: nowhere. Raises
+        AtlasError for what is no positive number, and as `predict` does.
+        """
+        error = positive(error, "The error")
+        first, last = float(self.t.min()), float(self.t.max())
+        span = last - first
+        cycle = np.linspace(0, 4 * np.pi / self.problem.rate, 24)
+
+        def bad(ahead: float) -> bool:
+            return bool((self.predict(last + ahead + cycle, of).sigma > error).any())
+
+        if bad(0.0):
+            good = (self.predict(self.t, of).sigma <= error).all(-1)
+            return float(self.t[good].max(initial=-np.inf))
+        low, high = 0.0, span
+        while not bad(high):
+            low, high = high, 2 * high
+            if high > FARTHEST * span:
+                return float("inf")
+        while high - low > 1e-3 * span and high - low > 1e-3 * high:
+            middle = (low + high) / 2
+            low, high = (low, middle) if bad(middle) else (middle, high)
+        return last + low
+
+    def conf_interval(self, **options: Any) -> Any:
+        """Return lmfit's confidence intervals, by chi square along each parameter: pairs (probability, value) by name.
+
+        `options` are lmfit's: ``p_names`` the parameters, or else all, and ``sigmas`` such as [1, 2]. Each end takes
+        some fits of the others. Raises AtlasError where the data do not determine a parameter: fix one, or free fewer.
+        """
+        import lmfit
+
+        def slopes(p: Any) -> FloatArray:
+            free = [i for i, name in enumerate(self.names) if p[name].vary]
+            return self.problem.jacobian([p[n].value for n in self.names])[:, free]
+
+        minimizer = lmfit.Minimizer(
+            lambda p: self.problem.residuals([p[n].value for n in self.names]), self.parameters.to_lmfit(),
+            Dfun=slopes, scale_covar=not self.problem.data.known,
+        )  # fmt: skip
+        chi_square = float((self.problem.residuals(self._x) ** 2).sum())
+        best = lmfit.minimizer.MinimizerResult(
+            params=self.parameters.to_lmfit(), chisqr=chi_square, nfree=self.nfree, nvarys=len(self.names)
+        )
+        try:
+            return lmfit.conf_interval(minimizer, best, **options)
+        except lmfit.MinimizerException as error:
+            raise AtlasError(f"There are no confidence intervals of these parameters: {error}".strip()) from error
+
+    def rows(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows of the parameters."""
+        heading, rows = ["parameter", "value", "standard error", ""], []
+        for name, p in self.parameters.items():
+            note = "" if p.free else f"= {p.expr}" if p.expr else "fixed"
+            sought = p.free or any(
+                self.parameters[x].free for x in re.findall(r"\w+", p.expr or "") if x in self.parameters
+            )
+            if p.stderr:
+                digits = max(0, 1 - int(np.floor(np.log10(p.stderr))))
+                rows.append([name, f"{p.value:.{digits}f}", f"{p.stderr:.{digits}f}", note])
+            else:
+                note = f"{note}, not determined".removeprefix(", ") if sought else note
+                rows.append([name, f"{p.value:.6g}", "-", note])
+        return heading, rows
+
+    @property
+    def _title(self) -> str:
+        count = self.t.size
+        return (
+            f"{self.family} motion, {count} times of {self.kind.replace('_', ' ')}: reduced chi square "
+            f"{self.redchi:.3f}, sigma {self.noise} {'given' if self.known else 'found'}"
+        )
+
+    @property
+    def noise(self) -> str:
+        """The standard error of a measurement, in words."""
+        return f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{self.sigma.min():.3g} to {self.sigma.max():.3g}"
+
+    @property
+    def known(self) -> bool:
+        """Whether the standard error of a measurement was given."""
+        return self.problem.data.known
+
+    @property
+    def others(self) -> list[str]:
+        """The alternatives, in sentences."""
+        return [other.sentence(self.family, self.parameters) for other in self.alternatives]
+
+    def _sentences(self) -> list[str]:
+        return [*self.undetermined, *self.warnings, *self.others]
+
+    def report(self) -> str:
+        """Return the table of parameters with their errors, then `undetermined`, `warnings` and the alternatives."""
+        return "\n".join([self._title, table(*self.rows()), *self._sentences()])
+
+    __str__ = report
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return html_table(self._title, *self.rows()) + "".join(f"<p>{escape(x)}</p>" for x in self._sentences())
+
+    def record(self) -> dict[str, Any]:
+        """Return the fit as plain data for JSON."""
+        values = {
+            name: {"value": p.value, "stderr": p.stderr, "vary": p.free, "expr": p.expr}
+            for name, p in self.parameters.items()
+        }
+        return {
+            "family": self.family, "kind": self.kind, "epoch": self.epoch, "times": int(self.t.size), "params": values,
+            "redchi": self.redchi, "sigma": np.asarray(self.sigma).tolist(), "names": list(self.names),
+            "covariance": self.covariance.tolist(), "undetermined": list(self.undetermined),
+            "warnings": list(self.warnings),
+            "alternatives": [{**other._asdict(), "values": dict(other.values)} for other in self.alternatives],
+        }  # fmt: skip
+
+    def scene(self) -> Scene:
+        """Draw data and curve, and the residuals in standard errors below."""
+        data = self.problem.data
+        axis = data.kind in ("rotation", "axis")
+        seen = data.values[:, :, 2] if data.kind == "rotation" else data.values
+        t = np.linspace(self.t.min(), self.t.max(), 2000)
+        curve = self.predict_values(t)
+        name = {"angular_velocity": r"\Omega", "field_in_body": "K"}.get(data.kind, "R" if axis else "s")
+        colours = ("main", "second", "third")
+        layers: list[Layer] = []
+        for i in range(min(seen.shape[1], 3)):
+            label = f"${name}_{{{i + 1}{'3' if axis else ''}}}$"
+            layers += [
+                Curve(np.column_stack([t, curve[:, i]]), colours[i], label),
+                Points(np.column_stack([self.t, seen[:, i]]), "sample"),
+            ]
+        rest = [Points(np.column_stack([self.t, r]), "sample") for r in self.residuals.T]
+        what = f"{self.family} motion fitted to {self.t.size} times of {self.kind.replace('_', ' ')}"
+        return Scene(
+            title=f"A {what}",
+            caption=(
+                "Above, the data as points and the fitted motion as curves; below, the residuals in standard errors. "
+                f"{self._title[:1].upper()}{self._title[1:]}."
+            ),
+            alt=f"A {what}: points on curves against time, and residuals scattered about zero.",
+            panels=(
+                Plane(tuple(layers), "$t$", "data", legend="beside"),
+                Plane(tuple(rest), "$t$", r"residual, in $\sigma$"),
+            ),
+            size=(140.0, 120.0),
+            parameters={name: p.value for name, p in self.parameters.items()},
+        )
+
+    def predict_values(self, t: FloatArray) -> FloatArray:
+        """Return what is drawn as a curve, (N, k): of rotations and axes the third axis."""
+        values = self.problem.data.of(self.motion, t - self.epoch)
+        return values[:, :, 2] if values.ndim == 3 else values
+
+    def plot(self, style: Any = None) -> Any:
+        """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
+        return notebook("pictures").to_figure(self.scene(), style)
+
+
+def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:
+    """Return what speaks against the family."""
+    out = []
+    data, wider = problem.data, problem.model.wider
+    other = "the family is not that of the motion ("
+    other += f"family {' or '.join(wider)} is wider; drag, a second field)" if wider else "drag, a second field)"
+    off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
+    surprising = data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free)
+    if off > FOLLOWED * data.spread and (surprising or not data.known):
+        out.append(
+            "The motion does not follow the data: give a start by params (--start), fix what is known, or measure more "
+            "densely somewhere."
+        )
+    if surprising and problem.loss == "linear":
+        reason = (
+            f"{other}, sigma is too small, or this is a false minimum, as there are where a nutation is small: give a "
+            "start by params (--start)"
+            if redchi > 1
+            else "sigma is too large"
+        )
+        out.append(f"The reduced chi square is {redchi:.3g}, where 1 +- {np.sqrt(2 / free):.2g} is expected: {reason}.")
+    lengths = np.linalg.norm(r, axis=1)
+    uneven = np.sqrt(np.mean(lengths**2)) > HEAVY * np.median(lengths)
+    if problem.loss == "linear" and uneven and r.size >= MANY:
+        out.append("Some residuals are far larger than most: if they are outliers, loss='soft_l1' (--loss) bears them.")
+    correlation = lag(problem.data.t, r)
+    if abs(correlation) > SURPRISE / np.sqrt(r.size):
+        out.append(
+            f"Neighbouring residuals are correlated ({correlation:.2f}, where 0 +- {1 / np.sqrt(r.size):.2g} is "
+            f"expected): {other}, or the noise is not white."
+        )
+    return out

@@ -1,0 +1,252 @@
+"""Where a fit starts: many motions follow a short arc of the data, which grows while the worse ones are dropped.
+
+What data tell at a time by themselves, an attitude, a rate, is taken from them; the rest is random, always the same.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.fitting.data import Data, difference
+from atlas.fitting.least import Crowd
+from atlas.fitting.models import ATTITUDE, IN_BODY, OMEGA, B, upright
+from atlas.fitting.problem import Problem
+
+TURN = 0.5
+"""Turn, in radians or parts of the spread, over which data tell how fast they change."""
+
+FIELD = 1.5
+"""Largest field that is tried, in rates at which the data change."""
+
+NOISE = 6.0
+"""Standard errors that are no noise."""
+
+ARC, WINDOW = 1.5, 0.7
+"""Radians of the first arc, and of that from which a rate is taken, on either side of the middle."""
+
+GROWTH, KEPT, ROUNDS, FAR = 1.5, 0.4, 4, 15.0
+"""Growth of the arc, share of the motions that is kept then, steps on each, and radians at which the search ends."""
+
+LOST, SEVERAL = 0.35, 6
+"""Part of the spread by which a prediction of so many data may be off while its phases are still right."""
+
+MANY = 24
+"""Motions that are kept after the first step at least."""
+
+LAST = 60
+"""Steps on all the data at most."""
+
+STARTS = {"rotation": 12, "axis": 40, "angular_velocity": 12, "field_in_body": 24, "signal": 200}
+"""Motions that are tried at first; three times as many where none of them is good."""
+
+PARTS, BEST = (0.5, 0.25, 0.75), 3
+"""Where in the data motions are sought, one after another, and how many are followed to all of them."""
+
+
+def turns(data: Data, i: Any, j: Any) -> FloatArray:
+    """Return how much changes between two times, as an angle or in parts of the spread."""
+    x = data.values
+    if data.kind == "rotation":
+        return np.asarray(np.linalg.norm(difference(x[j], x[i]), axis=-1))
+    return np.asarray(np.linalg.norm(x[j] - x[i], axis=-1) / (np.linalg.norm(x.std(0)) or 1.0))
+
+
+def rate_of(data: Data, least: float = TURN) -> float:
+    """Return a typical rate at which the data change, by so much, in sorted times."""
+    rate, n = 0.0, data.t.size
+    for k in np.unique(np.geomspace(1, max(n // 6, 1), 24).astype(int)):
+        gap = data.t[k:] - data.t[:-k]
+        short = np.flatnonzero((gap > 0) & (gap <= np.median(gap) * 1.5))
+        if not short.size:
+            continue
+        turn = np.median(turns(data, short, short + k))
+        rate = float(turn / np.median(gap[short]))
+        if turn > least:
+            break
+    return rate or 1 / float(np.ptp(data.t))
+
+
+def centre_of(data: Data, rate: float, share: float) -> float:
+    """Return the time of a datum with most of the others within parts of a turn, near a part of them all."""
+    t, count = data.t, np.zeros(data.t.size)
+    for width in (WINDOW / rate, 2 * ARC / rate):
+        count += np.searchsorted(t, t + width, "right") - np.searchsorted(t, t - width)
+    most = np.flatnonzero(count >= 0.8 * count.max())
+    return float(t[most[np.argmin(abs(most - share * t.size))]])
+
+
+def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
+    """Return what is seen at t = 0 and its rate of change, by a parabola; of rotations R and Omega in the body."""
+    order = np.argsort(abs(data.t), kind="stable")
+    near = order[: max(3, int((abs(data.t) < WINDOW / rate).sum()))]
+    t, x = data.t[near], data.values[near]
+    start = np.zeros(0)
+    if data.kind == "rotation":
+        few = x[:9]
+        off = np.linalg.norm(difference(few[:, None], few), axis=-1)
+        start = few[np.argmin(np.median(off, 1))]
+        x = difference(start.T @ x, np.eye(3))
+    powers = t[:, None] ** np.arange(3 if near.size > 6 else 2)
+    weights = np.ones(len(t))
+    for _ in range(5):  # outliers are not to carry it off
+        coefficients = np.linalg.lstsq(powers * weights[:, None], x * weights[:, None])[0]
+        miss = np.linalg.norm(x - powers @ coefficients, axis=-1)
+        weights = 1 / np.sqrt(np.maximum(miss, np.median(miss) or 1.0))
+    if data.kind == "rotation":
+        A = start @ Rotation.from_rotvec(coefficients[0]).as_matrix()
+        return A, np.asarray(coefficients[1] + np.cross(coefficients[1], coefficients[0]) / 2)
+    return coefficients[0], coefficients[1]
+
+
+def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str, FloatArray]:
+    """Return random parameters (count,), as the data have them at t = 0; `largest` is a field's size in rates."""
+    data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
+    size = rng.permuted(np.geomspace(0.05, largest, count))[:, None] * rate
+    field, omega = rng.normal(size=(2, count, 3)) * size
+    R = np.tile(np.eye(3), (count, 1, 1))
+    off = 0.1 * rate if np.sort(abs(data.t))[4] * rate < 2 * WINDOW else size
+    if data.kind == "rotation":
+        A, spin = local(data, rate)
+        R, omega = np.tile(A, (count, 1, 1)), spin + off * rng.normal(size=(count, 3))
+    elif data.kind == "axis":
+        n, slope = local(data, rate)
+        n = n / np.linalg.norm(n)
+        R = np.tile(upright(n), (count, 1, 1))
+        omega = np.cross(n, slope) @ R[0] + off * rng.normal(size=(count, 3)) * [1, 1, 0]
+        omega[:, 2] = rng.permuted(np.linspace(-1, 1, count)) ** 3 * 6 * rate
+    elif data.kind == "angular_velocity":
+        omega = np.tile(local(data, rate)[0], (count, 1))
+    elif data.kind == "field_in_body":
+        K, slope = local(data, rate)
+        field = np.tile(K, (count, 1))
+        across = np.cross(slope, K) / (K @ K)  # K' = K x Omega
+        omega = across + np.outer(rng.permuted(np.linspace(-1, 1, count)) ** 3 * 6 * rate, K / np.linalg.norm(K))
+    else:
+        R = Rotation.random(count, random_state=seed).as_matrix()
+    if problem.model.name == "top" and data.kind in IN_BODY:
+        R = np.array([upright(n / np.linalg.norm(n)).T for n in field])
+    elif problem.gauge == {} and data.kind == "axis":
+        R = R @ Rotation.from_rotvec(np.outer(rng.uniform(-np.pi, np.pi, count), [0, 0, 1])).as_matrix()
+    a = Rotation.from_matrix(R).as_rotvec()
+    I1, I3 = np.exp(rng.uniform(-0.5, 0.5, (2, count)))
+    I1, I3 = np.where(abs(I1 - I3) < 1, [I1, I3], 1.0)
+    parameters = {"ratio": rng.uniform(0.3, 1.8, count), "I1": I1, "I3": I3}
+    for names, x in ((B, field), (OMEGA, omega), (ATTITUDE, a)):
+        parameters |= dict(zip(names, x.T, strict=True))
+    if problem.model.name == "top":
+        parameters["I3"] = parameters["ratio"]
+        parameters |= dict(zip(("k2", "k3"), rng.normal(size=(2, count)) * size.T / 2, strict=True))
+        parameters |= dict(zip(("linear", "quadratic"), rng.normal(size=(2, count)) * size.T**2, strict=True))
+        parameters |= dict(zip(("n1", "n2", "n3"), rng.normal(size=(3, count)), strict=True))
+        if data.kind == "angular_velocity":
+            parameters["linear"], n = _pulled(problem, parameters["I3"], rng)
+            a = Rotation.from_matrix([upright(x).T for x in n]).as_rotvec()
+            parameters |= dict(zip(ATTITUDE, a.T, strict=True))
+    D = I1 * I3
+    ends = np.sort(-D[:, None] / np.stack([I1, np.ones(count), I3], -1), -1)
+    inner = ends[:, 0] + rng.uniform(0.1, 0.9, count) * (ends[:, 1] - ends[:, 0])
+    parameters["z"] = np.where(rng.random(count) < 0.3, inner, ends[:, 2] + np.exp(rng.normal(0, 1.5, count)))
+    parameters["omega2"] = np.vecdot(omega, _across(np.vecmat(field, R)))
+    return parameters
+
+
+def _pulled(problem: Problem, I3: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
+    """Return A (M,) and n in the body (M, 3) of tops of moments I3 (M,) whose rates change as is seen at t = 0.
+
+    I Omega' = [I Omega, Omega] + A [n, e3] tells the part of A n across e3; how large n3 is, is random.
+    """
+    w, slope = local(problem.data, problem.rate)
+    J = np.stack([np.ones_like(I3), np.ones_like(I3), I3], -1)
+    torque = J * slope - np.cross(J * w, w)
+    n3, linear = rng.uniform(-0.95, 0.95, I3.size), problem.params["linear"]
+    sign = np.where(rng.random(I3.size) < 0.5, -1.0, 1.0)
+    sign = np.clip(sign, -1.0 if linear.min < 0 else 1.0, 1.0 if linear.max > 0 else -1.0)
+    size = np.maximum(np.hypot(torque[:, 0], torque[:, 1]), 1e-9 * problem.rate**2)
+    A = sign * size / np.sqrt(1 - n3 * n3)
+    return A, np.stack([-torque[:, 1] / A, torque[:, 0] / A, n3], -1)
+
+
+def _across(K: FloatArray) -> FloatArray:
+    """Return the unit vectors along the parts of fields across e3, (..., 3)."""
+    flat = K * [1.0, 1.0, 0.0]
+    return np.asarray(flat / np.maximum(np.linalg.norm(flat, axis=-1, keepdims=True), 1e-300))
+
+
+def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
+    """Yield the best motions about some time, the problem from then on, and how many data they follow; and others.
+
+    A start that is given in full is tried first on all data, as it stands.
+    """
+    if set(problem.names) <= problem.given.keys():
+        yield 0.0, problem, problem.inside(problem.given), problem.data.t.size
+    for k, share in enumerate(PARTS):
+        # what turns fast by little, as in a strong field, is not seen in larger turns
+        small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
+        rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
+        largest = FIELD * (4.0 if rate > problem.rate else 1.0)
+        centre = 0.0 if problem.pinned else centre_of(problem.data, rate, share)
+        there = problem.shifted(centre, rate)
+        for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, largest, last=k == len(PARTS) - 1):
+            yield centre, there, x, count
+
+
+def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bool) -> Iterator[tuple[FloatArray, int]]:
+    """Yield the best motions of an arc about t = 0, and how many data it has; none if all are lost, but the last."""
+    order = np.argsort(abs(problem.data.t), kind="stable")
+    away = abs(problem.data.t[order]) * problem.rate
+    first = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
+    several = random(problem, starts, seed, largest)
+    ones = np.ones(starts)
+    several |= {name: value * ones for name, value in problem.given.items()}
+    X = np.stack([several.get(name, problem.params[name].value * ones) for name in problem.names], -1)
+    crowd, count = Crowd(problem, X), min(first, len(order))
+    crowd.refine(order[:count], 1)
+    crowd.drop(max(MANY, int(len(crowd.X) * KEPT)))
+    crowd.refine(order[:count], 2 * ROUNDS - 1)
+    while count < len(order) and away[count] < FAR:
+        crowd.drop(max(BEST, int(len(crowd.X) * KEPT)))
+        further = max(int((away < away[count - 1] * GROWTH).sum()), int(count * 1.3))
+        count = min(further, len(order))
+        crowd.refine(order[:count], ROUNDS)
+        if not last and np.sqrt(crowd.costs.min() / count) > _allowed(problem):
+            return
+    crowd.drop(BEST)
+    for x in crowd.X:
+        yield x, count
+
+
+def grown(problem: Problem, x: FloatArray, count: int) -> FloatArray:
+    """Return what a motion leads to that follows so many data about t = 0: the arc grows to all times."""
+    order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.alone(), x[None])
+    misfit = 0.0
+    while True:
+        count = _reach(crowd, order, count, misfit)
+        whole = count == len(order)
+        crowd.refine(order[:count], LAST if whole else ROUNDS, 1e-3 if whole else 0.1)
+        if whole:
+            return np.asarray(crowd.X[0])
+        misfit = float(np.sqrt(crowd.costs[0] / count))
+        if misfit > _allowed(problem):
+            return np.asarray(crowd.X[0])
+        count = int(GROWTH * count) + 1
+
+
+def _reach(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
+    """Return how many of the data a motion follows without losing a turn, at least so many."""
+    problem, n = crowd.problem, len(order)
+    if least >= n:
+        return n
+    off = np.linalg.norm(problem.apart(crowd.X, order).reshape(n, -1), axis=1)
+    if problem.loss != "linear":
+        off = np.minimum(off, np.median(off) * 4)
+    mean = np.sqrt(np.convolve(off**2, np.ones(SEVERAL) / SEVERAL, "valid"))
+    lost = np.flatnonzero(mean > max(_allowed(problem), 1.7 * misfit))
+    return max(least, n if not lost.size else int(lost[0]))
+
+
+def _allowed(problem: Problem) -> float:
+    """Return by how much a motion may be off, in standard errors, while its phases are right."""
+    return float(LOST * problem.data.spread / np.median(problem.data.sigma))

@@ -1,0 +1,134 @@
+"""What data see of the parameters: their covariance, the combinations that are not determined, and conventions."""
+
+from typing import Any
+
+import numpy as np
+from scipy.linalg import qr
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.fitting.models import units_of, unseen
+from atlas.fitting.parameters import Parameters
+from atlas.fitting.problem import Problem
+
+UNSEEN = 0.5
+"""Standard error of a combination, in natural units, from which on the data do not determine it."""
+
+ROUNDING = 2.0**-48
+"""Singular values, in parts of the largest, that are rounding errors of the derivatives."""
+
+NULL = 1e-7
+"""Singular values, in parts of the largest, and parts of a combination below which there is nothing but rounding."""
+
+
+class Seen:
+    """Covariance of the parameters, and the combinations that are not determined, by singular values of J."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        motion: Any,
+        x: FloatArray,
+        J: FloatArray,
+        weighted: FloatArray,
+        scores: FloatArray,
+        scale: float,
+    ) -> None:
+        self.problem, self.x = problem, x
+        field = float(np.linalg.norm(motion.field_in_body(0.0))) * (problem.model.name != "top")
+        rate = max(problem.rate, float(np.linalg.norm(motion.angular_velocity(0.0))))  # it may start from rest
+        units = units_of(problem.model, field + rate)
+        self.units = np.array([units[name] for name in problem.names])
+        scaled = weighted * self.units
+        _, size, turn = np.linalg.svd(scaled, full_matrices=False)
+        rounding = ROUNDING * size.max(initial=1.0)
+        size = np.maximum(size, rounding)
+        self.lost = (scale / size > UNSEEN) | (size <= rounding)  # however exact the data are
+        inverse = turn[~self.lost].T / size[~self.lost] ** 2 @ turn[~self.lost]
+        null = self.lost & (size < NULL * size.max(initial=1.0))
+        weak = self.lost & ~null
+        if problem.loss == "linear":
+            self.covariance = inverse * scale**2
+        else:  # of an M-estimator, whatever the noise
+            score = (J * self.units * scores[:, None]).reshape(problem.data.t.size, -1, len(x)).sum(1)
+            spread = score.T @ score  # the numbers of one time may be off together
+            self.covariance = inverse @ spread @ inverse
+        square = np.outer(self.units, self.units)
+        self.covariance = self.covariance * square
+        self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
+        """Covariance for predictions, which see what is hardly determined as little as the data do."""
+        self.null = turn[null].T
+        self.free = _simple(turn[self.lost].T)
+        """Combinations that are not determined, in natural units, (n, count)."""
+        self.errors = np.sqrt(np.diag(self.covariance))
+        self.moved = self._moves(np.diag(self.units), self.errors)
+        """Whether each parameter moves along each of them, by more than its error."""
+
+    def _moves(self, scaled: FloatArray, errors: FloatArray) -> Any:
+        by = abs(scaled @ self.free)
+        return (by * UNSEEN > errors[:, None]) & (by > NULL * np.linalg.norm(scaled, axis=1)[:, None])
+
+    def parameters(self) -> Parameters:
+        """Return the parameters with values, standard errors and correlations, None where there are none."""
+        problem, names = self.problem, self.problem.names
+        lost, errors = self.moved.any(1), self.errors
+        marked: dict[str, dict[str, Any]] = {
+            name: {"value": value} for name, value in problem.values(self.x).items() if name in problem.params
+        }
+        for i, name in enumerate(names):
+            marked[name] |= {"stderr": None if lost[i] else float(errors[i])}
+            marked[name] |= {"correl": None if lost[i] else {
+                other: float(self.covariance[i, j] / (errors[i] * errors[j]))
+                for j, other in enumerate(names) if j != i and not lost[j] and errors[i] * errors[j] > 0
+            }}  # fmt: skip
+        derived = [name for name, p in problem.params.items() if p.expr]
+        by = problem.chain(list(self.x), derived)
+        for name, row in zip(derived, by, strict=True):
+            error = np.sqrt(max(row @ self.covariance @ row, 0.0))
+            moved = self._moves((row * self.units)[None], error[None]).any()
+            marked[name]["stderr"] = None if moved else float(error)
+        return problem.params.changed(**marked)
+
+    def words(self) -> list[str]:
+        """Return a sentence for each combination that the data do not determine."""
+        out = []
+        for k, u in enumerate(self.free.T):
+            parts = [int(i) for i in np.argsort(-abs(u)) if self.moved[i, k]]
+            names = [self.problem.names[i] for i in parts]
+            if len(names) == 1:
+                out.append(f"{names[0]} is not determined by these data.")
+                continue
+            first = "ratio" if "ratio" in names else names[0]
+            steps = u * self.units
+            steps = steps / steps[self.problem.names.index(first)]
+            moves = ", ".join(
+                f"{self.problem.names[i]} by {steps[i]:+.3g} d" for i in sorted(parts) if self.problem.names[i] != first
+            )
+            out.append(
+                f"{', '.join(names[:-1])} and {names[-1]} are not determined apart: if {first} changes by a small d "
+                f"and {moves}, these data stay the same."
+            )
+        return out
+
+
+def _simple(free: FloatArray) -> FloatArray:
+    """Return combinations (n, count) that span the same, each with a parameter that none of the others has."""
+    if free.shape[1] < 2:
+        return free
+    _, _, order = qr(free.T, mode="economic", pivoting=True)
+    simple = free @ np.linalg.inv(free[order[: free.shape[1]]])
+    return np.asarray(simple / np.linalg.norm(simple, axis=0))
+
+
+def gauge(problem: Problem) -> list[str]:
+    """Return what the kind of data never shows."""
+    hidden = unseen(problem.model, problem.data.kind)
+    if not hidden:
+        return []
+    if "a1" in hidden:
+        return [
+            "The attitude in the laboratory is not seen: B1 to B3 are along the axes that the body has at the epoch."
+        ]
+    if problem.data.kind != "axis":
+        words = "The turn of the body about the field is not seen, a3 = 0 at the epoch is a convention; and with "
+        return [words + "all of n, k2, k3 and linear the other way the data are the same."]
+    return ["The angle of the body about its axis is not seen: a3 = 0 at the epoch is a convention."]

@@ -1,0 +1,139 @@
+"""Which GL library can draw off-screen here: EGL, OSMesa or none.
+
+Without one the first off-screen picture kills the process, so the question is put to a child, and the answer remembered
+until something changes that it depends on: the libraries installed, their drivers, the environment.
+
+``python -m atlas.gl`` prints the answer.
+"""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from atlas import files, programs
+from atlas.errors import AtlasError
+from atlas.libraries import release
+from atlas.places import own_folder
+
+VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
+CHOICE = "ATLAS_GL"
+WINDOWS = {"egl": "vtkEGLRenderWindow", "osmesa": "vtkOSOpenGLRenderWindow"}
+KNOWN = (*WINDOWS, "native")
+NONE = "none"
+DRIVERS = (
+    "/usr/share/glvnd/egl_vendor.d",
+    "/usr/lib/dri",
+    "/usr/lib64/dri",
+    *(f"/usr/lib/{machine}-linux-gnu/dri" for machine in ("x86_64", "aarch64")),
+)
+
+_PROBE = """
+from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderer
+import vtkmodules.vtkRenderingOpenGL2
+window = vtkRenderWindow()
+window.SetOffScreenRendering(1)
+window.SetSize(8, 8)
+window.AddRenderer(vtkRenderer())
+window.Render()
+print(window.GetClassName())
+"""
+_TIMEOUT = 60
+
+
+@cache
+def library() -> str | None:
+    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the probe finds.
+
+    Raises AtlasError where that variable is none of these.
+    """
+    choice = os.environ.get(CHOICE, "").lower()
+    if choice == NONE:
+        return None
+    if choice:
+        if choice not in KNOWN:
+            raise AtlasError(f"{CHOICE}={choice} names no GL library; known: {', '.join((*KNOWN, NONE))}")
+        return choice
+    file = _answer_file()
+    try:
+        known = json.loads(file.read_text(encoding="utf-8"))[file.stem] if file else None
+    except (OSError, ValueError, KeyError, TypeError):
+        known = None  # there is none, or half of one: probe again
+    if known not in {*KNOWN, NONE}:
+        known = next((name for name in _candidates() if _draws(name)), NONE)
+        if file:
+            with suppress(OSError):  # it is probed again next time
+                files.write(file, json.dumps({file.stem: known}))
+    return None if known == NONE else str(known)
+
+
+def prepare() -> str | None:
+    """Tell VTK which window to open and return the library's name, or None when nothing can draw."""
+    name = library()
+    if name in WINDOWS:
+        os.environ[VARIABLE] = WINDOWS[name]
+    return name
+
+
+def advice() -> str:
+    """Return the line that says what is left out without GL, and which command installs it."""
+    vtk, packages = f"{sys.executable} -m pip install pyvista vtk", "sudo apt-get install libegl1 libgl1-mesa-dri"
+    command = vtk if _vtk() is None else packages
+    return (
+        f"no GL library can draw off-screen: shaded figures are drawn by the vector renderer; to have them: {command}"
+    )
+
+
+def _vtk() -> str | None:
+    """Return the version of VTK, or None without VTK or PyVista."""
+    vtk, pyvista = release("vtk"), release("pyvista")
+    return f"{vtk}/{pyvista}" if vtk and pyvista else None
+
+
+def _candidates() -> tuple[str, ...]:
+    """Return what to try, best first."""
+    if _vtk() is None:
+        return ()
+    return tuple(WINDOWS) if sys.platform.startswith("linux") else ("native",)
+
+
+def _draws(name: str) -> bool:
+    """Whether a child process can open an off-screen window with this library."""
+    environment = programs.environment()
+    if name in WINDOWS:
+        environment[VARIABLE] = WINDOWS[name]
+    try:
+        child = programs.run([sys.executable, "-P", "-c", _PROBE], _TIMEOUT, env=environment)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return child.returncode == 0 and (name not in WINDOWS or WINDOWS[name] in child.stdout)
+
+
+def _answer_file() -> Path | None:
+    """Return where the answer is remembered: a file named after all that it depends on; None without a place for it."""
+    seen = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
+    seen += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
+    for place in map(Path, ("/etc/ld.so.cache", "/dev/dri", *DRIVERS)):
+        state = place.stat() if place.exists() else None
+        seen.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
+    key = hashlib.sha256(os.fsencode("\n".join(seen))).hexdigest()[:20]
+    folder = own_folder()
+    return folder / f"gl-{key}.json" if folder else None
+
+
+def main() -> int:
+    """Print in one line what can draw. Only a misspelt choice fails."""
+    try:
+        print(library() or advice())  # noqa: T201  the answer
+    except AtlasError as error:
+        print(f"atlas: {error}", file=sys.stderr)  # noqa: T201  the one line
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

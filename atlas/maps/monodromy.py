@@ -1,0 +1,294 @@
+"""Monodromy of a symmetric top: what becomes of the periods on a loop round a focus-focus value, theorem-residue.
+
+At regular values of (M3, p, g) the motion lies on a torus. Its periods are the lattice of all (s, t, u) for which the
+turn by s about n, the turn by t about the body's axis and the motion for the time u, one after the other, bring the
+top back. A basis is
+
+    g1 = (2 pi, 0, 0),     g2 = (0, 2 pi, 0),     g3 = (-Delta psi, -Delta chi, T),
+
+T the period of nutation and Delta psi, Delta chi the angles of precession and spin in it. g1 and g2 are the same
+everywhere; g3 continued along a loop comes back as another vector of the lattice. Of a body with three moments two
+pairs of times (T_H, T_F) of a torus are carried round the values of an isolated spin. Not in the paper.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.arithmetic.inputs import FloatArray, number, whole
+from atlas.arithmetic.numbers import nearest, workprec
+from atlas.arithmetic.words import exact
+from atlas.bodies.symmetric_top import inputs_of_top
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.maps.bifurcation import Bifurcation
+from atlas.maps.wells import Wells
+from atlas.motions.nutation.certified_top import TopMotion
+from atlas.motions.torus.certified_torus import Torus
+
+PRECISION = 128
+"""Binary digits of the balls of period and angles."""
+
+NEWTON = 40
+"""Steps to a state with given values."""
+
+GRID = np.concatenate([np.geomspace(1e-12, 1e-3, 400)[:-1], 1 - np.linspace(1.0, -1.0, 2001)[1:-1]])
+"""Places 1 - end nu at which the potential is looked at, from the pole nu = end, where they are dense, to the other."""
+
+TOLD = 2.0**-40
+"""Part of the momentum and of the energy of a spin that the size of a loop must exceed."""
+
+SHRINKS = 12
+"""Ellipses that are tried, each half as large as the one before."""
+
+LEAST = 1e-280
+"""Least square of a rate, beside which an energy keeps its digits."""
+
+
+@dataclass(frozen=True, eq=False)
+class Monodromy:
+    """What became of the lattice of periods on one loop."""
+
+    p: FloatArray
+    g: FloatArray
+    """The loop in the plane of p and g, arrays (N + 1,) whose last point is the first, at one M3."""
+    period: FloatArray
+    """T on it."""
+    turns: FloatArray
+    """Delta psi and Delta chi over 2 pi, continued along the loop, shape (N + 1, 2)."""
+    step: float
+    """The largest change of a turn between neighbours, less that of T times the first point's rate: below 1/4."""
+    radius: float
+    """The largest radius of the balls of the turns."""
+
+    @property
+    def matrix(self) -> tuple[tuple[int, int, int], ...]:
+        """Rows of the new g1, g2, g3 in the old."""
+        m, n = (round(float(x)) for x in self.turns[-1] - self.turns[0])
+        return (1, 0, 0), (0, 1, 0), (-m, -n, 1)
+
+
+def monodromy(
+    inertia: tuple[float, float],
+    M3: float,
+    *,
+    coupling: tuple[float, float] = (0.0, 0.0),
+    linear: float = 0.0,
+    quadratic: float = 0.0,
+    p: float | None = None,
+    points: int = 48,
+) -> Monodromy:
+    """Carry the periods of a top once round an unstable spin, theorem-residue.
+
+    The top is that of `TopMotion`: `inertia` (I2, I3), `coupling` (k2, k3), `linear` and `quadratic`. The loop has
+    `points` points of momentum p along n and energy g, counter-clockwise, at one momentum `M3` along the axis; in its
+    middle is the unstable spin with the momentum `p`, M3 (along n, the default) or -M3 (against it), in units of
+    inertia/time; for M3 = 0 that along n if it is unstable, else that against it. Its value belongs to one torus. That
+    of a stable spin may belong to a torus in another well too, and no loop goes round it. The `matrix` of what is
+    returned has as rows what became of g1 (one turn about n), g2 (one about the axis) and g3 (one nutation, less its
+    turns): `monodromy((1.0, 0.5), 0.5, linear=1.0).matrix`. Angles are balls; that the integers are these rests on no
+    angle changing by half a turn between neighbours, see `step`.
+
+    Raises AtlasError for what are no numbers; DomainError for no body, a spin that is stable or no isolated value,
+    rates out of the range of floats, and too few points; NotCertifiedError where the balls tell nothing.
+    """
+    top = inputs_of_top(inertia, coupling, (0.0, 1.0), linear, quadratic)
+    given = [number(x, "A parameter of the top") for x in (*top[:4], *top[6:], M3, M3 if p is None else p)]
+    unit, *rest = given
+    I, *twist, weight, lean, along, middle = (x / unit for x in rest)
+    wells = Wells.at(along, I, (twist[0], twist[1]), weight, lean)
+    size = 4 * (abs(wells.A) + abs(wells.a)) + along * along
+    if size and not LEAST < max(size, abs(middle)) < math.inf:
+        raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
+    whole(points, "The number of points", 3)
+    end, D = unstable_spin(*given)
+    values = around(wells, middle, points, end, D, slope=middle)
+    loop = on_loop(I, (twist[0], twist[1]), along, values, weight, lean)
+    return replace(loop, p=loop.p * unit, g=loop.g * unit)
+
+
+def unstable_spin(*given: float) -> tuple[int, float]:
+    """Return whether the spin is along n, 1, or against it, -1, and its D < 0 over I2^2, decided exactly.
+
+    Raises DomainError for a momentum p of no spin, and for a stable one.
+    """
+    if abs(given[-2]) != abs(given[-1]):
+        raise DomainError(
+            f"p: a spin about n has the momentum M3 or -M3, {given[-2]:g} or {-given[-2]:g}, not {given[-1]:g}."
+        )
+    I, k2, k3, linear, quadratic, M3, p = (x / exact(given[0])[0] for x in exact(*given[1:]))
+    A, a = k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear
+    ends = (1, -1) if M3 == 0 else (1 if p == M3 else -1,)
+    D = {end: M3 * M3 - 4 * (A + end * a) for end in ends}
+    for end in ends:
+        if D[end] < 0:
+            return end, nearest(D[end])
+    raise DomainError(
+        f"M3: the value of the spin, M3 = {given[-2]:g} and p = {given[-1]:g}, is no isolated one: D is not negative, "
+        f"but {nearest(D[ends[0]]):.6g}: the spin is stable, or at the border."
+    )
+
+
+def on_loop(
+    I: float,
+    coupling: tuple[float, float],
+    M3: float,
+    loop: FloatArray,
+    linear: float = 0.0,
+    quadratic: float = 0.0,
+) -> Monodromy:
+    """Carry the periods of a top round a `loop` (N, 2) of values (p, g) at one M3, closed by its first point.
+
+    `I` = I3/I2, `coupling` = (k2/I2, k3/I2), `linear` and `quadratic` over I2 as in `TopMotion`. Period and angles are
+    balls, formed at each point from the theta functions; between neighbours the angles, less T times their mean rates
+    at the first point, are continued to the nearest.
+    Where a value belongs to two tori, that of the deeper well is carried.
+    Raises DomainError for a value that no motion has, or that is critical, and for a loop so coarse that an angle
+    changes by more than a quarter of a turn in one step: give it more points, or keep it from critical values.
+    NotCertifiedError where the balls tell nothing.
+    """
+    wells = Wells.at(M3, I, coupling, linear, quadratic)
+    whole(len(loop), "The number of points", 3)
+    rows = []
+    with workprec(PRECISION):
+        for p, g in loop.tolist():
+            top = TopMotion((1.0, I), coupling, *state(wells, p, g, I, coupling), linear, quadratic)
+            if not top.kind.startswith(("nutation", "regular")):
+                raise DomainError(f"At p = {p:g}, g = {g:g} the motion is a {top.kind}: a loop keeps off such values.")
+            rows.append((top.period, top.precession_per_period, top.spin_per_period))
+            if not all(x.is_finite() for x in rows[-1]):
+                raise NotCertifiedError(f"not certified: the periods of the motion at p = {p:g}, g = {g:g}.")
+        T, turn, step = [float(row[0]) for row in rows], 2 * arb.pi(), 0.0
+        means = [
+            arb((angle / rows[0][0]).mid()) for angle in rows[0][1:]
+        ]  # T comes back, and what it takes off with it
+        left, turns = [arb(0), arb(0)], []
+        for time, *angles in [*rows, rows[0]]:
+            for i, (angle, mean) in enumerate(zip(angles, means, strict=True)):
+                here = (angle - mean * time) / turn
+                here -= round(float(here - left[i]))
+                step, left[i] = max(step, float(abs(here - left[i]).upper())), here
+            turns.append([x + mean * time / turn for x, mean in zip(left, means, strict=True)])
+        if not step < 1 / 4:
+            raise DomainError(
+                f"An angle changes by {step:.3g} of a turn from one point of the loop to the next: give more points."
+            )
+        radius = max(float(x.rad()) for row in turns for x in row)
+    closed = np.concatenate([loop, loop[:1]])
+    return Monodromy(
+        closed[:, 0], closed[:, 1], np.array([*T, T[0]]), np.array([[float(x) for x in row] for row in turns]),
+        step, radius,
+    )  # fmt: skip
+
+
+def _depth(wells: Wells, p: float, end: int, D: float) -> FloatArray:
+    """Return the energy of the spin at nu = `end` less V, along GRID, without cancellation at that pole."""
+    d, moved = GRID, p - end * wells.M3
+    own = -D / 2 - d * (wells.A + wells.M3 * wells.M3 / (2 * (2 - d)))
+    return np.asarray(d * own - moved * (moved + 2 * end * wells.M3 * d) / (d * (2 - d)))
+
+
+def _room(depth: FloatArray) -> float:
+    """Return how far an energy is above the critical ones of its well; 0 without a well, and where there are two."""
+    ends = np.flatnonzero(np.diff(depth > 0, prepend=False, append=False))
+    if len(ends) != 2:
+        return 0.0
+    well = depth[ends[0] : ends[1]]
+    barriers = well[1:-1][(well[1:-1] < well[:-2]) & (well[1:-1] < well[2:])]
+    return float(barriers.min() if barriers.size else well.max())
+
+
+def state(wells: Wells, p: float, g: float, I: float, coupling: tuple[float, float]) -> tuple[Any, Any]:
+    """Return a direction (n2, n3) and an angular velocity that have these values, as near as floats are."""
+    (k2, k3), end = coupling, int(np.sign(p * wells.M3) or 1)
+    _, spin, D = wells.spin(end)
+    depth = (_depth(wells, p, end, D) + (g - spin)) * GRID * (2 - GRID)
+    best = int(np.argmax(depth))
+    if not depth[best] > 0:
+        raise DomainError(f"No motion has p = {p:g} and g = {g:g} at M3 = {wells.M3:g}.")
+    r = end * (1 - float(GRID[best]))
+    s = float(np.sqrt(GRID[best] * (2 - GRID[best])))
+    omega = float(np.sqrt(depth[best])) / s, (p - wells.M3 * r) / s - k2 * s, (wells.M3 - k3 * r) / I
+    return (s, r), omega
+
+
+def around(
+    wells: Wells, p: float, points: int = 48, end: int = 0, D: float | None = None, slope: float = 0.0
+) -> FloatArray:
+    """Return a loop (points, 2) of regular values (p, g), counter-clockwise, round that of the spin at nu = `end`.
+
+    It is an ellipse, sheared along the line dg = slope dp, with half the room that the critical energies of the well
+    leave it, below and to both sides. `end` is 1 if p is M3, else -1; `D` may be given where floats
+    lose it. Raises DomainError where there is no room, for then the value is no isolated one, or floats do not tell it
+    from its neighbours.
+    """
+    end = end or int(np.sign(p * wells.M3) or 1)
+    _, g, rounded = wells.spin(end)
+    D = rounded if D is None else D
+
+    def room(dp: float, dg: float = 0.0) -> float:
+        return _room(_depth(wells, p + dp, end, D) + slope * dp + dg)
+
+    high = room(0.0)
+    if not high > 0:
+        raise DomainError(f"The value p = {p:g}, g = {g:g} at M3 = {wells.M3:g} is no isolated one: D is not negative.")
+    widths = []
+    for sense in (1, -1):
+        near, far = 0.0, 1.0
+        while room(sense * far) > 0:
+            near, far = far, 2 * far
+        for _ in range(80):
+            middle = (near + far) / 2
+            near, far = (middle, far) if room(sense * middle) > 0 else (near, middle)
+        widths.append(near)
+    wide = min(widths)
+    if not (high > TOLD * abs(g) and wide > TOLD * abs(p)):
+        raise DomainError(f"The spin, D = {D:.3g}, is so nearly stable that floats hold no loop round its value.")
+    t = 2 * np.pi * (np.arange(points) + 0.5) / points
+    for size in 2.0 ** -np.arange(1, SHRINKS):
+        x, y = size * wide * np.cos(t), size * high * np.sin(t)
+        if all(room(dp, dg) > 0 for dp, dg in zip(x, y, strict=True)):
+            break
+    return np.stack([p + x, g + slope * x + y], axis=-1)
+
+
+def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
+    """Carry two periods of the tori of a body round a `loop` (N, 2) of values (F, H), closed by its first point.
+
+    The tori are those next to the spin about an `axis`, 0 to 2. Their periods, pairs of times (T_H, T_F), are proved in
+    balls at each point and continued to the nearest basis. Returns the rows of the new basis in the old, and the
+    largest distance of a continued basis from the next in units of that, which must be below 1/4. Raises DomainError
+    for a coarser loop, NotCertifiedError where no periods are found.
+    """
+    state = np.zeros(6)
+    state[[axis, axis + 3]] = bifurcation.c / bifurcation.b, bifurcation.b
+    state += 0.1 * bifurcation.b * np.array([0.5, 0.8, -0.3, 1.0, 0.5, -0.1])
+    bases: list[FloatArray] = []
+    step = 0.0
+    for F, H in [*loop.tolist(), loop[0].tolist()]:
+        state = _with_values(bifurcation, state, np.array([H, F, bifurcation.b * bifurcation.b, bifurcation.c]))
+        I, W, K = (exact(*x) for x in (bifurcation.inertia, state[:3] / bifurcation.inertia, state[3:]))
+        torus = Torus(I, W, K)
+        basis = np.array([[float(period.H), float(period.F)] for period in torus.periods(64)])
+        if bases:
+            part = bases[-1] @ np.linalg.inv(basis)
+            step = max(step, float(np.abs(part - np.rint(part)).max()))
+            basis = np.rint(part) @ basis
+        bases.append(basis)
+    if not step < 1 / 4:
+        raise DomainError(f"A period changes by {step:.3g} of itself from one point of the loop to the next.")
+    turned = np.rint(bases[-1] @ np.linalg.inv(bases[0])).astype(int).tolist()
+    return tuple(tuple(row) for row in turned), step
+
+
+def _with_values(bifurcation: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Return (M, K) near a state with the values (H, F, K^2, (M, K)), by Newton's method to the nearest."""
+    I, a = bifurcation.inertia, bifurcation.a
+    for _ in range(NEWTON):
+        M, K = state[:3], state[3:]
+        values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])
+        slopes = np.array([[*(M / I), *(I * K)], [*(2 * M), *(-2 * a * K)], [0, 0, 0, *(2 * K)], [*K, *M]])
+        state = state - np.linalg.lstsq(slopes, values - wanted)[0]
+    return state

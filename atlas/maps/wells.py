@@ -1,0 +1,151 @@
+"""The potential in which the axis of a symmetric top nutates, its wells, rests and cusps, theorem-every-top.
+
+In units of I2, with kappa = k2 - k3/I, a = M3 kappa + linear and A = k3^2/I - k2^2 + quadratic, at given momenta M3
+along the axis and p along the constant direction n,
+
+    dtheta^2 = g - V,     V = 2 a nu + A nu^2 + (p - M3 nu)^2/(1 - nu^2),     nu = cos theta.
+
+a = 0, A = (I-1) b^2 is the paper's body, A = 0 Lagrange's heavy top. All is in plain floats and serves figures;
+it certifies nothing.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray, plain, real
+from atlas.errors import DomainError
+from atlas.motions.nutation.kernel_top import TopMotion
+
+NEAR = 2.0**-48
+"""Part of the reach below which two ends of branches are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """Critical values of steady precessions at one M3: arrays (N,) over their rate `w` in 1/time, less -k2."""
+
+    w: FloatArray
+    r: FloatArray
+    """Cosine between axis and n."""
+    p: FloatArray
+    g: FloatArray
+    stable: FloatArray
+    """Nutation frequency squared, theorem-top-nutation, in 1/time^2: negative where the precession is unstable."""
+
+
+@dataclass(frozen=True)
+class Wells:
+    """The potentials V of all motions with one momentum `M3` along the axis (1/time), by A and a (1/time^2)."""
+
+    M3: float
+    A: float
+    a: float = 0.0
+
+    @classmethod
+    def of(cls, top: TopMotion) -> "Wells":
+        """Return the potentials of the motions that have this one's M3."""
+        (I2, I3), (k2, k3) = top.inertia, top.coupling
+        M3 = float(top.invariants()["M3"])
+        A = (k3 / I3 * k3 - k2 / I2 * k2 + top.quadratic) / I2
+        return cls(M3, A, M3 * (k2 / I2 - k3 / I3) + top.linear / I2)
+
+    @classmethod
+    def at(cls, M3: float, I: float, coupling: tuple[float, float], linear: float, quadratic: float) -> "Wells":
+        """Return the potentials of a top in units of I2 at this M3."""
+        k2, k3 = coupling
+        return cls(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
+
+    def potential(self, p: Any, nu: Any) -> Any:
+        """Return V <= g of motions with the momentum p, theorem-every-top; DomainError unless |nu| < 1."""
+        p, nu = real(p, "p"), real(nu, "nu")
+        if (np.abs(nu) >= 1).any():
+            raise DomainError("The potential is finite between nu = -1 and 1, both left out.")
+        return plain(self.energy(nu, 0.0) + (p - self.M3 * nu) ** 2 / ((1 - nu) * (1 + nu)))
+
+    def energy(self, nu: Any, w: Any) -> Any:
+        """Return g where theta is at rest at nu, and the axis goes round with the rate w - k2."""
+        return self.A * nu * nu + w * w * (1 - nu) * (1 + nu) + 2 * self.a * nu
+
+    def spin(self, end: int) -> tuple[float, float, float]:
+        """Return p, g and D = M3^2 - 4 (end a + A) of the spin about n, nu = end = ±1, theorem-sleeping-top.
+
+        The value is of focus-focus type where D < 0, theorem-focus.
+        """
+        if end not in {1, -1}:
+            raise DomainError(f"The axis lies along the field, end = 1, or against it, end = -1, not {end!r}.")
+        return end * self.M3, self.energy(end, 0.0), self.M3 * self.M3 - 4 * (self.A + end * self.a)
+
+    def precessions(self, reach: float, points: int = 400) -> tuple[Branch, ...]:
+        """Return the curves p(w), g(w) of critical values, theorem-top-precession: the bifurcation diagram at one M3.
+
+        The cosine r = (M3 w - a)/(w^2 + A) must lie within [-1, 1]; each branch is an interval of w where it does, up
+        to |w| = `reach`, and ends on the axis, r = ±1, or at `reach`. The curves have cusps where `stable` changes
+        sign. Where w^2 = -A and M3 w = a, as of a free body that spins about its axis, any cosine goes with this w:
+        such a branch comes last.
+        """
+        A, a, M3 = self.A, self.a, self.M3
+        ends = [-reach, reach, 0.0] if A <= 0 and not M3 and not a else [-reach, reach]
+        for sign in (1, -1):
+            D = self.spin(sign)[2]
+            if D >= 0:
+                larger = (sign * M3 + np.copysign(np.sqrt(D), sign * M3)) / 2
+                ends += [larger, (A + sign * a) / larger] if larger else [0.0]
+        ends = sorted({float(x) for x in ends if abs(x) <= reach})
+        # the two ways to an end differ by a rounding
+        ends = [x for x, y in zip(ends, [-np.inf, *ends], strict=False) if x - y > NEAR * reach]
+        branches = []
+        for low, high in pairwise(ends):
+            middle = (low + high) / 2
+            if abs(M3 * middle - a) >= abs(middle * middle + A):
+                continue
+            # Chebyshev points, dense at the ends, where the curves turn fast; w = 0 and w^2 = -A are no points of them
+            w = middle - (high - low) / 2 * np.cos(np.pi * (np.arange(points) + 0.5) / points)
+            w = w[(w != 0) & (w * w + A != 0)]
+            r = np.clip((M3 * w - a) / (w * w + A), -1.0, 1.0)
+            p = w * (1 - r * r) + r * M3
+            branches.append(Branch(w, r, p, self.energy(r, w), np.asarray(nutation_squared(A, a, w, r))))
+        return (*branches, *self._at_any_cosine(reach, points))
+
+    def _at_any_cosine(self, reach: float, points: int) -> Iterator[Branch]:
+        """Yield the precessions that go with one rate at every cosine, w^2 = -A and M3 w = a.
+
+        One is the free body, A = a = 0, that spins about its axis wherever that points: w = 0, p = M3 r, g = 0.
+        """
+        A, a, M3 = self.A, self.a, self.M3
+        r, size = -np.cos(np.pi * (np.arange(points) + 0.5) / points), float(np.sqrt(max(-A, 0.0)))
+        for w in () if A > 0 else (-size, size) if size else (0.0,):
+            if M3 * w == a and abs(w) <= reach:
+                p = w * (1 - r * r) + r * M3
+                stable = w * w - A * (3 * r * r - 1) - 2 * a * r + (M3 - r * w) ** 2
+                yield Branch(np.full(points, w), r, p, self.energy(r, w), stable)
+
+    def cusps(self, nu: Any, k2: float = 0.0) -> tuple[Any, Any]:
+        """Return p and g of the motion whose axis stops at the cosine nu, a cusp of its trace, theorem-cusp."""
+        return self.M3 * nu + k2 * (1 - nu) * (1 + nu), self.energy(nu, k2)
+
+
+def nutation_squared(A: Any, a: Any, w: Any, r: Any) -> Any:
+    """Nutation frequency squared of a steady precession, w not 0, theorem-top-nutation."""
+    w, r = real(w, "The rate w"), real(r, "The cosine r")
+    force = a + A * r
+    return plain(w * w - A * (3 * r * r - 1) - 2 * a * r + (force / w) ** 2)
+
+
+def rest(M3: float, p: float, nu: FloatArray) -> FloatArray:
+    """Return a + A nu for which the axis can rest at the cosine nu, theorem-top-precession: a line of (a, A)."""
+    w = (p - M3 * nu) / ((1 - nu) * (1 + nu))
+    return M3 * w - nu * w * w
+
+
+def border(M3: float, p: float, nu: FloatArray) -> FloatArray:
+    """Return (a, A), shape (N, 2), of the potentials in which the rest at nu is a triple root of q.
+
+    It is the envelope of the lines `rest`: there a well and the barrier beside it appear or vanish. A < 0 on it.
+    """
+    w, force = (p - M3 * nu) / ((1 - nu) * (1 + nu)), rest(M3, p, nu)
+    A = -(w * w - 2 * nu * force + (M3 - nu * w) ** 2) / ((1 - nu) * (1 + nu))
+    return np.stack([force - A * nu, A], axis=-1)

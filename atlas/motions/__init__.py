@@ -1,0 +1,1 @@
+"""Motions: `base` is what all of them offer, a folder holds one kind."""

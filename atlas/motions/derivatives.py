@@ -1,0 +1,279 @@
+"""How a motion depends on its inputs: R(t) by the vector v, dR/dp = [v]x R, Omega, the field in the body, and scalars.
+
+The inputs of a class are what its twin in balls is made of, with the field and the angular velocity in the body at
+t = 0. What a user may ask for moves several of them: with R(0) = L C, C the axes of the class as rows in those of the
+body, the field B of the laboratory is K = L^T B there, and turning the body at t = 0 by a turns it by -L^T [a, B]. All
+else follows from v and dv/dt: dOmega/dp = R^T dv/dt, dK/dp = R^T (dB/dp - [v, B]).
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from flint import fmpq
+
+from atlas.arithmetic.dimensions import TIME, bare
+from atlas.arithmetic.inputs import FloatArray, common_shape, finite, real
+from atlas.arithmetic.numbers import nearest, rational
+from atlas.arithmetic.words import floats
+from atlas.errors import AtlasError, DomainError
+from atlas.lazy import cached_property
+from atlas.motions.derivatives_inputs import (
+    Inputs,
+    of_any_start,
+    of_asymmetric,
+    of_ball,
+    of_elementary,
+    of_elliptic,
+    of_free,
+    of_general,
+    of_top,
+)
+
+VECTORS = ("rotation", "angular_velocity", "field")
+"""What varies with time."""
+
+UPRIGHT = 1e-3
+"""Angle of a top's axis with n from which its inputs have derivatives in all components of n."""
+
+
+WITHIN = 1e140
+"""Rates between its inverse and this have products, with those by which they change, that floats hold."""
+
+
+class Moved(NamedTuple):
+    """How a name moves the inputs: by weights, by a turn of the laboratory, and of the body about its third axis."""
+
+    weights: Mapping[str, float]
+    turn: FloatArray = np.zeros(3)
+    spin: float = 0.0
+
+
+def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
+    """Return derivatives of a motion, or of an array of them, see `Motion.sensitivity`."""
+    names = [names] if isinstance(names, str) else list(names)
+    if hasattr(motion, "winding"):
+        raise DomainError(
+            "A closed motion has p/q in the place of omega2: ask ElementaryMotion(ratio, field, omega2) for what "
+            "depends on it."
+        )
+    ones = _ones(motion)
+    if of not in VECTORS:
+        return np.array([single.scalar(names, of) for single in ones]).reshape(*motion.shape, len(names))
+    times = real(bare(t, "The time", TIME), "The time")
+    if not motion.shape:
+        return ones[0].vectors(times.ravel(), names, of).reshape(*times.shape, len(names), 3)
+    full = common_shape(motion.shape, times.shape)
+    out, times = np.empty((*full, len(names), 3)), np.broadcast_to(times, full)
+    own = np.broadcast_to(np.arange(len(ones)).reshape(motion.shape), full)
+    for i, single in enumerate(ones):
+        out[own == i] = single.vectors(times[own == i], names, of)
+    return out
+
+
+def of_rounding(motion: Any, t: Any) -> FloatArray:
+    """Return the bound of `Motion.input_error`."""
+    probe = _ones(motion)
+    names = list(probe[0].rounded) if probe else []
+    v = of(motion, t, names, "rotation")
+    halves = np.array([[x.rounded[name] for name in names] for x in probe]).reshape(*motion.shape, len(names))
+    return np.asarray((np.sqrt((v * v).sum(-1)) * halves).sum(-1))
+
+
+def _ones(motion: Any) -> list["One"]:
+    """Return what is known of each motion of an array, kept with it."""
+    known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
+    return [known.get(i) or known.setdefault(i, One(motion, i)) for i in range(int(np.prod(motion.shape)))]
+
+
+class One:
+    """The i-th motion of an array, its inputs, and how names move them."""
+
+    def __init__(self, motion: Any, i: int) -> None:
+        self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same floor
+        family, placed = motion.family, motion.is_placed
+        self.sides = self.left, self.axes = self._sides(i)
+        row = motion._row(i)  # noqa: SLF001  of the same floor
+        if family == "general":
+            exact = self.one.exact
+            self.inputs = of_general(exact.I, exact.field, exact.omega)
+        elif placed and family in ("elementary", "free", "ball"):
+            self.inputs = self._any_start(i, row)
+        elif family == "asymmetric":
+            self.inputs = of_asymmetric(self.one)
+        elif family in ("top", "elliptic"):
+            self.inputs = of_top(row) if family == "top" else of_elliptic(self.one.exact)
+        elif family == "elementary":
+            self.inputs = of_elementary(self.one.case, [0.0 if x is None else x for x in row], row[5] is not None)
+        else:
+            self.inputs = (of_free if family == "free" else of_ball)(row)
+        self.moved = self._moved(placed, i)
+        self._known, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
+
+    def _sides(self, i: int) -> tuple[FloatArray, FloatArray]:
+        """Return L and C of the motion."""
+        placement, shape = self.motion._placement, (*self.motion.shape, 3, 3)  # noqa: SLF001
+        if placement is None:
+            return np.eye(3), np.eye(3)
+        left, right = (np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in placement.sides)
+        return left, right
+
+    def _any_start(self, i: int, row: Sequence[Any]) -> Inputs:
+        """Return the inputs of a motion in elementary functions among all of its body."""
+        shape, is_ball = (*self.motion.shape, 3), self.motion.family == "ball"
+        _, B, R, w = self.motion.given
+        start = np.broadcast_to(R, (*shape, 3)).reshape(-1, 3, 3)[i]
+        self.axes = np.eye(3) if is_ball else self.axes
+        self.left = start @ self.axes.T
+        B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (B, w))
+        ratio = fmpq(1) if is_ball else rational(row[1]) / rational(row[0])
+        K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
+        return of_any_start(self.motion.family, ratio, K, omega)
+
+    def _moved(self, placed: bool, i: int) -> dict[str, Moved]:
+        """Return how each name that a user may ask for moves the inputs."""
+        own, L, C = self.inputs.names, self.left, self.axes
+        moved = {x: Moved({x: 1.0}) for x in own if x[0] not in ("Kn" if placed else "K")}
+        if "K1" in own or (placed and "n2" in own):
+            K = [x for x, name in zip(self.inputs.values, own, strict=True) if name[0] in "Kn"]
+            B = L @ floats([fmpq(0)] * (3 - len(K)) + K)
+            across = np.eye(3)
+            if "n2" in own:  # of a top only the direction matters, and along it nothing, not even rounding
+                given = np.broadcast_to(self.motion.given[1], (*self.motion.shape, 3)).reshape(-1, 3)[i]
+                u = given / abs(given).max()
+                across = np.cross(np.cross(u, across), u) / (u @ u)
+            for j, e in enumerate(np.eye(3)):
+                moves = (f"B{j + 1}", np.zeros(3), L.T @ across[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))
+                for name, turn, change in moves:
+                    moved[name] = self._of_field(change, turn)
+        elif self.motion.family == "asymmetric":  # free
+            moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
+        if placed and "omega1" in own:
+            moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
+        # no derivative has to be made in what has no weight
+        return {name: x._replace(weights={y: w for y, w in x.weights.items() if w != 0}) for name, x in moved.items()}
+
+    @cached_property
+    def rounded(self) -> dict[str, float]:
+        """Half an ulp of each input that a user gives, by its name; an attitude, which may be any, has none."""
+        values = {x: nearest(value) for x, value in zip(self.inputs.names, self.inputs.values, strict=True)}
+        if self.motion.is_placed:
+            shape = (*self.motion.shape, 3)
+            _, B, _, w = self.motion.given
+            for letter, x in (("B", B), ("omega", w)):
+                row = np.broadcast_to(x, shape).reshape(-1, 3)[self.place].tolist()
+                values |= {f"{letter}{j + 1}": x for j, x in enumerate(row)}
+        elif "K1" in self.inputs.names:
+            values |= {f"B{j}": values[f"K{j}"] for j in (1, 2, 3)}
+        return {name: float(np.spacing(abs(values[name]))) / 2 for name in self.moved if name in values}
+
+    def _of_field(self, change: FloatArray, turn: FloatArray) -> Moved:
+        """Return what a change of the field in the axes of the class at t = 0 moves, and a turn of the body."""
+        if "K1" in self.inputs.names:
+            return Moved({f"K{k + 1}": change[k] for k in range(3)}, turn)
+        # a top's direction has no first component: its axes turn with that about the third
+        n2, n3, w1, w2 = floats(self.inputs.values[4:8])
+        spin = 0.0 if not change[0] else change[0] / n2 if abs(n2) > UPRIGHT * abs(n3) else np.nan
+        weights = {"n2": change[1], "n3": change[2], "omega1": -spin * w2, "omega2": spin * w1}
+        return Moved(weights, turn - spin * self.left[:, 2], spin)
+
+    def _asked(self, names: Sequence[str]) -> list[str]:
+        """Return the inputs that names move. Raises AtlasError for another name."""
+        allowed = [*self.moved, "t"]
+        for name in names:
+            if name not in allowed:
+                raise AtlasError(f"There is no input {name!r} of this motion: choose from {', '.join(allowed)}.")
+            if name != "t" and np.isnan(self.moved[name].spin):
+                raise DomainError(f"The top's axis is along n, where its inputs have no derivative in {name}.")
+        return [x for x in self.inputs.names if any(x in self.moved[name].weights for name in names if name != "t")]
+
+    def scalar(self, names: Sequence[str], of: str) -> FloatArray:
+        """Return the derivatives of a scalar, (len(names),)."""
+        if of not in self.inputs.scalars:
+            raise AtlasError(
+                f"A {self.motion.family} motion has no derivative of {of!r}: choose from "
+                f"{', '.join((*VECTORS, *self.inputs.scalars))}."
+            )
+        needed = self._asked(names)
+        value = getattr(self.motion, of, 0.0)
+        if np.isinf(np.broadcast_to(value, self.motion.shape).flat[self.place]):
+            raise DomainError(f"The {of} is infinite and has no derivatives.")
+        derivatives = dict(zip(needed, self.inputs.of_scalar(of, needed), strict=True)) if needed else {}
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = [
+                0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.moved[name].weights.items())
+                for name in names
+            ]
+        return np.asarray(finite(np.array(found), f"A derivative of the {of}"))
+
+    def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
+        """Return derivatives at times (m,), (m, len(names), 3)."""
+        faster, inverse = of == "angular_velocity", self.motion.family == "ball" and "larmor" in self.inputs.names
+        if not 1 / WITHIN < self.inputs.rate < WITHIN:
+            raise DomainError(
+                "The rates of this motion are too large or too small for derivatives: choose other units."
+            )
+        moving = [x for x in names if x != "t"]
+        varied, weights, turns, spins, known = self._weighted(moving)
+        v = slopes = np.broadcast_to(turns, (t.size, *turns.shape))
+        if varied:
+            v, *rest = varied.vectors(t, faster, self.left, weights, turns, spins, known)
+            slopes = rest[0] if rest else v
+        elif faster:
+            slopes = np.zeros_like(v)
+        own = of != "rotation" or inverse or len(moving) < len(names)
+        R = self.sides[0] @ self.one.rotation(t) @ self.sides[1] if own else np.empty(0)
+        Omega = _omega(self.one, self.motion, t) @ self.sides[1] if inverse or len(moving) < len(names) else np.empty(0)
+        if inverse:  # the matrix is the transposed one
+            if faster:
+                slopes = -np.matvec(R[:, None], slopes + np.cross(Omega[:, None], v))
+            v = -np.matvec(R[:, None], v)
+        vectors, B = v, self.left @ self.inputs.field
+        if faster:
+            vectors = slopes @ R
+        elif of == "field":
+            needed, none = self._asked(moving), np.zeros(3)
+            fields = np.array([self.inputs.fields.get(x, none) for x in needed]).reshape(-1, 3)
+            vectors = (weights @ fields @ self.left.T + np.cross(turns, B) - np.cross(v, B)) @ R
+        if len(moving) == len(names):
+            return np.asarray(vectors)
+        out = np.empty((t.size, len(names), 3))
+        out[:, [x != "t" for x in names]] = vectors
+        rate = np.matvec(R, Omega) if of == "rotation" else self._rate(of, R, Omega, B)
+        out[:, [x == "t" for x in names]] = rate[:, None]
+        return out
+
+    def _weighted(self, names: Sequence[str]) -> tuple[Any, ...]:
+        """Return derivatives in the inputs that names move, how, and what gives v of names; kept for the next times."""
+        key = tuple(names)
+        if key not in self._known:
+            needed = self._asked(names)
+            moved = [self.moved[x] for x in names]
+            weights = np.array([[x.weights.get(y, 0.0) for y in needed] for x in moved]).reshape(
+                len(names), len(needed)
+            )
+            turns, spins = np.array([x.turn for x in moved]).reshape(len(names), 3), np.array([x.spin for x in moved])
+            if tuple(needed) not in self._varied:
+                self._varied[tuple(needed)] = self.inputs.varied(needed) if needed else None
+            varied = self._varied[tuple(needed)]
+            known = varied.weighted(self.left, weights, turns, spins) if varied else None
+            self._known[key] = varied, weights, turns, spins, known
+        return self._known[key]
+
+    def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
+        """Return dK/dt, or dOmega/dt: I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega]."""
+        J, k, linear, quadratic = self.inputs.parts
+        w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T
+        if of == "field":
+            return np.asarray(np.cross(b, w) @ self.axes)
+        push = np.outer(linear + quadratic * b[:, 2], (0.0, 0.0, 1.0))
+        change = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * np.cross(b, w)
+        return np.asarray((change / J) @ self.axes)
+
+
+def _omega(single: Any, motion: Any, t: FloatArray) -> FloatArray:
+    """Return Omega(t) of one motion, (m, 3)."""
+    if hasattr(single, "angular_velocity"):
+        return np.asarray(single.angular_velocity(t))
+    spin = single.turned if motion.family == "ball" else single.swung
+    return np.asarray(spin(single.vector("Omega"), t, None))

@@ -1,0 +1,165 @@
+"""The motions in elementary functions (71) to (73), (84) to (88) as balls, and the free body beside them, (87)."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import arb, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, rationals, sin_cos
+from atlas.arithmetic.certified_rotation import AXES, Matrix, turned_back, turns
+from atlas.arithmetic.numbers import direction, root
+from atlas.bodies.certified_body import ratio_of
+from atlas.bodies.formula_domain import case_of, check_omega3
+from atlas.bodies.formula_integrals import NAMES, along_field, integrals
+from atlas.motions.elementary import formula as elementary
+
+
+class DoubleTurn:
+    """A motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with the angular velocity `omega`."""
+
+    omega: tuple[fmpq, ...]
+
+    @property
+    def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
+        """A vector along the axis, zero for a body at rest, k and phi."""
+        raise NotImplementedError
+
+    @property
+    def _direction(self) -> Sequence[fmpq]:
+        """A vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
+        along = self._turning[0]
+        return along if any(along) else AXES[2]
+
+    @property
+    def k(self) -> Real:
+        """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
+        return self._turning[1]
+
+    @property
+    def phi(self) -> fmpq:
+        """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
+        return self._turning[2]
+
+    @property
+    def precession_rate(self) -> Real:
+        """Rate of precession, k."""
+        return self.k
+
+    @property
+    def spin_rate(self) -> fmpq:
+        """Rate of the body's turn about its axis, phi."""
+        return self.phi
+
+    @property
+    def period(self) -> arb:
+        """Time 2 pi/|k| of one precession; infinite without one."""
+        return 2 * arb.pi() / abs(self.k) if self.k != 0 else arb("inf")
+
+    def rotation(self, t: Any) -> Matrix:
+        """Return R(t), (84), as rows."""
+        return turns(rational(t, "the time"), (self._direction, self.k), (AXES[2], self.phi))
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame, (73): it turns about the third axis with frequency phi."""
+        s, c = sin_cos(self.phi * rational(t, "the time"))
+        return turned_back(self.omega, c, s)
+
+
+class ElementaryMotion(DoubleTurn):
+    """The motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with Omega(0) = (0, omega2, omega3).
+
+    ``omega3`` is given where (71) leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole
+    omega2 = -B2 with B3 = 0 or I = 1. The axis is that of B, or of the angular momentum where there is no field.
+    Every value is computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`.
+    """
+
+    def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
+        self.I = ratio_of(ratio)
+        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
+        self.omega2 = rational(omega2, "omega2")
+        rational_omega3 = None if omega3 is None else rational(omega3, "omega3")
+        self.case = case_of(fmpq(1), self.I, self.B2, self.B3, self.omega2)
+        curve = fmpq(1), self.I, self.B2, self.B3, self.omega2, rational_omega3 or fmpq(0)
+        self.omega3: fmpq = elementary.constants(self.case, *curve)[0]
+        check_omega3(self.case, rational_omega3, self.omega3)
+        self.omega = fmpq(0), self.omega2, self.omega3
+
+    @property
+    def axis(self) -> tuple[Real, Real]:
+        """Components 2 and 3 of the unit vector of the precession axis."""
+        x, y = direction(self._direction[1:])
+        return x, y
+
+    @property
+    def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
+        """A vector along the axis, k and phi."""
+        along, k, phi = elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
+        return (fmpq(0), *along), k, phi
+
+    def quaternion(self, t: Any) -> list[Real]:
+        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (85)."""
+        t = rational(t, "the time")
+        n2, n3 = self.axis
+        s, c = sin_cos(self.k * t / 2)
+        S, C = sin_cos(self.phi * t / 2)
+        return [c * C - n3 * s * S, n2 * s * S, n2 * s * C, c * S + n3 * s * C]
+
+    def column(self, j: int, t: Any) -> list[Real]:
+        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        return [row[j - 1] for row in self.rotation(t)]
+
+    def third_axis(self, t: Any) -> list[Real]:
+        """Return the third column of R(t), (84)."""
+        return self.column(3, t)
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', (32), (62), (60): the field turns about the third axis with frequency phi."""
+        s, c = sin_cos(self.phi * rational(t, "the time"))
+        return turned_back((fmpq(0), self.B2, self.B3), c, s)
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m(t)/I2 in the laboratory frame, (88): it precesses about the axis with frequency k.
+
+        Its parts along the axis and across it are rational but for one square root, and zero exactly where they are.
+        """
+        s, c = sin_cos(self.k * rational(t, "the time"))
+        m2, m3 = self.omega2, self.I * self.omega3
+        _, x, y = self._direction
+        square = x**2 + y**2
+        along, across = m2 * x + m3 * y, m3 * x - m2 * y
+        return [
+            across * s / root(square),
+            (along * x - across * y * c) / square,
+            (along * y + across * x * c) / square,
+        ]
+
+    @property
+    def invariants(self) -> dict[str, fmpq]:
+        """The constants E' of (36), K^2 of (37), c3 of (40), c5 of (41) and (m, B')/I2 of (88)."""
+        state = self.I, (fmpq(0), self.omega2, self.omega3), (fmpq(0), self.B2, self.B3)
+        return dict(zip(NAMES, (*integrals(*state), along_field(*state)), strict=True))
+
+
+class FreeMotion(DoubleTurn):
+    """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above (87)."""
+
+    @property
+    def period(self) -> arb:
+        """Period 2 pi/|phi| of Omega; infinite where that is constant."""
+        return 2 * arb.pi() / abs(self.phi) if self.phi != 0 else arb("inf")
+
+    @property
+    def mode(self) -> str:
+        """Axis that the momentum goes round, see `EulerTop.mode`."""
+        if not any(self.omega) or self.I == 1:
+            return "ball" if any(self.omega) else "at rest"
+        return "long axis" if self.I < 1 else "short axis"
+
+    def __init__(self, ratio: Any, omega: Any) -> None:
+        self.I = ratio_of(ratio)
+        self.omega = rationals(omega, "omega", 3)
+
+    @property
+    def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
+        """The angular momentum, k and phi."""
+        return elementary.free(fmpq(1), self.I, *self.omega)

@@ -1,0 +1,64 @@
+"""The charged ball (26) to (30) as balls in the other sense of the word."""
+
+from typing import Any
+
+from flint import fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, rationals, sin_cos
+from atlas.arithmetic.certified_rotation import AXES, turn, turns
+from atlas.arithmetic.numbers import direction
+from atlas.bodies.formula_domain import check_ball
+from atlas.motions.elementary import formula_ball as ball
+
+
+class BallMotion:
+    """The ball with inertia I0, Larmor frequency alpha (27) and m(0) = (0, m2, m3), the field along e3."""
+
+    def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
+        self.inertia = rational(inertia, "the inertia")
+        self.larmor = rational(larmor, "the Larmor frequency")
+        self.m2, self.m3 = rationals(momentum, "the momentum (m2, m3)", 2)
+        check_ball(self.inertia)
+
+    @property
+    def gamma(self) -> Real:
+        """The frequency of the turn about k_hat, (29)."""
+        gamma: Real = ball.turning(self.inertia, self.larmor, self.m2, self.m3)[1]
+        return gamma
+
+    @property
+    def k_hat(self) -> tuple[Real, Real]:
+        """The axis (k2, k3), (29); (0, -1) where gamma = 0 and the paper's form is 0/0."""
+        along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
+        if gamma == 0:
+            return fmpq(0), fmpq(-1)
+        k2, k3 = direction(along)
+        return k2, k3
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t), (28); for a momentum along the field (30), in which the two turns are one."""
+        t, last = rational(t, "the time"), AXES[2]
+        if self.m2 == 0:
+            s, c = sin_cos(self.m3 / self.inertia * t)
+            return turn(last, c, s)
+        along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
+        return turns(t, (last, -self.larmor), ((fmpq(0), *along), -gamma))
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m(t) in the laboratory frame, (26)."""
+        S, C = sin_cos(self.larmor * rational(t, "the time"))
+        return [self.m2 * S, self.m2 * C, self.m3]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) = R^T m/I0 in the body, below (25): the turn by gamma t about k_hat, of m(0)/I0."""
+        size = self.gamma * self.inertia  # the root of m2^2 + (alpha I0 + m3)^2
+        if size == 0:
+            return [fmpq(0), self.m2 / self.inertia, self.m3 / self.inertia]
+        s, c = sin_cos(self.gamma * rational(t, "the time"))
+        x, y, v = self.m2, self.m3 + self.larmor * self.inertia, (1 - c) / self.inertia
+        along = (x * self.m2 + y * self.m3) / (x**2 + y**2)
+        return [
+            self.larmor * self.m2 * s / size,
+            c * self.m2 / self.inertia + along * x * v,
+            c * self.m3 / self.inertia + along * y * v,
+        ]

@@ -1,0 +1,90 @@
+"""The hyperbola of elementary motions (67) to (72) and its stability: rational but for two square roots."""
+
+from typing import Any
+
+from flint import fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, rationals
+from atlas.arithmetic.numbers import root
+from atlas.bodies.certified_body import ratio_of
+from atlas.bodies.formula_domain import check_asymptotes, check_curve
+from atlas.motions.elementary import formula_hyperbola as hyperbola
+
+
+class Hyperbola:
+    """The curve (67) in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3)."""
+
+    def __init__(self, ratio: Any, field: Any) -> None:
+        self.I = ratio_of(ratio)
+        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
+
+    @property
+    def pole(self) -> fmpq:
+        """The value -B2 of omega2 that (71) leaves out."""
+        return -self.B2
+
+    @property
+    def asymptotes(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
+        """Unit directions (omega2, omega3) of the asymptotes through -B': the pole's, and that of I^-1 B'."""
+        check_asymptotes(self.B2, self.B3)
+        size = root((self.I * self.B2) ** 2 + self.B3**2)
+        return (fmpq(0), fmpq(1)), (self.I * self.B2 / size, self.B3 / size)
+
+    @property
+    def special(self) -> dict[str, tuple[fmpq, fmpq]]:
+        """Named points (omega2, omega3): rest, -2 B', where phi = 0 too, and the other zero of omega3."""
+        zero = fmpq(0)
+        return {
+            "omega2 = 0": (zero, zero),
+            "omega2 = -2 B2": (-2 * self.B2, -2 * self.B3),
+            "omega2 = -(2-I) B2": (-(2 - self.I) * self.B2, zero),
+        }
+
+    def omega3(self, omega2: Any) -> fmpq:
+        """Return the ordinate omega3 of (71): B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
+        w2 = self._off_the_pole(omega2)
+        omega3: fmpq = hyperbola.ordinate(*self._constants, w2)
+        return omega3
+
+    def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
+        """Return k = omega2/B2hat of (84) and phi of (72)."""
+        w2 = self._off_the_pole(omega2)
+        k, phi = hyperbola.frequencies(*self._constants, w2)
+        return k, phi
+
+    def stability(self, omega2: Any) -> fmpq:
+        """Return the nutation frequency squared -p'(omega3), with p the cubic of (47); see `stable`."""
+        square: fmpq = hyperbola.stability(*self._constants, self._off_the_pole(omega2))
+        return square
+
+    def stable(self, omega2: Any) -> bool:
+        """Say whether the motion is stable against nutation, theorem-band, theorem-band-ends.
+
+        At the ends of the band, where -p'(omega3) = 0, it is not; for B3 = 0 it is, theorem-equatorial-stability.
+        """
+        squared = self.stability(omega2)
+        return bool(squared > 0 or (squared == 0 and self.B3 == 0))
+
+    @property
+    def unstable_band(self) -> tuple[Real, Real] | None:
+        """The unstable interval of ((omega2 + B2)/B2)^2, theorem-band, or None where the whole family is stable.
+
+        Its ends belong to it unless B3 = 0, theorem-band-ends.
+        """
+        if self.B2 == 0:
+            return None
+        tau2 = (self.B3 / self.B2) ** 2
+        if self.I >= 1 or 8 * tau2 >= 1:
+            return None
+        spread, factor = root(1 - 8 * tau2), (1 - self.I) / (2 * (1 + tau2))
+        return factor * (1 - 2 * tau2 - spread), factor * (1 - 2 * tau2 + spread)
+
+    @property
+    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
+        """I2 = 1, I3 = I and the field, as formulas take them."""
+        return fmpq(1), self.I, self.B2, self.B3
+
+    def _off_the_pole(self, omega2: Any) -> fmpq:
+        w2 = rational(omega2, "omega2")
+        check_curve(self.B2, w2)
+        return w2

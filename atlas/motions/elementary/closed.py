@@ -1,0 +1,110 @@
+"""Closed motions of the elementary family: phi/k = p/q, so that the body comes back after q precessions."""
+
+from fractions import Fraction
+from numbers import Real
+from typing import Any
+
+from flint import arb, fmpq
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.dimensions import RATE
+from atlas.arithmetic.inputs import components, finite, number
+from atlas.arithmetic.numbers import nearest, root, workprec
+from atlas.arithmetic.rotation import DoubleRotation
+from atlas.arithmetic.words import TURN, ZERO, middle
+from atlas.bodies.body import kept_ratio, moments
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.elementary.formula_hyperbola import closing
+from atlas.motions.elementary.kernel import ElementaryMotion
+
+BITS = 300
+"""Relative accuracy of the constants: beyond what is kept of them."""
+
+
+class Closed(DoubleRotation):
+    """One closed motion: k by theorem-closed, phi = r k, the axis and the frequencies in 300 bits."""
+
+    case = "precession"
+
+    def __init__(self, I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
+        k, w2, w3, first, second = map(middle, enclosed(lambda: _constants(I2, I3, B2, B3, r), BITS))
+        self.omega2, self.omega3 = nearest(w2), nearest(w3)
+        with workprec():
+            third, self.period, phi = nearest(I3 * w3 / I2), nearest(TURN * int(r.q) / abs(k)), k * r
+        self.vectors = {
+            "Omega": (0.0, self.omega2, self.omega3),
+            "K": (0.0, nearest(B2), nearest(B3)),
+            "m": (0.0, self.omega2, third),
+        }
+        super().__init__((ZERO, first, second), k, phi)
+
+
+def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:
+    """Return k, omega2 = k B2hat, omega3 by (71), and the axis: rational but for b, at the precision of the moment.
+
+    With L = (1-I) B3 and x = I r b, I L (L - x) omega3 = -B3 (2L - x)(I L + (1-I) x).
+    """
+    b, I = root(B2 * B2 + B3 * B3), I3 / I2
+    L, x = (1 - I) * B3, I * r * b
+    k = closing(I2, I3, B2, B3, r)
+    omega3 = -B3 * (2 * L - x) * (I * L + (1 - I) * x) / (I * L * (L - x))
+    return [arb(y) for y in (k, k * B2 / b, omega3, B2 / b, B3 / b)]
+
+
+class ClosedMotion(ElementaryMotion):
+    """The elementary motion with phi/k = p/q, theorem-closed: R(t + period) = R(t).
+
+    Its omega2 is an algebraic number, as a rule no double. The frequencies are made from it in 300 bits, and phi is
+    p/q times k there, so the motion closes as exactly as any motion is evaluated, see `rotation`, after any number of
+    turns. `omega2`, `omega3`, `k` and `phi` are the nearest doubles: an ElementaryMotion made from that omega2 differs
+    in its frequencies by an ulp or so, and does not close.
+    """
+
+    made_by = "ClosedMotion"  # not from the parameters of its family
+
+    def __init__(self, ratio: Any, field: Any, p: int, q: int) -> None:
+        if not all(isinstance(x, Real) and x == x // 1 for x in (p, q)) or not q:
+            raise AtlasError(f"phi/k = p/q takes two whole numbers, the second not 0, not {p!r} and {q!r}.")
+        I2, I3 = moments(ratio)
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
+        I3, B2, B3 = number(I3, "The ratio I"), number(B2, "B2"), number(B3, "B3")
+        self.winding = Fraction(int(p), int(q))
+        """phi/k = p/q in lowest terms."""
+        inputs = [fmpq(*x.as_integer_ratio()) for x in (I2, I3, B2, B3, self.winding)]
+        _check(*inputs)
+        self.ratio, self.field, self.shape = kept_ratio(ratio, I3), (B2, B3), ()
+        self.arguments = {"ratio": self.ratio, "field": self.field, "p": p, "q": q}
+        self._closed = Closed(*inputs)
+        self._inputs = (I2, I3, B2, B3, self._closed.omega2, None)
+        self._made = {0: self._closed}  # type: ignore[dict-item]  # it has all that one elementary motion has
+
+    @property
+    def omega2(self) -> float:
+        """Initial Omega2, the nearest double."""
+        return self._closed.omega2
+
+    @property
+    def period(self) -> float:
+        """Time 2 pi q/|k| after which R is the unit matrix again, with p/q in lowest terms.
+
+        Raises DomainError where it is beyond all floats.
+        """
+        return float(finite(self._closed.period, "The period"))
+
+
+def _check(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
+    """Raise DomainError where no motion, or more than one, has phi/k = r, see theorem-closed."""
+    if B2 == 0:
+        raise DomainError("With B2 = 0 the elementary motions do not precess: k = 0, and phi/k has no value.")
+    if I2 == I3 or B3 == 0:
+        why = "I = 1" if I2 == I3 else "B3 = 0"
+        raise DomainError(
+            f"With {why} every motion of the curve has phi = 0. The line omega2 = -B2 has the others, with k = -b for "
+            "B2 > 0: ElementaryMotion(ratio, field, -B2, omega3)."
+        )
+    least = (I2 - I3) * B3 / I3  # times 1/b, the r for which k is infinite; twice that, the r of the motion at rest
+    square = r * r * (B2 * B2 + B3 * B3)
+    if r * least > 0 and square == least * least:
+        raise DomainError(f"phi/k = {r} = (1-I) B3hat/I is the limit of k to infinity: no motion has it.")
+    if r * least > 0 and square == 4 * least * least:
+        raise DomainError(f"phi/k = {r} = 2 (1-I) B3hat/I is the limit at rest, omega2 = 0: no motion has it.")

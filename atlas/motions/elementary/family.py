@@ -1,0 +1,105 @@
+"""The motions of a charged symmetric body in elementary functions, (58) to (88)."""
+
+from typing import Any
+
+from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.parameters import FIELD, RATIO, integrals, rotation
+
+OMEGA3, PRECESSION, PROPER = (
+    "third component of Omega, constant", "frequency of precession about B", "frequency of proper rotation",
+)  # fmt: skip
+FREE_SPIN = ("spin along the field", "transverse field, free spin", "ball, free spin")
+"""Cases in which omega3 is given and the paper has no equation."""
+
+
+def _stability(motion: Any) -> Any:
+    """Return the square of the frequency of small nutations: of the hyperbola, at the motion's omega2."""
+    from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+
+    return Hyperbola(motion.ratio, motion.field).stability(motion.omega2)
+
+
+def _curve(motion: Any) -> Any:
+    """Return the exact hyperbola that a motion is on, one of kernels, which has a ratio and a field, or of balls."""
+    from atlas.motions.elementary.certified_hyperbola import Hyperbola
+
+    return Hyperbola(*((motion.I, (motion.B2, motion.B3)) if hasattr(motion, "I") else (motion.ratio, motion.field)))
+
+
+def _exact_stability(motion: Any) -> Any:
+    return _curve(motion).stability(motion.omega2)
+
+
+def _verdict(motion: Any) -> str:
+    """Say whether the motion, one alone, is stable against nutation: decided without rounding."""
+    return "stable" if _curve(motion).stable(motion.omega2) else "unstable"
+
+
+FAMILY = Family(
+    "elementary",
+    "steady precession of a charged symmetric body",
+    "motions.elementary.{}.ElementaryMotion",
+    (
+        RATIO,
+        FIELD,
+        Parameter("omega2", "Second component of the initial angular velocity.", RATE, (0.7,), (-3.0, 3.0)),
+        Parameter(
+            "omega3", "Third component, where (71) leaves it free (B = 0, B2 = 0, the pole).", RATE, (), (-3.0, 3.0),
+            needed=False,
+        ),
+    ),
+    (
+        Quantity("case", "name of the case"),
+        Quantity(
+            "omega3", OMEGA3, RATE, "(71)", dict.fromkeys(("free body", *FREE_SPIN), (OMEGA3, "given")),
+            checked="omega3", certified=True,
+        ),
+        Quantity(
+            "k", PRECESSION, RATE, "(79)",
+            {"free body": (PRECESSION.replace("B", "m"), "(87)")} | dict.fromkeys(FREE_SPIN, (PRECESSION, "")),
+            checked="k", certified=True,
+        ),
+        Quantity(
+            "phi", PROPER, RATE, "(72)", {"free body": (PROPER, "(87)")} | dict.fromkeys(FREE_SPIN, (PROPER, "")),
+            checked="phi", certified=True,
+        ),
+        Quantity(
+            "period", "period of precession, 2 pi/|k|", TIME, certified=True, printed=False,
+        ),
+        Quantity(
+            "stability", "square of the frequency of small nutations", "1/time^2", "theorem-stability", get=_stability,
+            exact=_exact_stability, certified=True, printed=False,
+        ),
+        Quantity("nutation", "stable or not against small nutations", "", "theorem-band", get=_verdict,
+                 certified=True, printed=False, tabled=False),
+        *integrals("m"),
+    ),
+    (
+        *rotation("(84)", "R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "(73)", checked="Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, "(32)", checked="K", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "(88)", "m_i/I2", checked="m"),
+    ),
+    {
+        "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,
+        "columns 1, 2": 4, "R13, R23 for |kt| < 1": 8, "R under scaling by 2^n": 0, "third axis": 4,
+        "k": 4, "phi": 4, "omega3": 4, "Omega": 8, "K": 8, "m": 8,
+    },
+    Command(
+        "motion",
+        "Compute any motion of any body.",
+        "Rotation matrix R(t), angular velocity and what else there is of a motion, whose family is named: the "
+        "elementary one (71) to (85) that starts with --omega2; any other, not in the paper, that starts with "
+        "--omega W1 W2 W3 or --spin W3, of a symmetric body in elliptic functions. A body of three moments (--inertia "
+        "I1 I2 I3, --points), a tensor in any axes, and any body in a field of three components, --field B1 B2 B3, all "
+        "along the axes of the body at t = 0, move by theta functions of two variables, proved for the motion or held "
+        "against the certified one; with --digits every digit is proven at any time.",
+        (
+            "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 --json",
+            "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1e6 --digits 50",
+        ),
+        "elementary motion: ",
+        "case",
+    ),
+    figures=("motion_sphere", "motion", "rolling_cones", "hyperbola", "quadric", "stability"),
+)  # fmt: skip

@@ -1,0 +1,56 @@
+"""The constants of the motions in elementary functions, (71), (72), (79), and of the free body beside them, (87).
+
+Each formula takes I2, I3, B2, B3, omega2, and `omega3` where it is free, or the angular velocity of the free body.
+"""
+
+from atlas.arithmetic.numbers import Number, Vector, length
+from atlas.bodies.formula_domain import CASES, FREE
+from atlas.bodies.formula_integrals import along_field, integrals
+from atlas.motions.elementary.formula_hyperbola import ordinate, precession, proper
+
+
+def constants(
+    case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
+) -> tuple[Number, tuple[Number, Number], Number, Number]:
+    """Return omega3, which in the cases FREE is as given, a vector (x, y) along the axis, k and phi."""
+    if case == "free body":
+        along = omega2, I3 * omega3 / I2
+        return omega3, along, length(*along), (I2 - I3) * omega3 / I2
+    if case == "spin along the field":
+        return omega3, (B2, B3), omega2, omega3
+    k = precession(B2, B3, omega2)
+    if case in CASES[:FREE]:
+        return omega3, (B2, B3), k, omega3 + B3
+    curve = I2, I3, B2, B3, omega2
+    return ordinate(*curve), (B2, B3), k, proper(*curve)
+
+
+def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
+    """Return omega3, k, phi and I omega3."""
+    omega3, _, k, phi = constants(case, *inputs)
+    return omega3, k, phi, inputs[1] * omega3 / inputs[0]
+
+
+def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, Number]:
+    """Return a vector along the axis, k and phi."""
+    return constants(case, *inputs)[1:]
+
+
+def conserved(case: str, *inputs: Number) -> tuple[Number, ...]:
+    """Return E', (36), K^2, (37), c3, (40), c5, (41), and (m, B')/I2, (88), of the motion from (0, omega2, omega3)."""
+    I2, I3, B2, B3, omega2, _ = inputs
+    zero, omega3 = B2 - B2, constants(case, *inputs)[0]
+    state, factors = (I3 / I2, (zero, omega2, omega3), (zero, B2, B3)), ((I2 - I3) / I2, (I2 + I2 - I3) / I2)
+    return *integrals(*state, factors), along_field(*state)
+
+
+def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return omega3 = I2 omega2 B3/(I3 B2) of the free body that precesses with the charged one, above (87)."""
+    return I2 * omega2 * B3 / (I3 * B2)
+
+
+def free(I2: Number, I3: Number, *omega: Number) -> tuple[Vector, Number, Number]:
+    """Return m/I2, k and phi of a free body."""
+    w1, w2, w3 = omega
+    momentum = w1, w2, I3 * w3 / I2
+    return momentum, length(*momentum), (I2 - I3) * w3 / I2

@@ -1,0 +1,53 @@
+"""The curve of elementary motions, (71), (72), (79), and its stability, from I2, I3, B2, B3 and omega2."""
+
+from atlas.arithmetic.numbers import Number, length, select
+
+
+def ordinate(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return omega3 = B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)), (71), for B2 != 0 and omega2 != -B2."""
+    return _common(I3, B2, B3, omega2) * (I2 * omega2 + (I2 + I2 - I3) * B2)
+
+
+def proper(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)), (72), for B2 != 0 and omega2 != -B2."""
+    return _common(I3, B2, B3 * (I2 - I3), omega2) * (omega2 + (B2 + B2))
+
+
+def _common(I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return the factor that (71) and (72) share; what is often one number for many omega2 stands by itself."""
+    return omega2 / (omega2 + B2) * (B3 / (I3 * B2))
+
+
+def precession(B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return k = omega2/B2hat, (79), for B2 != 0."""
+    return omega2 * (length(B2, B3) / B2)
+
+
+def frequencies(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> tuple[Number, Number]:
+    """Return k and phi."""
+    return precession(B2, B3, omega2), proper(I2, I3, B2, B3, omega2)
+
+
+def closing(I2: Number, I3: Number, B2: Number, B3: Number, r: Number) -> Number:
+    """Return k of the motion with phi = r k, theorem-closed: b (2L - x)/(x - L) with L = (1-I) B3 and x = I r b."""
+    b = length(B2, B3)
+    L, x = (I2 - I3) * B3, I3 * r * b
+    return b * (L + L - x) / (x - L)
+
+
+def stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return the square of the frequency of small nutations, theorem-stability."""
+    X = omega2 + B2
+    X2, less = X * X, (I2 - I3) * B2 * B2 / I2
+    slope = B3 * (X2 + less) / (B2 * X)
+    return slope * slope + (X2 - less)
+
+
+def least_stability(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
+    """Return its least value: its factors, of which only those of exact terms cancel."""
+    h, b, across, less = abs(B3), length(B2, B3), B2 * B2, (I2 - I3) / I2
+    once, thrice, square = b + h, b + h + h + h, B3 * B3
+    eight = square + square
+    eight = eight + eight
+    long = once * (eight + eight - across) / thrice
+    return less * select(less, long, -(across * thrice / once))

@@ -1,0 +1,115 @@
+"""General motion of a charged ball, (20) to (30)."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import INERTIA, MOMENTUM, RATE
+from atlas.arithmetic.double_double import over
+from atlas.arithmetic.inputs import FloatArray, as_given, components, kept, numbers, plain
+from atlas.arithmetic.numbers import alone, direction, workprec
+from atlas.arithmetic.rotation import DoubleRotation
+from atlas.arithmetic.rotation_rows import Group
+from atlas.arithmetic.words import ONE, ZERO, exact, floats
+from atlas.bodies.formula_domain import check_ball
+from atlas.motions.base import DoubleTurn
+from atlas.motions.elementary.formula_ball import rates, turning
+
+
+class Ball(DoubleRotation):
+    """One ball: R = R_z(-alpha t) R_k(-gamma t), the transposed of R_k(gamma t) R_z(alpha t), (28)."""
+
+    def __init__(self, inertia: Any, larmor: Any, m2: Any, m3: Any) -> None:
+        with workprec():
+            along, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
+            # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
+            axis = (ZERO, *direction(along)) if gamma != 0 else (ZERO, ZERO, -ONE)
+        self.vectors = {"m": (0.0, *floats(exact(m2, m3))), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
+        super().__init__(axis, gamma, alpha, inverse=True)
+
+
+class BallMotion(DoubleTurn[Ball]):
+    """Motion of a ball with the field along e3 and m(0) = (0, m2, m3): R = R_z(-alpha t) R_k(-gamma t), (28).
+
+    `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), (27), of either sign, in 1/time; `momentum` (m2, m3) in
+    inertia/time. Arrays broadcast; the inputs are taken as exact. The frame is that of Figure Ball, e3 along the field
+    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30). Raises
+    DomainError for an inertia that is not positive, AtlasError for what is no number.
+
+        >>> round(atlas.BallMotion(1.0, 0.5, momentum=(0.3, -0.7)).gamma, 9)
+        0.360555128
+    """
+
+    family = _kind = "ball"
+    _frequencies = slice(1, None)
+    _inverse = True
+
+    def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
+        m2, m3 = components(momentum, ("m2", "m3"), "The momentum", MOMENTUM)
+        inertia = numbers(inertia, "The inertia", INERTIA)
+        check_ball(np.asarray(inertia))
+        larmor = numbers(larmor, "The Larmor frequency", RATE)
+        super().__init__(Ball, inertia, larmor, m2, m3)
+        self.inertia, self.larmor, self.momentum = plain(inertia), plain(larmor), (plain(m2), plain(m3))
+        momentum = (as_given(m2), as_given(m3))
+        self.arguments = {"inertia": as_given(inertia), "larmor": as_given(larmor), "momentum": momentum}
+
+    @kept
+    def gamma(self) -> Any:
+        """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
+        return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._frequencies)
+
+    @property
+    def precession_rate(self) -> Any:
+        """Rate of the turn about the field, -alpha, (28)."""
+        return plain(-np.asarray(self.larmor))
+
+    @property
+    def spin_rate(self) -> Any:
+        """Rate of the turn about the axis k_hat in the body, -gamma, (28)."""
+        return plain(-np.asarray(self.gamma))
+
+    @kept
+    def k_hat(self) -> tuple[Any, Any]:
+        """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
+        k2, k3 = over(
+            lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._frequencies, degree=(0, 0)
+        )
+        return k2, plain(np.where(self.gamma == 0, -1.0, k3))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, (26); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        if self.is_placed:
+            return self._momentum_of(lambda Omega: Omega, t)
+        return self._evaluate(lambda single, t, out: single.swung(single.vector("m"), t, out), t, (3,))
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return self._spun(
+            self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,)), t
+        )
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body, B' = (0, 0, alpha), (32); shape (..., 3), each within 1e-15 of |alpha|.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        if self._placement is not None:
+            return np.asarray(np.vecmat(self._placement.field, self.rotation(t)))
+        return np.asarray(np.asarray(self.larmor)[..., None] * self.rotation(t)[..., 2, :])
+
+    def _groups(self) -> list[Group]:
+        return [(turning, slice(None), self._inputs)]
+
+    def _vectors(self) -> dict[str, Any]:
+        inertia, _, m2, m3 = self._inputs
+        return {
+            "m": (0.0, *floats(exact(m2, m3))),
+            "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, None), degree=(1, 1))),
+        }

@@ -1,0 +1,263 @@
+"""The hyperbola of elementary motions, (67) to (72), sampled by hyperbolic parameter, and its stability."""
+
+from collections.abc import Callable
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import RATE
+from atlas.arithmetic.double_double import over
+from atlas.arithmetic.inputs import FloatArray, components, plain, positive, real, whole
+from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
+from atlas.arithmetic.words import exact
+from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.formula_domain import check_asymptotes, check_curve
+from atlas.display import Shown
+from atlas.errors import AtlasError, DomainError
+from atlas.lazy import cached_property
+from atlas.motions.elementary.closed import ClosedMotion
+from atlas.motions.elementary.formula_hyperbola import frequencies, least_stability, ordinate, stability
+from atlas.motions.nutation.top_hyperbola import Branch, halves
+
+if TYPE_CHECKING:
+    from atlas.motions.nutation.kernel_general import GeneralMotion
+    from atlas.motions.nutation.top_hyperbola import TopHyperbola
+
+MOST = 10**8
+"""Points of a curve that are sampled in one call."""
+
+
+class Hyperbola(Shown):
+    """The curve (67) in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
+
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
+    broadcast with omega2 in `omega3`, `frequencies` and `stability` and with each other in `least_stability`; the rest
+    is asked of one curve. About the centre -B', with X = omega2 + B2 and Y = omega3 + B3, it is
+
+        Y = (B3/(I B2)) (X - (1-I) B2^2/X),
+
+    so that X = ± sqrt|1-I| |B2| e^s, and s is the hyperbolic parameter. The vertical asymptote X = 0 is the pole.
+    Special fields: for B3 = 0 the curve is the two lines omega3 = 0 and omega2 = -B2, for B2 = 0 the line
+    omega2 = 0, and for B = 0 the whole plane; for I = 1 it is the line Y = (B3/B2) X, and the pole a second one. Raises
+    DomainError for a ratio that no body has, AtlasError for what is no number.
+
+        >>> round(atlas.Hyperbola(1.5, (1.0, 2.0)).omega3(0.7), 9)
+        0.658823529
+    """
+
+    family = "hyperbola"
+
+    def __init__(self, ratio: Any, field: Any) -> None:
+        I2, I3 = moments(ratio)
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
+        self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
+        self._ratio = kept_ratio(ratio, I3)
+        self.arguments = {"ratio": self._ratio, "field": (self.B2, self.B3)}
+
+    @classmethod
+    def of_top(
+        cls, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
+    ) -> "TopHyperbola":
+        """Return the hyperbola of the steady precessions of one symmetric top, given as in `TopMotion`.
+
+        Raises AtlasError as `TopMotion` does, DomainError for n2 = 0.
+        """
+        from atlas.motions.nutation.top_hyperbola import TopHyperbola
+
+        return TopHyperbola(inertia, coupling, direction, linear, quadratic)
+
+    @cached_property
+    def _exact(self) -> tuple[Number, ...]:
+        """Exact I2, I3, B2, B3 of one curve."""
+        if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
+            raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
+        return exact(self.I2, self.I3, self.B2, self.B3)
+
+    @property
+    def pole(self) -> Any:
+        """The omega2 = -B2 that (71) leaves out."""
+        return 0.0 - self.B2
+
+    @property
+    def asymptotes(self) -> tuple[FloatArray, FloatArray]:
+        """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes through the centre -B'.
+
+        The first is the pole's, the second that of I^-1 B'. DomainError where the curve is none: B2 = 0 or B3 = 0.
+        """
+        I2, I3, B2, B3 = self._exact
+        check_asymptotes(B2, B3)
+        with workprec():
+            x, y = I3 * B2, I2 * B3
+            h = length(x, y)
+            return np.array([0.0, 1.0]), np.array([nearest(x / h), nearest(y / h)])
+
+    @property
+    def special(self) -> dict[str, tuple[float, float]]:
+        """Named points (omega2, omega3): rest, -2 B', where phi = 0 too, and the other zero of omega3."""
+        I2, I3, B2, _ = self._exact
+        zero = (I3 - I2 - I2) * B2 / I2
+        return {
+            "omega2 = 0": (0.0, 0.0),
+            "omega2 = -2 B2": (-2 * self.B2, -2 * self.B3),
+            "omega2 = -(2-I) B2": (nearest(zero), 0.0),
+        }
+
+    def omega3(self, omega2: Any) -> Any:
+        """Ordinate omega3 of the curve at omega2, (71), rounded once. DomainError at the pole and for B2 = 0.
+
+        AtlasError is raised for what is no number.
+        """
+        return self._over(ordinate, omega2)
+
+    def frequencies(self, omega2: Any) -> tuple[Any, Any]:
+        """Frequencies k = omega2/B2hat, (79), and phi, (72), each rounded once. DomainError as for `omega3`.
+
+        AtlasError is raised for what is no number.
+        """
+        k, phi = self._over(frequencies, omega2, degree=(1, 1))
+        return k, phi
+
+    def closed(self, p: int, q: int) -> ClosedMotion:
+        """Return the motion of the curve with phi/k = p/q exactly, theorem-closed, which closes after q precessions.
+
+        There is one, and no other, for every rational but (1-I) B3hat/I and twice that; DomainError there, and for
+        I = 1, B2 = 0 or B3 = 0. Raises AtlasError unless p and q are whole numbers.
+        """
+        return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
+
+    def stability(self, omega2: Any) -> Any:
+        """Nutation frequency squared -p'(omega3), p the cubic of (47), in 1/time^2: theorem-stability.
+
+        The motion is stable where it is positive and unstable where it is negative; where it is zero, at the ends of
+        the unstable band, the motion is unstable too, theorem-band-ends, unless B3 = 0, theorem-equatorial-stability.
+        With x = (omega2 + B2)/B2 and tau = B3/B2 it is
+        B2^2 [(1 + tau^2) x^4 + (1-I)(2 tau^2 - 1) x^2 + tau^2 (1-I)^2]/x^2
+        = tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2 with X = omega2 + B2; not in the paper. DomainError as for
+        `omega3`; inf where it overflows. AtlasError is raised for what is no number.
+        """
+        return self._over(stability, omega2, degree=2)
+
+    def growth_rate(self, omega2: Any) -> Any:
+        """Rate, in 1/time, at which a small push away from the motion at omega2 grows: sqrt of -`stability`, or 0.
+
+        It is 0 where the motion is stable, and at the ends of the unstable band, where a push grows like a power of
+        time. DomainError as for `omega3`. AtlasError is raised for what is no number.
+        """
+        return plain(np.sqrt(np.maximum(-np.asarray(self.stability(omega2)), 0.0)))
+
+    def escape(self, omega2: float, omega1: float) -> "GeneralMotion":
+        """Return the motion at omega2 pushed by a small `omega1`, in full: see its `period` and `turning_points`.
+
+        `omega3` is that of the curve, rounded once. In the unstable band Omega3 leaves it, however small the push, as
+        far as the next root of Q and comes back, again and again. Raises AtlasError for what is no number.
+        """
+        from atlas.motions.nutation.kernel_general import GeneralMotion
+
+        return GeneralMotion(self._ratio, (self.B2, self.B3), (omega1, omega2, self.omega3(omega2)))
+
+    @property
+    def least_stability(self) -> Any:
+        """Greatest lower bound of `stability` on the curve, in 1/time^2, rounded once; shape of the parameters.
+
+        It is 2 |1-I| |B3| b - (1-I)(B2^2 - 2 B3^2), b = |B'|, taken where ((omega2 + B2)/B2)^2 = |1-I| |B3|/b, or, for
+        I = 1 or B3 = 0, approached at the pole; not in the paper. Where it is negative its root is the greatest rate of
+        growth. DomainError for B2 = 0.
+        """
+        if np.any(np.equal(self.B2, 0)):
+            raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
+        return over(least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, None), degree=2) + 0.0
+
+    @property
+    def unstable_band(self) -> tuple[float, float] | None:
+        """Interval [y-, y+] of ((omega2 + B2)/B2)^2 in which the family is unstable, None if nowhere: theorem-band.
+
+        For I < 1 and |tau| = |B3/B2| <= 1/(2 sqrt 2): y± = (1-I)[1 - 2 tau^2 ± sqrt(1 - 8 tau^2)]/(2 (1 + tau^2)).
+        The ends belong to it unless B3 = 0. Equality in tau is met by no two floats but zeros.
+        """
+        I2, I3, B2, B3 = self._exact
+        disc = B2 * B2 - 8 * B3 * B3
+        if self.I3 >= self.I2 or disc <= 0:
+            return None
+        tau2, one_less = B3 * B3 / (B2 * B2), (I2 - I3) / I2
+        with workprec():
+            # y- y+ = (1-I)^2 tau^2/(1 + tau^2): y- from y+ does not cancel
+            sum_ = 1 - 2 * tau2 + root(disc / (B2 * B2))
+            return nearest(2 * one_less * tau2 / sum_), nearest(one_less * sum_ / (2 + 2 * tau2))
+
+    def sample(self, points: Any = 200, *, reach: float = 4.0) -> Branch:
+        """Points (omega2, omega3) of both branches, one after the other; see `branches`.
+
+        Raises AtlasError for fewer than two points.
+        """
+        first, second = zip(*self.branches(points, reach=reach), strict=True)
+        return np.concatenate(first), np.concatenate(second)
+
+    def branches(self, points: Any = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
+        """Branches of the curve as arrays (omega2, omega3), by hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s.
+
+        `points` is how many in all, spread evenly in s from where |Y| to where |X| is `reach` times |B'|, or the
+        values of s themselves (for I = 1, where there is no scale, of X/|B2| = ± e^s). The first branch has X > 0.
+        Each omega3 is that of the double omega2, rounded once. A straight line (B2 = 0 or B3 = 0) is spread evenly, and
+        `points` must be a number; for B = 0 there is no curve: DomainError. More than MOST points are an AtlasError.
+        """
+        points = points if isinstance(points, int) else plain(real(points, "The points"))
+        if np.ndim(points) == 0 and points > MOST:
+            raise AtlasError(f"The number of points must be at most {MOST}, not {points:g}.")
+        with workprec():
+            b = nearest(length(*self._exact[2:]))
+        extent = positive(reach, "reach") * b
+        if not isfinite(extent):
+            raise DomainError(f"The field must be smaller: {reach} times |B'| = {b} is beyond the largest float.")
+        if b == 0:
+            raise DomainError("With B = 0 every point (omega2, omega3) is a motion: there is no curve to sample.")
+        if self.B2 and self.B3:
+            return tuple(
+                self._branch(sign, s) for sign, s in zip((1, -1), self._parameters(points, extent), strict=True)
+            )
+        if np.ndim(points):
+            raise AtlasError(
+                "With B2 = 0 or B3 = 0 the curve is straight and has no parameter: give a number of points."
+            )
+        if self.B2 == 0:
+            y = np.linspace(-extent, extent, whole(points, "The number of points"))
+            return ((np.zeros_like(y), y - self.B3),)
+        x, y = (np.linspace(-extent, extent, n) for n in halves(points))
+        return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)
+
+    def _parameters(self, points: Any, extent: float) -> tuple[FloatArray, FloatArray]:
+        """Return the values of s on either branch."""
+        if np.ndim(points):
+            s = real(points, "The parameter")
+            return s, s
+        I2, I3, b2, b3 = self._exact
+        B2, tangent = abs(self.B2), nearest(abs(I2 * b3 / (I3 * b2)))
+        scale = self._scale()
+        if not 0 < tangent * B2 / extent < inf or not 0 < extent / scale < inf:
+            raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
+        high = np.log(extent / scale)
+        low = np.log(scale / B2) + np.log(tangent * B2 / extent) if self.I2 != self.I3 else high - np.log(1e3)
+        first, second = (np.linspace(min(low, high - 1), high, n) for n in halves(points))
+        return first, second
+
+    def _branch(self, sign: int, s: FloatArray) -> Branch:
+        """Return the points at parameters s on the side X > 0 or X < 0."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            omega2 = sign * self._scale() * np.exp(s) - self.B2
+        if not np.isfinite(omega2).all():
+            raise AtlasError(f"A parameter of {np.max(s)} leads beyond the largest float.")
+        beside = np.nextafter(self.pole, sign * np.inf)
+        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, beside)
+        return omega2, np.asarray(self.omega3(omega2))
+
+    def _scale(self) -> float:
+        """Return |X| at s = 0: the vertical semi-axis of the curve, or |B2| for I = 1."""
+        I2, I3, B2, _ = self._exact
+        with workprec():
+            return nearest(root(abs(I2 - I3) / I2 * B2 * B2)) or abs(self.B2)
+
+    def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
+        """Return what a formula of I2, I3, B2, B3 and omega2 gives, where (71) holds."""
+        omega2 = real(omega2, "omega2", RATE)
+        check_curve(self.B2, omega2)
+        return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, None), **more)

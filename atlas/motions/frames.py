@@ -1,0 +1,101 @@
+"""Where a motion stands: the axes of the laboratory and of the body that were given, beside those of its class."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import TIME, bare
+from atlas.arithmetic.double_double import given
+from atlas.arithmetic.given import Given
+from atlas.arithmetic.inputs import FloatArray, plain
+from atlas.arithmetic.numbers import Number, turned
+from atlas.arithmetic.quaternions import of_matrix, product, rows_of_matrix
+from atlas.lazy import cached_property
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Constant rotations beside a motion, R(t) = left R_class(t) right, and its state as it was given.
+
+    `left` and `right` (..., 3, 3), None for the unit matrix, are rounded: they add an error of 1e-15 at any time, since
+    what the motion is made of is turned exactly. The rows of `right` are the axes of the class in those of the body.
+    `tensor` is the inertia tensor, `field` B' in the laboratory, `attitude` R(0) and `omega` Omega(0), in the axes that
+    were given. `make` is the call that makes the motion, `arguments` what its class was made of.
+    """
+
+    left: FloatArray | None
+    right: FloatArray | None
+    tensor: FloatArray
+    field: FloatArray
+    attitude: FloatArray
+    omega: FloatArray
+    make: Callable[..., Any]
+    arguments: dict[str, Any]
+
+    @property
+    def sides(self) -> tuple[FloatArray, FloatArray]:
+        """Both rotations as matrices."""
+        left, right = (np.eye(3) if x is None else x for x in (self.left, self.right))
+        return left, right
+
+    def matrices(self, R: FloatArray, *, between: int = 0) -> FloatArray:
+        """Turn matrices (..., 3, 3) of the class in place; `between` axes stand between those of motions and theirs."""
+        left, right = (x if x is None or not between else x[..., None, :, :] for x in (self.left, self.right))
+        if right is not None:
+            np.matmul(R, right, out=R)
+        return R if left is None else np.matmul(left, R, out=R)
+
+    def vectors(self, v: FloatArray) -> FloatArray:
+        """Return vectors along the axes of the class, (..., 3), along those of the body."""
+        return v if self.right is None else np.asarray(np.vecmat(v, self.right))
+
+    def along_class(self, v: FloatArray) -> FloatArray:
+        """Return vectors along the axes of the body, (..., 3), along those of the class."""
+        return v if self.right is None else np.asarray(np.matvec(self.right, v))
+
+    def quaternions(self, q: FloatArray) -> FloatArray:
+        """Return quaternions (x, y, z, w) of the class turned, with w >= 0 where that of the class is 1."""
+        left, right = self._quaternions
+        return product(product(left, q), right)
+
+    @cached_property
+    def _quaternions(self) -> tuple[FloatArray, FloatArray]:
+        left, right = map(of_matrix, self.sides)
+        return left * np.where(product(left, right)[..., 3:] < 0, -1.0, 1.0), right
+
+    @staticmethod
+    def started(values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
+        """Return vectors or matrices, of a rank, with those at t = 0 replaced by what was given."""
+        known = np.equal(bare(t, "The time", TIME), 0)
+        if known.any():
+            known = np.broadcast_to(known, values.shape[:-rank])
+            np.copyto(values, start, where=known.reshape(known.shape + (1,) * rank))
+        return values
+
+
+def turned_by(v: list[Any], *turns: FloatArray) -> list[Any]:
+    """Return the components of vectors turned by rotation matrices (..., 3, 3), the first one first, without rounding.
+
+    A matrix of floats is orthogonal but for rounding: it stands for the rotation of its quaternion, whose components
+    are floats of any length. That is the matrix itself where its entries are -1, 0 and 1.
+    """
+    turns = tuple(M for M in turns if (np.eye(3) != M).any())
+    if not turns:
+        return v
+    if all(np.isin(M, (-1, 0, 1)).all() for M in turns) and not any(isinstance(x, Given) for x in v):
+        x = np.stack(np.broadcast_arrays(*v), -1)
+        for M in turns:
+            x = np.matvec(M, x)
+        return [plain(x[..., i] + 0.0) for i in range(3)]
+    rows = [x for M in turns for x in np.moveaxis(rows_of_matrix(M), -1, 0)]
+    return given(_turned, *rows, *v, unit=slice(len(rows), None), count=3)
+
+
+def _turned(*numbers: Number) -> tuple[Number, ...]:
+    *quaternions, x, y, z = numbers
+    v: Any = (x, y, z)
+    for i in range(0, len(quaternions), 4):
+        v = turned(quaternions[i : i + 4], v)
+    return tuple(v)

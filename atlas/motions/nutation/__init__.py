@@ -1,0 +1,1 @@
+"""Motions whose axis nutates, in elliptic functions: of a symmetric body, a top, three moments."""

@@ -1,0 +1,181 @@
+"""The Cayley-Klein parameters of the general motion at many times, and the matrices that they make.
+
+alpha and beta, up to a common real factor, are sums of the functions of time of `functions` times phases exp(i f t).
+The matrix is linear in the ten products of their four real parts, once the squares of these sum to one.
+"""
+
+import numpy as np
+
+from atlas.arithmetic.circle import WHOLE
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.phase import room
+from atlas.motions.nutation.constants import CayleyKlein
+from atlas.motions.nutation.functions import Hyperbolic, Steady, Trigonometric
+
+PAIRS = tuple((i, j) for i in range(4) for j in range(i, 4))
+"""The ten products of Re alpha, Re beta, Im alpha, Im beta."""
+
+PER_TURN = np.array(1 / np.pi)
+
+QUATERNION = (0, 1, 3, 2)
+"""Places of w, x, y, z among them."""
+
+
+class Evaluation:
+    """alpha and beta at up to `size` times at once, with the memory that this takes.
+
+    If `signed`, their common factor is positive; else it may be of either sign, which drops out of the matrix.
+    """
+
+    def __init__(self, parameters: CayleyKlein, size: int, *, signed: bool = False) -> None:
+        self.parameters, self.signed = parameters, signed
+        count = parameters.phases.words.shape[1]
+        self.table = parameters.values
+        self.work = room(count, size)
+        self.rows = np.empty((parameters.functions.count, size))
+        self.sums = np.empty((2, len(self.table), size))
+        self.circles, self.products = np.empty((2, 2, size)), Products(size)
+
+    def parts(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m).
+
+        `low` (m,) is what the times t lack, None for nothing.
+        """
+        if self.parameters.by_balls:
+            return self.parameters.in_balls(t, low)
+        m = t.size
+        u = self._phases(t, low)
+        if self.signed:
+            self.odd += np.rint(u * PER_TURN).astype(np.int64).sum(axis=0)
+        np.tan(u, out=u)
+        # phases of alpha and beta, half the sum and half the difference of the two; all have a common factor
+        cos, sin = self.circles[..., :m]
+        np.multiply(u[0], u[1], out=sin[0])
+        np.subtract(WHOLE, sin[0], out=cos[0])
+        np.add(WHOLE, sin[0], out=cos[1])
+        np.add(u[0], u[1], out=sin[0])
+        np.subtract(u[0], u[1], out=sin[1])
+        sums, result = self.sums[..., :m]
+        np.matmul(self.table, self.rows[:, :m], out=sums)
+        pairs, turned = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
+        np.multiply(pairs, cos, out=turned)
+        pairs *= sin
+        turned[:, 0] -= pairs[:, 1]
+        turned[:, 1] += pairs[:, 0]
+        if self.parameters.faint:
+            result /= np.abs(result[:4]).max(axis=0)
+        if self.signed:
+            result *= 1.0 - 2.0 * (self.odd & 1)
+        return np.asarray(result)
+
+    def _phases(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Fill the rows; return half the sum and half the difference of the phases of alpha and beta, (2, m)."""
+        m, functions = t.size, self.parameters.functions
+        rows = self.rows[:, :m]
+        if isinstance(functions, Hyperbolic) and functions.periodic:
+            u, e = self._reduced(t, low)
+            x, rest = functions.line.at(u[2], e[2])
+            functions.fill(rows, x, rest)
+            u, v = u[:2], u[2]
+            u += functions.twist * v
+            if self.parameters.swing:
+                u[1] += self.parameters.swing.half_on_line(x, rest, v, e[2])
+            return np.asarray(u)
+        if isinstance(functions, Trigonometric):
+            return self._on_circle(functions, t, low)
+        u = self._halves(t, low)
+        if isinstance(functions, Steady):
+            functions.fill(rows, t)
+            return np.asarray(u)
+        near = np.clip(t, -functions.line.longest, functions.line.longest)
+        x, rest = functions.line.at(near, 0.0 if low is None else low)
+        functions.fill(rows, x, rest)
+        if self.parameters.swing:
+            u[1] = self.parameters.swing.along(u[1], x, rest)
+        return np.asarray(u)
+
+    def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Do the same where the functions are trigonometric."""
+        swing = self.parameters.swing
+        if swing and swing.is_large:
+            u, e = self._reduced(t, low)
+            u[1] += swing.half_at(functions.multiple, u[2], e[2])
+        else:
+            u = self._halves(t, low)
+        u, w = u[:2], u[2]
+        if self.signed and self.parameters.alternates:
+            self.odd += np.rint(w * PER_TURN).astype(np.int64)
+        np.tan(w, out=w)
+        functions.fill(self.rows[:, : t.size], w)
+        if swing and not swing.is_large:
+            u[1] += swing.of_circle(*functions.doubled(w))
+        return np.asarray(u)
+
+    def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+        """Return half the phases, reduced, and what rounding left out; keep how many whole turns that is."""
+        half, rest, whole, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
+        self._keep(whole)
+        return half, rest
+
+    def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Return the same, rounded."""
+        turns = np.empty((len(self.parameters.frequencies), t.size)) if self.signed else None
+        half = self.parameters.phases.halves_of(t, self.work, low, turns)
+        self._keep(turns)
+        return half
+
+    def _keep(self, whole: FloatArray | None) -> None:
+        """Keep the number of whole turns, of which each is a last digit."""
+        if self.signed and whole is not None:
+            self.odd = whole.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
+
+    def products_at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+        """Return the ten products at times t + low, (10, m)."""
+        return self.products.of_pair(self.parts(t, low))
+
+
+class Products:
+    """The ten products of `PAIRS` of up to `size` quadruples, whose squares are made to sum to one."""
+
+    def __init__(self, size: int) -> None:
+        self.unit, self.square, self.out = np.empty((4, size)), np.empty(size), np.empty((10, size))
+
+    def of_pair(self, q: FloatArray) -> FloatArray:
+        """Return the products of q (4, m), shape (10, m)."""
+        m = q.shape[1]
+        unit, square, out = self.unit[:, :m], self.square[:m], self.out[:, :m]
+        np.multiply(q, q, out=unit)
+        np.add.reduce(unit, axis=0, out=square)
+        np.divide(WHOLE, square, out=square)
+        np.multiply(q, square, out=unit)
+        np.multiply(unit[0], q, out=out[:4])
+        np.multiply(unit[1], q[1:], out=out[4:7])
+        np.multiply(unit[2], q[2:], out=out[7:9])
+        np.multiply(unit[3], q[3], out=out[9])
+        return out
+
+
+def _entries() -> FloatArray:
+    """Return the weights (10, 3, 3) of the products in the entries of R(alpha, beta)."""
+    w, x, y, z = QUATERNION
+    table = np.zeros((4, 4, 3, 3))
+    for i, j, (row, column), c in (
+        *((w, w, (k, k), 1) for k in range(3)),
+        (x, x, (0, 0), 1), (x, x, (1, 1), -1), (x, x, (2, 2), -1),
+        (y, y, (0, 0), -1), (y, y, (1, 1), 1), (y, y, (2, 2), -1),
+        (z, z, (0, 0), -1), (z, z, (1, 1), -1), (z, z, (2, 2), 1),
+        (x, y, (0, 1), 2), (x, z, (0, 2), 2), (y, z, (1, 2), 2),
+        (w, z, (0, 1), -2), (w, y, (0, 2), 2), (w, x, (1, 2), -2),
+        (x, y, (1, 0), 2), (x, z, (2, 0), 2), (y, z, (2, 1), 2),
+        (w, z, (1, 0), 2), (w, y, (2, 0), -2), (w, x, (2, 1), 2),
+    ):  # fmt: skip
+        table[min(i, j), max(i, j), row, column] += c
+    return np.array([table[i, j] for i, j in PAIRS])
+
+
+ENTRIES = _entries()
+
+
+def entries(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
+    return (left @ ENTRIES @ right).reshape(10, 9)

@@ -1,0 +1,267 @@
+"""What motions whose axis nutates share as balls: from the pair (alpha, beta) to periods, angles and attitudes.
+
+Of a motion that is two turns one after the other entries that are zero throughout are exactly zero. Where M = II (Omega
++ K) is along neither the field nor the axis, p = M3 = 0, the body swings in a plane of Larmor's frame like a pendulum,
+and R(t) = R_B(-b t) R_n(delta), n across the plane. The ball is R(t) = R_B(-b t) R_M(|M| t).
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import acb, arb, ctx, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, sin_cos
+from atlas.arithmetic.certified_rotation import AXES, Matrix, identity, product, turn, turned_back, turns
+from atlas.arithmetic.numbers import by_precision, dot, length, workprec
+from atlas.errors import DomainError
+from atlas.motions.nutation.certified_cayley_klein import Solution, infinite, matrix, steady
+from atlas.motions.nutation.certified_constants import Nutation
+from atlas.motions.nutation.certified_quartic import Quartic
+from atlas.motions.nutation.certified_spheres import Sphere
+
+
+class Nutating:
+    """A motion R(t) with a quartic, `kind`, the `sphere` of its axis, and the constants `solution` of its pair."""
+
+    quartic: Quartic
+    kind: str
+    omega: tuple[fmpq, ...]
+    field: tuple[fmpq, ...]
+    """Vector about which the axis precesses, in the body at t = 0; of any length."""
+    cancelled = 0
+    """Digits, of base two, that the spin in a period loses when it is made of two turns."""
+    places = 0, 1, 2
+    """Axes of the body, the one last that nutates."""
+
+    @property
+    def sphere(self) -> Sphere:
+        """The sphere of the field at the precision of the moment."""
+        raise NotImplementedError
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        raise NotImplementedError
+
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about the field and phi about the body's axis where theta is constant."""
+        raise NotImplementedError
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether the axis swings in a plane of a frame that turns at the rate `precession`, without any other turn."""
+        return False
+
+    @property
+    def precession(self) -> Real:
+        """Rate of that frame about the field."""
+        raise NotImplementedError
+
+    @property
+    def swings_evenly(self) -> bool:
+        """Whether the spin in a period is exactly zero, since nu swings evenly about zero."""
+        raise NotImplementedError
+
+    @property
+    def precesses_evenly(self) -> bool:
+        """Whether the precession in a period is exactly that of the frame."""
+        return False
+
+    def _separatrix(self, poles: str) -> str | None:
+        """Return the kind of a separatrix, which may lead from pole to pole; None where no end is a multiple root."""
+        roots = self.quartic.roots()
+        ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))
+        more = {(2, 2): f" between {poles}", (1, 3): ", triple root", (1, 2): ""}.get((ends[0], ends[1]))
+        return None if more is None else f"separatrix{more}"
+
+    @property
+    def _axis(self) -> Sequence[fmpq]:
+        """Vector along the axis of precession, in the body at t = 0."""
+        return self.field
+
+    @property
+    def b(self) -> Real:
+        """Length of the field, or of the direction."""
+        return length(*self.field)
+
+    @by_precision
+    def solution(self) -> Solution:
+        """The constants of alpha and beta, from which R follows, at the precision of the moment."""
+        return self._solved()
+
+    def trigonometric(self) -> Solution:
+        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
+        return self._solved(trigonometric=True)
+
+    def _solved(self, *, trigonometric: bool = False) -> Solution:
+        if self.is_steady:
+            return steady(self.sphere.tilt, *self.steady_rates(), self._half)
+        return Nutation(self.quartic, self.sphere).solution(trigonometric=trigonometric)
+
+    @property
+    def _half(self) -> arb:
+        """Half the period of an infinitesimal nutation where theta is constant; infinite where that is unstable."""
+        square = -arb(self.quartic.curvature) / 2
+        return arb.pi() / square.sqrt() if square > 0 else arb("inf")
+
+    def tilt(self) -> tuple[Real, Real, Real, Real]:
+        """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
+        return self.sphere.tilt
+
+    @property
+    def period(self) -> arb:
+        """Period of nutation T; of an infinitesimal one where Omega3 is constant, infinite where that is unstable."""
+        return self.solution.period
+
+    @property
+    def precession_per_period(self) -> arb:
+        """Angle by which the body precesses about B in one period, the integral of psi'."""
+        return self._angles()[0]
+
+    @property
+    def spin_per_period(self) -> arb:
+        """Angle by which the body turns about its axis in one period, the integral of chi'."""
+        with workprec(ctx.prec + self.cancelled):
+            return self._angles()[1]
+
+    @property
+    def precession_rate(self) -> Real:
+        """Mean rate of precession, the angle in one period over that."""
+        return self.precession_per_period / self.period
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about its axis, the angle in one period over that."""
+        return self.spin_per_period / self.period
+
+    @property
+    def nome(self) -> arb:
+        """Nome q = exp(-pi K'/K) of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        half, imaginary = self._periods()
+        if infinite(half):
+            return arb(1)
+        return arb(0) if infinite(imaginary) else (-arb.pi() * imaginary / half).exp()
+
+    @property
+    def modulus(self) -> arb:
+        """Modulus k of the elliptic functions."""
+        return self._moduli()[0]
+
+    @property
+    def complementary_modulus(self) -> arb:
+        """Complementary modulus k' = sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._moduli()[1]
+
+    def _periods(self) -> tuple[arb, arb]:
+        """Return half the real and half the imaginary period; DomainError where both are infinite."""
+        lattice = self.solution.lattice
+        unstable = self.is_steady and self.quartic.curvature != 0
+        if infinite(lattice.half) and infinite(lattice.imaginary) and not unstable:
+            where = "At a triple root of Q, as at rest without a field,"
+            raise DomainError(f"{where} both periods are infinite: modulus and nome have no limit.")
+        return lattice.half, lattice.imaginary
+
+    def _moduli(self) -> tuple[arb, arb]:
+        half, imaginary = self._periods()
+        if infinite(half) or infinite(imaginary):
+            return (arb(1), arb(0)) if infinite(half) else (arb(0), arb(1))
+        _, second, third, fourth = (x.real for x in acb(0).modular_theta(acb(0, imaginary / half)))
+        return (second / third) ** 2, (fourth / third) ** 2
+
+    def _angles(self) -> tuple[arb, arb]:
+        solution = self.solution
+        T, pi = solution.period, arb.pi()
+        if infinite(T):
+            raise DomainError(f"This motion, of the kind {self.kind!r}, has no period: no angle belongs to one.")
+        signs = self.quartic.sign_beside(-1), self.quartic.sign_beside(1)
+        if not self.is_steady and len(self.quartic.polynomial) == 3:
+            # the axis goes round a circle: alpha and beta go half round zero each, with the signs of their torques
+            both, apart = pi * (signs[0] + signs[1]), pi * (signs[0] - signs[1])
+        else:
+            # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
+            first, second = (
+                T * x.own + pi * x.turn if self.is_steady or sign else arb(0)
+                for x, sign in zip((solution.alpha, solution.beta), signs, strict=True)
+            )
+            both, apart = first + second, first - second
+        precession = T * solution.precession + (arb(0) if self.precesses_evenly else both)
+        if self.swings_evenly:
+            return precession, arb(0)
+        further = solution.swing.kappa * solution.swing.rate * T if solution.swing else arb(0)
+        return precession, T * solution.spin + apart + further
+
+    def quaternion(self, t: Any) -> list[arb]:
+        """Return a unit quaternion of R(t), scalar first."""
+        a, b, _, _ = self.solution.parameters(t)
+        q = self.from_frame(a, b)
+        size = sum((x * x for x in q), arb(0)).sqrt()
+        return [x / size for x in q]
+
+    def from_frame(self, a: acb, b: acb) -> list[arb]:
+        """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
+        c, s, C, S = self.sphere.tilt
+        w, x, y, z = a.real, b.real, b.imag, a.imag
+        w, x, y, z = w * c + x * s, x * c - w * s, y * c + z * s, z * c - y * s
+        return [w, x * C + y * S, y * C - x * S, z]
+
+    def rotation(self, t: Any) -> Matrix:
+        """Return R(t) as rows: exact at t = 0, of two turns where it is their product, else of the pair."""
+        t = rational(t, "the time")
+        if t == 0 or self.kind == "at rest":
+            return identity()
+        if self.is_steady:
+            k, phi = self.steady_rates()
+            return turns(t, (self._axis, k), (AXES[self.places[2]], phi))
+        if self.kind == "ball":
+            M = [w + k for w, k in zip(self.omega, self.field, strict=True)]
+            return turns(t, (self.field, self.precession), (M, length(*M)))
+        a, b, _, _ = self.solution.parameters(t)
+        return self._swung(t, a, b) if self.is_plane else matrix(self.from_frame(a, b))
+
+    def _swung(self, t: fmpq, a: acb, b: acb) -> Matrix:
+        """Return R(t) of a swing in a plane of Larmor's frame, about n across that."""
+        # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
+        phase = acb(0, -self.precession * t / 2).exp()
+        w, x, y, _ = self.from_frame(a * phase, b * phase)
+        vertical = self.field[0] == self.field[1] == 0
+        n = (self.omega[0], self.omega[1]) if vertical else (self.field[1], -self.field[0])
+        along = arb(x * n[0] + y * n[1]) / length(*n)
+        square = w * w + along * along
+        s, c = sin_cos(self.precession * t)
+        swing = turn((*n, fmpq(0)), (w * w - along * along) / square, 2 * w * along / square)
+        return product(turn(self.field, c, s), swing)
+
+    def column(self, j: int, t: Any) -> list[Real]:
+        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        return [row[j - 1] for row in self.rotation(t)]
+
+    def third_axis(self, t: Any) -> list[Real]:
+        """Return the third column of R(t)."""
+        return self.column(3, t)
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', (32)."""
+        return [dot(column, self.field) for column in zip(*self.rotation(t), strict=True)]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame."""
+        t = rational(t, "the time")
+        if t == 0:
+            return list(self.omega)
+        if not self.is_steady:
+            return self.turning_rate(t)
+        s, c = sin_cos(self.steady_rates()[1] * t)
+        return turned_back(self.omega, c, s)
+
+    def turning_rate(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
+        a, b, da, db = self.solution.parameters(t)
+        q, dq = self.from_frame(a, b), self.from_frame(da, db)
+        w, x, y, z = q
+        dw, dx, dy, dz = dq
+        square = (w * w + x * x + y * y + z * z) / 2
+        return [
+            (w * dx - x * dw - y * dz + z * dy) / square,
+            (w * dy - y * dw - z * dx + x * dz) / square,
+            (w * dz - z * dw - x * dy + y * dx) / square,
+        ]

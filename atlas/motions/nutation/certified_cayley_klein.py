@@ -1,0 +1,344 @@
+"""The Cayley-Klein parameters of a motion as functions of time, and the rotation matrix that they make.
+
+They are, up to phases, the two entire functions whose ratio is the tangent of half the nutation angle, as sums that
+converge at once. Each is a theta function of the time s since a turning point, with one zero in a cell of the lattice.
+Where the nome is small the sum is trigonometric in pi s/T; near the separatrix the lattice is turned by a right angle
+(Jacobi's imaginary transformation) and the sum is hyperbolic in the time within one period; on the separatrix one term
+is left, and at a triple root it is linear. Every sum carries the bound of what it leaves out.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import inf, log
+from typing import Any
+
+from flint import acb, arb, ctx, fmpz
+
+from atlas.arithmetic.certified_inputs import Real, rational
+from atlas.arithmetic.numbers import Number, quaternion_products
+
+LOG2, FALLING = log(2.0), log(0.49)
+"""Logarithms of two, and of the part of a term below which the next one lies where a sum ends."""
+
+
+def infinite(x: arb) -> bool:
+    """Whether a period is infinite; one that is not known at the precision of the moment is not a number, and not."""
+    return bool(x > 0) and not x.is_finite()
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """The periods of nutation and the form of the sums.
+
+    ``half`` is half the real period T, infinite on the separatrix; ``imaginary`` half the imaginary period, infinite
+    where a nutation is elementary. ``oblique`` for two real roots: then half + i imaginary is half of a period too.
+    ``rate`` is the factor of s in the functions.
+    """
+
+    form: str
+    half: arb
+    imaginary: arb
+    oblique: bool
+    rate: arb
+
+    @property
+    def nome(self) -> acb:
+        """Nome of the sums, zero where one term is all."""
+        if infinite(self.half) or infinite(self.imaginary):
+            return acb(0)
+        ratio = self.imaginary / self.half if self.form == "trigonometric" else self.half / self.imaginary
+        size = (-arb.pi() * (ratio / 2 if self.oblique else ratio)).exp()
+        return acb(0, size) if self.oblique else acb(size)
+
+    def as_trigonometric(self) -> "Lattice":
+        """Return the same periods with trigonometric sums, whatever the nome: they converge slowly next to one."""
+        return replace(self, form="trigonometric", rate=arb.pi() / (2 * self.half))
+
+    @property
+    def twist(self) -> arb:
+        """Phase by time s and by distance y that the turned lattice asks for: -2 g with g = -N pi/(4 T/2 T'/2)."""
+        if self.form != "hyperbolic" or infinite(self.half):
+            return arb(0)
+        return arb.pi() * (2 if self.oblique else 1) / (2 * self.half * self.imaginary)
+
+    @property
+    def reach(self) -> arb:
+        """Largest absolute value of rate s that a hyperbolic sum is asked for; zero where there is but one term."""
+        return self.rate * self.half if self.form == "hyperbolic" and not infinite(self.half) else arb(0)
+
+
+@dataclass(frozen=True)
+class Sum:
+    """A sum over n of ``odd[n]`` S(k rate s) + ``even[n]`` C(k rate s), k = 2n + 1, or 2n if ``doubled``.
+
+    S and C are sine and cosine, or sinh and cosh, or rate s and one. What is left out is at most ``bound`` times
+    exp(m rate |s|) in a hyperbolic sum, m the first k left out. ``shifted``: the zero is that of another cell.
+    """
+
+    lattice: Lattice
+    odd: tuple[acb, ...]
+    even: tuple[acb, ...]
+    bound: arb
+    doubled: bool = False
+    shifted: bool = False
+
+    def frequency(self, n: int) -> int:
+        """Return k of a term."""
+        return 2 * n if self.doubled else 2 * n + 1
+
+    def at(self, s: arb) -> tuple[acb, acb]:
+        """Return the sum and its derivative by s."""
+        x, form = self.lattice.rate * s, self.lattice.form
+        if form == "linear":
+            return self.even[0] + self.odd[0] * x, self.odd[0] * self.lattice.rate
+        value, slope, circular = acb(0), acb(0), form == "trigonometric"
+        for n, ((a, b), (S, C)) in enumerate(
+            zip(zip(self.odd, self.even, strict=True), self._functions(x), strict=False)
+        ):
+            k = self.frequency(n)
+            value += a * S + b * C
+            slope += (a * C - b * S if circular else a * C + b * S) * k
+        k = self.frequency(len(self.odd))
+        left = self.bound * ((k * abs(x)).exp() if form == "hyperbolic" else 1)
+        return _widened(value, left), _widened(slope, 2 * k * left) * self.lattice.rate
+
+    def _functions(self, x: arb) -> Iterator[tuple[arb, arb]]:
+        """Go through S and C of k x."""
+        circular = self.lattice.form == "trigonometric"
+        S, C = x.sin_cos() if circular else x.sinh_cosh()
+        turn = multiplied(S, C, S, C, circular)
+        S, C = (arb(0), arb(1)) if self.doubled else (S, C)
+        while True:
+            yield S, C
+            S, C = multiplied(S, C, *turn, circular)
+
+    @property
+    def derivative(self) -> "Sum":
+        """The derivative by s, as a sum of the same form; its bound is not kept."""
+        rate, sign = self.lattice.rate, -1 if self.lattice.form == "trigonometric" else 1
+        if self.lattice.form == "linear":
+            return Sum(self.lattice, (acb(0),), (self.odd[0] * rate,), arb(0), self.doubled)
+        odd = tuple(sign * rate * self.frequency(n) * b for n, b in enumerate(self.even))
+        even = tuple(rate * self.frequency(n) * a for n, a in enumerate(self.odd))
+        return Sum(self.lattice, odd, even, self.bound, self.doubled)
+
+    @property
+    def logarithmic_slope(self) -> acb:
+        """Derivative of the logarithm at s = 0."""
+        if self.lattice.form == "linear":
+            return self.odd[0] * self.lattice.rate / self.even[0]
+        value = _widened(sum(self.even, acb(0)), self.bound)
+        slope = sum((a * self.frequency(n) for n, a in enumerate(self.odd)), acb(0))
+        return _widened(slope, 2 * self.frequency(len(self.odd)) * self.bound) * self.lattice.rate / value
+
+
+def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
+    """Return the sum with a zero at s = i y, or at s = T/2 + i y if ``beyond``; |y| at most the imaginary half-period.
+
+    With two real roots and small nome a zero in the outer half of its cell is moved by T/2 + i imaginary into the
+    inner one, lest the sum converge slowly: that multiplies the function by a phase linear in s.
+    """
+    zeta = lattice.rate * y
+    if lattice.form == "linear":
+        return Sum(lattice, (acb(1),), (acb(0, -y),), arb(0))
+    if lattice.form == "hyperbolic":
+        return theta_sum(lattice, arb(0), _along(zeta, doubled=beyond), doubled=beyond)
+    shifted = lattice.oblique and bool(2 * abs(y).mid() > lattice.imaginary.mid())
+    if shifted:
+        cell = lattice.rate * lattice.imaginary
+        zeta, beyond = zeta - (cell if y.mid() > 0 else -cell), not beyond
+    sums = theta_sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
+    return replace(sums, shifted=shifted)
+
+
+def constant(lattice: Lattice) -> Sum:
+    """Return the function one, whose zero has gone to infinity."""
+    return Sum(lattice, (acb(0),), (acb(1),), arb(0), doubled=True)
+
+
+def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb]:
+    """Return sine and cosine, or sinh and cosh, of the sum of two angles."""
+    return S * c + C * s, C * c - S * s if circular else C * c + S * s
+
+
+def _along(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
+    """Go through the weights of a hyperbolic sum with a zero at i zeta, or at half a period from there if doubled."""
+    s, c = zeta.sin_cos()
+    turn = multiplied(s, c, s, c, True)
+    s, c = (arb(0), arb(1)) if doubled else (s, c)
+    while True:
+        yield (acb(0, -s), acb(c)) if doubled else (acb(0, c), acb(s))
+        s, c = multiplied(s, c, *turn, True)
+
+
+def _beside(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
+    """Go through the weights of a trigonometric sum, cos k z and -sin k z for the zero z = i zeta, or pi/2 + i zeta."""
+    s, c = zeta.sinh_cosh()
+    turn, sign = multiplied(s, c, s, c, False), 1
+    while True:
+        yield (acb(0, -sign * s), acb(-sign * c)) if beyond else (acb(c), acb(0, -s))
+        s, c = multiplied(s, c, *turn, False)
+        sign = -sign
+
+
+def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], *, doubled: bool = False) -> Sum:
+    """Add terms (-1)^n q^(n(n+1)), or 2 (-1)^n q^(n n) if doubled, until the rest is below the precision of the moment.
+
+    The weights of a term are at most 2 exp(k depth).
+    """
+    nome, growth = lattice.nome, depth + lattice.reach + int(lattice.form == "hyperbolic")
+    size, odd, even, n = abs(nome), list[acb](), list[acb](), 0
+    if not (size.is_finite() and growth.is_finite() and size < 1):  # the precision of the moment does not suffice
+        return Sum(lattice, (acb(arb("nan")),), (acb(arb("nan")),), arb(0), doubled)
+    decay, rise = (float(x.upper()) for x in (size.log(), growth)) if nome != 0 else (-inf, 0.0)
+    factor, square = acb(1), nome * nome
+    step = -nome if doubled else -square
+    while True:
+        k = 2 * n if doubled else 2 * n + 1
+        power = n * n if doubled else n * (n + 1)
+        falls = decay * (2 * n + 1 if doubled else 2 * n + 2) + 2 * rise < FALLING
+        if n and (nome == 0 or (falls and decay * power + k * rise < -LOG2 * (ctx.prec + 10))):
+            break
+        a, b = next(weights)
+        odd.append(factor * a)
+        even.append(factor * b)
+        factor *= 2 * step if doubled and not n else step
+        step *= square
+        n += 1
+    left = arb(0) if nome == 0 else 8 * size**power * (k * depth).exp()
+    return Sum(lattice, tuple(odd), tuple(even), left, doubled)
+
+
+def _widened(value: acb, radius: arb) -> acb:
+    """Return a ball widened by a bound."""
+    if radius.is_zero():
+        return value
+    return value + acb(arb(0, radius.upper()), arb(0, radius.upper()))
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A Cayley-Klein parameter up to the common factor: factor exp(i (rate t + twist s)) sum(s), s within a period.
+
+    Its rate is its ``own`` and that of the frame, ``frame``. ``turn`` is the sense, -1, 0 or 1, in which ``sum`` goes
+    half around zero in one period.
+    """
+
+    factor: acb
+    own: arb
+    frame: arb
+    twist: arb
+    sum: Sum
+    turn: int
+
+    @property
+    def rate(self) -> arb:
+        """The whole rate."""
+        return self.own + self.frame
+
+    def at(self, t: Any, s: arb) -> tuple[acb, acb]:
+        """Return the parameter and its derivative at time t, which is s in its own period."""
+        value, slope = self.sum.at(s)
+        phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
+        return phase * value, phase * (slope + acb(0, self.rate + self.twist) * value)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """All constants of a motion at one precision: ``origin`` is the time since the turning point at t = 0.
+
+    ``precession`` and ``spin`` are the rates of the frame in which alpha and beta have their own: Larmor's, -b, and
+    (1-I) c3; or all there is where theta is constant.
+    """
+
+    lattice: Lattice
+    origin: arb
+    alpha: Parameter
+    beta: Parameter
+    precession: Real
+    spin: Real
+    swing: Any = None
+
+    @property
+    def period(self) -> arb:
+        """Period of nutation, infinite on a separatrix."""
+        return 2 * self.lattice.half
+
+    def parameters(self, t: Any, *, turning: bool = True) -> tuple[acb, acb, acb, acb]:
+        """Return alpha and beta up to a common factor, and their derivatives by time.
+
+        If not `turning`, these lack the rate at which `swing` turns the body about its own axis.
+        """
+        t = rational(t, "the time")
+        return self._parameters(t, self.in_cell(arb(t) + self.origin), turning=turning)
+
+    def _parameters(self, t: Any, s: arb, *, turning: bool) -> tuple[acb, acb, acb, acb]:
+        """Return them at a time, which is s in its own period."""
+        a, da = self.alpha.at(t, s)
+        b, db = self.beta.at(t, s)
+        if self.swing is None:
+            return a, b, da, db
+        turn = acb(0, (self.swing.at(arb(t), s) - self.swing.at(arb(0), self.origin)) / 2).exp()
+        # a square as a product: a power of a ball about zero is no number
+        up, down = (x.real * x.real + x.imag * x.imag for x in (a, b))
+        rate = acb(0, self.swing.kappa * (up - down) / (up + down) / 2) if turning else acb(0)
+        return a * turn, b / turn, (da + rate * a) * turn, (db - rate * b) / turn
+
+    @property
+    def alternates(self) -> bool:
+        """Whether alpha and beta change their sign with each whole turn that is left out of the phase in a period."""
+        if self.lattice.form != "hyperbolic":
+            return not (self.alpha.sum.doubled or self.beta.sum.doubled)
+        (a, b, *_), (c, d, *_) = (self._parameters(arb(0), s * self.lattice.half, turning=False) for s in (1, -1))
+        return bool((a * c.conjugate() + b * d.conjugate()).real < 0)
+
+    def in_cell(self, s: arb) -> arb:
+        """Return the time since the turning point, less whole periods where the sums are for one period only."""
+        whole = self._whole(s)
+        if whole == 0:
+            return s
+        return arb("nan") if whole is None else s - self.period * whole
+
+    def _whole(self, s: arb) -> fmpz | None:
+        """Return how many whole periods are left out, None where that is not known."""
+        if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
+            return fmpz(0)
+        return ((s / self.period).mid() + 0.5).floor().unique_fmpz()
+
+    def is_flipped(self, t: Any) -> bool:
+        """Whether alpha and beta lack a sign at time t, for the whole periods that are left out."""
+        whole = self._whole(arb(t) + self.origin)
+        return whole is not None and int(whole) % 2 == 1 and self.alternates
+
+
+def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
+    """Return the constants of a motion whose axis keeps its tilt: two turns at the rates k and phi.
+
+    `half` is half the period of an infinitesimal nutation.
+    """
+    c, s, *_ = tilt
+    lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
+    alpha, beta = (
+        Parameter(acb(x), arb(0), arb(k + sign * phi) / 2, arb(0), constant(lattice), 0)
+        for x, sign in ((c, 1), (s, -1))
+    )
+    return Solution(lattice, arb(0), alpha, beta, k, phi)
+
+
+def quaternion(R: Sequence[Sequence[Any]], near: Sequence[float]) -> list[arb]:
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix, that of the two which is near to some doubles."""
+    i = max(range(4), key=lambda i: abs(near[i]))
+    row = quaternion_products([[arb(x) for x in row] for row in R])[i]
+    size = (-2 if near[i] < 0 else 2) * row[i].sqrt()
+    return [x / size for x in row]
+
+
+def matrix(q: Sequence[Number]) -> list[list[Number]]:
+    """Return the rotation matrix of a quaternion that need not be normalised."""
+    w, x, y, z = q
+    n = w * w + x * x + y * y + z * z
+    return [
+        [(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
+        [2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n],
+        [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n],
+    ]

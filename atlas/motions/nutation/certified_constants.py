@@ -1,0 +1,242 @@
+"""The constants of a nutation: periods, zeros of alpha and beta, rates of precession and spin, from the roots of Q.
+
+u is Omega3, or minus the cosine nu of a top, and Q a quartic, cubic or quadratic in it, whose other roots are infinite.
+From a turning point e, u(s) = e + Q'(e)/(4 w(s)) with w = wp(s) - Q''(e)/24, which at a root r is Q'(e)/(4 (r - e)).
+So the time between two values of u is Carlson's R_F, and no cubic has to be solved. Times to the poles of
+a sphere are imaginary; of the two zeros ± i y at a pole alpha (beta) has the one where its residue is one, and which
+that is, the sign of the torque says.
+"""
+
+from dataclasses import dataclass
+
+from flint import acb, arb, fmpq
+
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_cayley_klein import (
+    Lattice,
+    Parameter,
+    Solution,
+    Sum,
+    constant,
+    infinite,
+    vanishing_at,
+)
+from atlas.motions.nutation.certified_quartic import Quartic, Root
+from atlas.motions.nutation.certified_spheres import Sphere
+
+
+@dataclass(frozen=True)
+class Turning:
+    """A simple turning point e, the other roots of Q, each as often as it counts, and w at each of them."""
+
+    quartic: Quartic
+    roots: tuple[Root, ...]
+    place: int
+
+    @cached_property
+    def u(self) -> arb:
+        """The turning point."""
+        return self.roots[self.place].value.real
+
+    @cached_property
+    def quarter_slope(self) -> arb:
+        """Q'(e)/4, as a product over the other roots."""
+        product = acb(arb(self.quartic.leading) / 4)
+        for i in self.others:
+            if not self.roots[i].is_infinite:
+                product *= self.u - self.roots[i].value
+        return product.real
+
+    def w(self, place: int) -> acb:
+        """Return w at another root."""
+        return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
+
+    @cached_property
+    def others(self) -> list[int]:
+        """Places of the other three roots."""
+        return [i for i, r in enumerate(self.roots) for _ in range(r.multiplicity) if i != self.place]
+
+    def real_time(self, u: arb) -> arb:
+        """Return the time from e to u, between the turning points."""
+        return acb.elliptic_rf(*(self._above(u, i) for i in self.others)).real
+
+    def imaginary_time(self, u: arb) -> arb:
+        """Return y > 0 where u(i y) = u, for u beyond the interval."""
+        return acb.elliptic_rf(*(-self._above(u, i) for i in self.others)).real
+
+    @cached_property
+    def imaginary_time_to_infinity(self) -> arb:
+        """The y > 0 where u(i y) is infinite."""
+        return acb.elliptic_rf(*(self.w(i) for i in self.others)).real
+
+    def real_time_to_infinity(self) -> arb:
+        """Return x > 0 where u(x) is infinite, from an outermost root beyond which Q is positive."""
+        return acb.elliptic_rf(*(-self.w(i) for i in self.others)).real
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """The lattice of Omega3, decided by the multiple roots there are."""
+        other = self.quartic.low + self.quartic.high - self.place
+        multiple = self.roots[other].multiplicity
+        if multiple == 3:
+            return Lattice("linear", arb("inf"), arb("inf"), oblique=False, rate=arb(1))
+        if multiple == 2:
+            (last,) = [i for i in self.others if i != other] or [other]
+            rate = (self.w(other) - self.w(last)).real.sqrt()
+            return Lattice("hyperbolic", arb("inf"), arb.pi() / (2 * rate), oblique=False, rate=rate)
+        first = self.w(other)
+        second, third = (self.w(i) for i in self.others if i != other)
+        if not any(root.is_complex for root in self.roots):
+            ends = sorted((second.real, third.real), key=lambda x: -x.mid())
+            longer, shorter = (first.real - ends[1]).sqrt(), (first.real - ends[0]).sqrt()
+            half = arb.pi() / (2 * longer.agm(shorter))
+            if any(root.multiplicity == 2 for root in self.roots):
+                return Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb.pi() / (2 * half))
+            imaginary = arb.pi() / (2 * longer.agm((ends[0] - ends[1]).sqrt()))
+            return _balanced(half, imaginary, oblique=False)
+        # the complex pair: sqrt(z) and its conjugate have the mean Re sqrt(z) and the product |z|
+        half, imaginary = (_of_pair(z) for z in (first - second, second - first))
+        return _balanced(half, imaginary, oblique=True)
+
+    def _above(self, u: arb, place: int) -> acb:
+        """Return wp(u) - wp(r) for another root r, formed without cancellation."""
+        if self.roots[place].is_infinite:
+            return acb(self.quarter_slope / (u - self.u))
+        r = self.roots[place].value
+        return self.quarter_slope * (r - u) / ((u - self.u) * (r - self.u))
+
+
+class Nutation:
+    """Makes the constants of a motion whose Omega3 is not constant, at the precision of the moment."""
+
+    def __init__(self, quartic: Quartic, sphere: Sphere) -> None:
+        self.quartic, self.sphere = quartic, sphere
+        self.roots = tuple(quartic.roots())
+        self.real = [root.value.real for root in self.roots if root.is_real]
+        self.turnings = dict[int, Turning]()
+
+    def solution(self, *, trigonometric: bool = False) -> Solution:
+        """Return all constants, with trigonometric sums if that is asked for and there is a period."""
+        if all(root.multiplicity == 2 for root in self.roots):
+            return self._heteroclinic()
+        self.start = self._start()
+        self.other = self.quartic.low + self.quartic.high - self.start.place
+        self.lattice = self.start.lattice
+        if trigonometric and not infinite(self.lattice.half):
+            self.lattice = self.lattice.as_trigonometric()
+        origin = self._origin()
+        c, s, _, _ = self.sphere.tilt
+        alpha, beta = (self._parameter(pole, origin, acb(x)) for pole, x in ((-1, c), (1, s)))
+        return Solution(self.lattice, origin, alpha, beta, self.sphere.precession, self.sphere.spin)
+
+    def turning(self, place: int) -> Turning:
+        """Return a simple real root as a turning point."""
+        return self.turnings.setdefault(place, Turning(self.quartic, self.roots, place))
+
+    def _start(self) -> Turning:
+        """Return the turning point next to which the motion is fast: near a separatrix, the one it comes back from."""
+        low, high = self.quartic.low, self.quartic.high
+        if self.roots[low].multiplicity > 1:
+            return self.turning(high)
+        if self.roots[high].multiplicity > 1:
+            return self.turning(low)
+        real = self.real
+        if self.quartic.bend < 0:
+            if len(real) > 2:
+                return self.turning(high if high == len(real) - 1 else low)
+            upper = self.turning(high)
+            inner = 2 * upper.imaginary_time_to_infinity.mid() <= upper.lattice.imaginary.mid()
+            return upper if inner else self.turning(low)
+        if self.quartic.bend == 0:  # no other root lies between the turning point and infinity
+            return self.turning(low if high < len(real) - 1 else high)
+        return self.turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
+
+    def _origin(self) -> arb:
+        """Return the time since the turning point, positive where Omega3 moves away from it."""
+        q = self.quartic
+        if q.sense == 0:
+            return arb(0) if self.start.u.overlaps(arb(q.u.value)) else self.lattice.half
+        away = (q.sense > 0) == (self.start.place == q.low)
+        time = self.start.real_time(arb(q.u.value))
+        return time if away else -time
+
+    def _parameter(self, pole: int, origin: arb, initial: acb) -> Parameter:
+        """Return alpha (pole -1) or beta (pole 1)."""
+        sphere, function, y, turn = self.sphere, *self._function(pole)
+        twist = self.lattice.twist * y
+        rate = arb(0)
+        if turn:
+            # what alpha'/alpha, or beta'/beta, is at the turning point
+            angular = sphere.torques[pole] / (2 * pole * (self.start.u - sphere.poles[pole]))
+            rate = angular - twist - function.logarithmic_slope.imag
+        value, tangent = function.at(origin)
+        # where the vector starts at a pole, the parameter that is zero there has a slope
+        factor = initial / value if initial != 0 else sphere.slopes[pole] / tangent
+        factor *= acb(0, -twist * origin).exp()
+        return Parameter(factor, rate, arb(sphere.frames[pole]), twist, function, turn)
+
+    def _function(self, which: int) -> tuple[Sum, arb, int]:
+        """Return the function with the zero of a pole, its imaginary part y, and the sense in which it turns.
+
+        Where the vector meets the pole the function is real, up to a phase: then the sense is 0.
+        """
+        q, pole, sense = self.quartic, self.sphere.poles[which], self.sphere.signs[which]
+        # the pole -1 is where Omega3 is highest
+        next_to = q.high if which == -1 else q.low
+        beyond = next_to != self.start.place and not self._through_infinity(which)
+        if sense:
+            y = (self.turning(next_to) if beyond else self.start).imaginary_time(pole)
+            if not beyond and next_to != self.start.place:
+                sense = -sense
+        else:
+            place = next(i for i, r in enumerate(self.roots) if r.is_real and r.value.real.overlaps(pole))
+            if self.roots[place].multiplicity > 1:
+                return constant(self.lattice), arb(0), 0
+            if place == self.start.place:
+                return vanishing_at(self.lattice, arb(0), beyond=False), arb(0), 0
+            if place == self.other and not (self.lattice.oblique and self.lattice.form == "hyperbolic"):
+                return vanishing_at(self.lattice, arb(0), beyond=True), arb(0), 0
+            y, sense = self.lattice.imaginary, 1
+        y = y if sense > 0 else -y
+        function = vanishing_at(self.lattice, y, beyond=beyond)
+        return function, y, -sense if function.shifted else sense
+
+    def _through_infinity(self, which: int) -> bool:
+        """Whether u moves from the turning point where it starts, in imaginary time, by infinity to a pole."""
+        if self.quartic.bend >= 0:
+            return False
+        if len(self.real) <= 2:
+            return True
+        # the other two roots must not lie between
+        pole = self.sphere.poles[which]
+        beyond = pole - self.real[-1] if which == -1 else self.real[0] - pole
+        return bool(beyond > 0) or (self.sphere.signs[which] == 0 and bool(beyond.overlaps(arb(0))))
+
+    def _heteroclinic(self) -> Solution:
+        """Return the motion between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, and no phase but the frame's.
+
+        There c3 = 0 and E' = I b^2, so that field and angular velocity have the same poles, ± b.
+        """
+        q, frame = self.quartic, arb(self.sphere.frames[1])
+        rate = arb(q.leading).sqrt() * abs(self.sphere.poles[1])
+        sense = -q.sense
+        lattice = Lattice("hyperbolic", arb("inf"), arb.pi() / rate, oblique=False, rate=rate / 2)
+        c, s, _, _ = (arb(x) for x in self.sphere.tilt)
+        size, origin = (c * s).sqrt(), sense * (c / s).log() / rate
+        alpha, beta = (
+            Parameter(acb(size), arb(0), frame, arb(0), Sum(lattice, (acb(sign),), (acb(1),), arb(0)), 0)
+            for sign in (sense, -sense)
+        )
+        return Solution(lattice, origin, alpha, beta, self.sphere.precession, fmpq(0))
+
+
+def _balanced(half: arb, imaginary: arb, *, oblique: bool) -> Lattice:
+    """Return the lattice in the form whose nome is the smaller."""
+    form = "trigonometric" if half.mid() <= imaginary.mid() else "hyperbolic"
+    rate = arb.pi() / (2 * (half if form == "trigonometric" else imaginary))
+    return Lattice(form, half, imaginary, oblique, rate)
+
+
+def _of_pair(z: acb) -> arb:
+    """Return R_F(0, z, conjugate of z) = pi/(2 agm(sqrt z, sqrt of the conjugate)), by one step of the mean."""
+    return arb.pi() / (2 * z.sqrt().real.agm(abs(z).sqrt()))

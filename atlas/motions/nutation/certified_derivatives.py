@@ -1,0 +1,255 @@
+"""Derivatives of the constants of a motion in its inputs, by differences of balls.
+
+The constants are analytic in the inputs as long as the kind of motion stays. So a central difference over a step h is
+wrong by a relative (h/d)^2, d the distance of the next border; with h = 2^-80 of the inputs and as many more digits in
+the balls that is nothing to a double. On a border (a ball, a body that precesses steadily) the constants are taken from
+the side on which they are those of a nutation, over h, 2h and 3h: the motion itself is smooth there, so its derivative
+is the one of either side.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import acb, arb, fmpq
+from numpy.typing import NDArray
+
+from atlas.arithmetic.numbers import workprec
+from atlas.errors import DomainError
+from atlas.motions.nutation.certified_cayley_klein import Solution, Sum, infinite
+
+STEP = 80
+"""Binary digits of the inputs that a step leaves alone."""
+
+KNOWN = 2.0**-66
+"""Radius of a derivative, beside the largest of its group, with which it is good for a double."""
+
+FLAT = 2.0**-60
+"""Largest change of the slope over a step, in parts of it: the step is then far from any border."""
+
+TRIES = 6
+
+SEPARATRIX = "On a separatrix neighbours leave the motion for good: it has no sensitivity for all times."
+
+
+class TooNearError(DomainError):
+    """Constants have no derivatives that are known: the motion is too near to a case of its own."""
+
+
+Tables = dict[str, list[Any]]
+"""Constants by groups, in which sizes are compared."""
+
+FloatArray: TypeAlias = NDArray[np.float64]
+Row: TypeAlias = list[Any]
+"""All constants of one motion, one after the other."""
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Constants of a motion: `form` is what does not vary, `tables` are the numbers, by groups."""
+
+    form: tuple[Any, ...]
+    tables: Tables
+
+
+@dataclass(frozen=True)
+class Variation:
+    """Constants of a motion, and their derivatives in one input."""
+
+    form: tuple[Any, ...]
+    values: Tables
+    slopes: Tables
+
+
+def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] = (0, 1, 2)) -> Constants:
+    """Return the constants of a pair (alpha, beta) whose axis has some tilt at t = 0; `places` are the body's axes.
+
+    DomainError on a separatrix.
+    """
+    lattice, pair, swing = solution.lattice, (solution.alpha, solution.beta), solution.swing
+    steady = lattice.rate.is_zero()
+    if not steady and (infinite(lattice.half) or lattice.form == "linear"):
+        raise DomainError(SEPARATRIX)
+    sums = [x.sum for x in pair] + ([swing.odd, swing.even] if swing else [])
+    kinds = tuple((x.doubled, x.shifted) for x in sums)
+    rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
+    tables: Tables = {
+        "tilt": [arb(x) for x in tilt],
+        "rates": rates,
+        "times": [] if steady else [lattice.half, solution.origin],
+        "slopes": [lattice.rate, pair[0].twist, pair[1].twist],
+    }
+    if swing:
+        tables["rates"][1] += swing.kappa * swing.rate
+        # each with a size to compare with, since all may be zero
+        tables["swing"], tables["twist"] = [swing.kappa, lattice.rate], [swing.twist, arb(1)]
+        tables["swing rate"] = [swing.kappa * swing.rate, lattice.rate]
+        tables["A"] = [swing.A, lattice.rate**2]
+    factors = [x.factor for x in pair] + [acb(1)] * 2
+    tables |= {f"sum {i}": _flat(x, factor) for i, (x, factor) in enumerate(zip(sums, factors, strict=False))}
+    form = "steady" if steady else lattice.form
+    return Constants((form, places, lattice.oblique, kinds, bool(swing), tuple(x.turn for x in pair)), tables)
+
+
+def _flat(x: Sum, factor: acb) -> list[acb]:
+    """Return the weights of a sum times a factor, odd and even ones by turns: next to a steady motion one vanishes."""
+    return [y * factor for both in zip(x.odd, x.even, strict=True) for y in both]
+
+
+def variations(
+    make: Callable[..., Constants], values: Sequence[fmpq], places: Sequence[int], scales: Sequence[fmpq]
+) -> list[Variation]:
+    """Return the derivatives of constants in the inputs at some places; `scales` are sizes of the inputs, not zero.
+
+    Far from borders one step forward in each input will do, and one backward in all, which must undo the others. Raises
+    DomainError where there are none.
+    """
+    h = [scale / fmpq(2) ** STEP for scale in scales]
+
+    def at(moved: Sequence[int], sign: int) -> Constants:
+        return make(*(x + sign * h[i] if i in moved else x for i, x in enumerate(values)))
+
+    with workprec(4 * STEP + 64):
+        try:
+            ways = [at([], 0), *(at([i], 1) for i in places), at(places, -1)]
+        except DomainError:
+            ways = []
+        if ways and all(x.form == ways[0].form for x in ways):
+            groups = Groups(ways)
+            base, *forward, back = groups.rows
+            steps = [_combined((x, base), (1, -1)) for x in forward]
+            together = [sum(x, arb(0)) for x in zip(*steps, strict=True)]
+            slopes = [_scaled(x, 1 / arb(h[i])) for i, x in zip(places, steps, strict=True)]
+            flat = groups.are_smooth(base, together, _combined((base, back), (1, -1)))
+            if flat and groups.are_known(base, [(x, scales[i]) for i, x in zip(places, slopes, strict=True)]):
+                tables = groups.tables(base)
+                return [Variation(ways[0].form, tables, groups.tables(x)) for x in slopes]
+    return [variation(make, values, i, scales) for i in places]
+
+
+def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
+    """Return the derivatives of constants in the input at a place, also next to a border, by central differences."""
+    small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
+    lost = max(0, int(small.q).bit_length() - int(small.p).bit_length())
+    bits = STEP + lost
+    for _ in range(TRIES):
+        h = scales[place] / fmpq(2) ** bits
+        with workprec(4 * bits + 64):
+            differences = _differences(make, values, place, h, scales[place])
+        if differences is not None:
+            return differences
+        bits *= 2
+    raise TooNearError("The motion is too near to a case of its own for derivatives of its constants.")
+
+
+def _differences(
+    make: Callable[..., Constants], values: Sequence[fmpq], place: int, h: fmpq, scale: fmpq
+) -> Variation | None:
+    """Return values and slopes by differences over h; None where they are not known well enough."""
+
+    def at(steps: int) -> Constants | None:
+        moved = [*values[:place], values[place] + steps * h, *values[place + 1 :]]
+        try:
+            return make(*moved)
+        except DomainError:
+            return None
+
+    ways: list[tuple[Sequence[int], Sequence[Any], Sequence[Any]]] = [
+        ((-1, 0, 1), (0, 1, 0), (fmpq(-1, 2), 0, fmpq(1, 2))),
+        ((1, 2, 3), (3, -3, 1), (fmpq(-5, 2), 4, fmpq(-3, 2))),
+        ((-1, -2, -3), (3, -3, 1), (fmpq(5, 2), -4, fmpq(3, 2))),
+    ]
+    for nodes, weights, slopes in ways:
+        three = [at(n) for n in nodes]
+        if nodes[1] == 0 and three[1] is None:
+            raise DomainError(SEPARATRIX)
+        whole = [x for x in three if x is not None]
+        if len(whole) < len(three) or any(x.form != whole[0].form for x in whole):
+            continue
+        groups = Groups(whole)
+        first, second, third = groups.rows
+        if not groups.are_smooth(second, *(_combined(x, (1, -1)) for x in ((third, second), (second, first)))):
+            continue
+        mean, slope = _combined(groups.rows, weights), _scaled(_combined(groups.rows, slopes), 1 / arb(h))
+        if not groups.are_known(mean, [(slope, scale)]):
+            return None
+        return Variation(whole[0].form, groups.tables(mean), groups.tables(slope))
+    return None
+
+
+class Groups:
+    """The constants of motions of one form as rows of equal lengths: terms that are left out are zero."""
+
+    def __init__(self, motions: Sequence[Constants]) -> None:
+        tables = [x.tables for x in motions]
+        self.lengths = {name: max(len(x[name]) for x in tables) for name in tables[0]}
+        self.rows: list[Row] = [
+            [*chain.from_iterable(x[name] + [acb(0)] * (n - len(x[name])) for name, n in self.lengths.items())]
+            for x in tables
+        ]
+        # alpha and beta are one group
+        self.places = np.repeat(
+            [list(self.lengths).index(x.replace("sum 1", "sum 0")) for x in self.lengths], list(self.lengths.values())
+        )
+
+    def tables(self, row: Row) -> Tables:
+        """Return constants by groups."""
+        rest = iter(row)
+        return {name: [next(rest) for _ in range(n)] for name, n in self.lengths.items()}
+
+    def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
+        """Return whether slopes do not change over two steps, beside the sizes of the constants and of the slopes."""
+        size, up, down = (sizes_of(x) for x in (middle, ups, downs))
+        bend = sizes_of(_combined((ups, downs), (1, -1)))
+        largest, whole = self._largest(np.maximum(up, down)), self._largest(size)
+        return bool(
+            (bend <= FLAT * (largest + np.ldexp(whole, -STEP))).all() and ((up <= FLAT * whole) | (whole == 0)).all()
+        )
+
+    def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
+        """Return whether values and slopes are known well enough, beside the largest value of their groups."""
+        size, radius = self._largest(sizes_of(mean)), radii_of(mean)
+        for row, scale in slopes:
+            unit = float(arb(scale).mid())
+            least = np.where(size == 0, self._largest(sizes_of(row)) * unit, size)
+            if not ((radius <= KNOWN * least) & (radii_of(row) * unit <= KNOWN * least) & (least < np.inf)).all():
+                return False
+        return True
+
+    def _largest(self, sizes: FloatArray) -> FloatArray:
+        """Return the largest of each group, at all of its places."""
+        largest = np.zeros(len(self.lengths))
+        np.maximum.at(largest, self.places, sizes)
+        return np.asarray(largest[self.places])
+
+
+def _combined(rows: Sequence[Row], weights: Sequence[Any]) -> Row:
+    """Return a linear combination of rows."""
+    pairs = [(x, w) for x, w in zip(rows, weights, strict=True) if w != 0]
+    if [w for _, w in pairs] == [1, -1]:
+        return [x - y for x, y in zip(pairs[0][0], pairs[1][0], strict=True)]
+    return [
+        sum((x * arb(w) for x, (_, w) in zip(column, pairs, strict=True)), arb(0))
+        for column in zip(*(x for x, _ in pairs), strict=True)
+    ]
+
+
+def _scaled(row: Row, factor: arb) -> Row:
+    return [x * factor for x in row]
+
+
+def sizes_of(row: Row) -> FloatArray:
+    """Return the sizes of numbers as floats."""
+    return np.array([float(abs(x).mid()) for x in row])
+
+
+def radii_of(row: Row) -> FloatArray:
+    """Return the radii of balls, nan for what is not a number: that is no bound."""
+    return np.array(
+        [
+            float(x.real.rad() + x.imag.rad() if isinstance(x, acb) else x.rad()) if x.is_finite() else np.nan
+            for x in row
+        ]
+    )

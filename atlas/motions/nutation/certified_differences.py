@@ -1,0 +1,84 @@
+"""Derivatives of a motion in its inputs at single times, by differences of its matrices in balls."""
+
+from collections.abc import Callable, Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from flint import arb, fmpq
+
+from atlas.arithmetic.numbers import dot, rational, workprec
+from atlas.errors import DomainError
+from atlas.motions.nutation.certified_derivatives import KNOWN, STEP, TRIES, FloatArray, Row, radii_of, sizes_of
+
+SIDES = (((1, 0, -1), (1, 0, -1)), ((0, -1, -2), (3, -4, 1)), ((0, 1, 2), (-3, 4, -1)))
+"""Steps h and the weights of twice a difference: on both sides or, at the border of what bodies there are, on one."""
+
+BENT = 2.0**-30
+"""Largest change of a derivative over a step, in parts of it: of a difference that errs by the square of this."""
+
+
+class Differences:
+    """Derivatives of R and Omega at single times by differences of the motion in balls, near any border.
+
+    R is analytic in the inputs whatever its constants do: how far it bends depends on how fast neighbours depart.
+    """
+
+    def __init__(
+        self,
+        make: Callable[..., Any],
+        values: Sequence[fmpq],
+        places: Sequence[int],
+        scales: Sequence[fmpq],
+    ) -> None:
+        self.make, self.values, self.places, self.scales = make, values, places, scales
+        self._at(STEP + 20)
+
+    def _at(self, bits: int) -> None:
+        """Make the motions beside this one in each input."""
+        self.bits = bits
+        with workprec(8 * bits):
+            self.here = self.make(*self.values)
+            self.beside = [self._beside(i, self.scales[i] / fmpq(2) ** bits) for i in self.places]
+
+    def _beside(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
+        """Return motions with the weights whose sums are the derivative in an input, and what changes it over h."""
+        for steps, weights in SIDES:
+            try:
+                moved = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]
+                motions = [self.make(*x) if n else self.here for n, x in zip(steps, moved, strict=True)]
+            except DomainError:
+                continue
+            return [(x, w / arb(2 * h), n / arb(h)) for x, w, n in zip(motions, weights, (1, -2, 1), strict=True)]
+        raise DomainError("No motions beside this one are known.")
+
+    def at(self, t: float) -> tuple[FloatArray, ...]:
+        """Return v and R dOmega/dp at a time, (inputs, 3) each, R e3 and its slope. DomainError if unknown."""
+        time = rational(t)
+        for _ in range(TRIES):
+            with workprec(8 * self.bits):
+                here = self._state(self.here, time)
+                R, Omega = [here[i : i + 3] for i in (0, 3, 6)], here[9:]
+                turns, changes, bends = zip(*(self._one(here, R, x, time) for x in self.beside), strict=True)
+                axis = [row[2] for row in R], [row[0] * Omega[1] - row[1] * Omega[0] for row in R]
+            v, faster = (np.array([[float(x.mid()) for x in row] for row in rows]) for rows in (turns, changes))
+            sizes = 1 + abs(v).max(1)
+            radii = np.array([radii_of(x).max() for x in turns])
+            if ((radii <= KNOWN * sizes) & (np.array(bends) <= BENT * sizes)).all():
+                return v, faster, *(np.array([float(arb(x).mid()) for x in y]) for y in axis)
+            self._at(2 * self.bits)
+        raise DomainError("The motion is too near to a case of its own for derivatives.")
+
+    def _state(self, motion: Any, t: fmpq) -> Row:
+        """Return the entries of R, by rows, and Omega."""
+        return [*chain.from_iterable(motion.rotation(t)), *motion.angular_velocity(t)]
+
+    def _one(
+        self, here: Row, R: Sequence[Row], beside: Sequence[tuple[Any, arb, arb]], t: fmpq
+    ) -> tuple[Row, Row, float]:
+        """Return v and R dOmega/dp of one input, and by how much the derivative of R changes over a step."""
+        rows = [here if x is self.here else self._state(x, t) for x, _, _ in beside]
+        _, slopes, bends = zip(*beside, strict=True)
+        change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))
+        turned = [[dot(change[3 * i : 3 * i + 3], R[j]) for j in range(3)] for i in range(3)]
+        return [turned[2][1], turned[0][2], turned[1][0]], [dot(row, change[9:]) for row in R], sizes_of(bend[:9]).max()

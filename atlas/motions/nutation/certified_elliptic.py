@@ -1,0 +1,330 @@
+"""The paper's family for a body of any inertia tensor as balls: elliptic motions (not in the paper).
+
+Omega = -[1 + v (z II + D)^-1] K = (E - 1) K for all times, with D = I1 I2 I3, v^2 = prod(z + D/I_i) and
+E_i = -v/(z I_i + D), theorem-elliptic. So
+
+    R(t) = R_B(-b t) S(t),     S' = S (E K)^,     K = R^T B' = S^T B':     K' = [K, E K],
+
+and S is a free top whose inverse tensor E need not be positive and whose angular momentum is B'. About the direction of
+B', with nu = K_a/b for one axis a,
+
+    psi' = E_a b + (p/b)/(1 - nu^2) - b,     chi' = -nu (p/b)/(1 - nu^2),     p = (K, E K) - E_a b^2,
+
+the Cayley-Klein parameters of `atlas.motions.nutation.certified_general`. The axis is the one of the largest or least E
+about which K does not circle: K_a passes through zero to and fro, and neither parameter ever becomes small.
+"""
+
+from typing import Any
+
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, rationals
+from atlas.arithmetic.numbers import by_precision, dot, nearest, root
+from atlas.bodies.formula_integrals import clebsch
+from atlas.errors import DomainError
+from atlas.motions.nutation.certified import Nutating
+from atlas.motions.nutation.certified_cayley_klein import infinite
+from atlas.motions.nutation.certified_elliptic_quartic import EllipticQuartic
+from atlas.motions.nutation.certified_spheres import POLES, Sphere
+from atlas.motions.nutation.formula_elliptic import splitting
+
+ROUNDING = fmpq(1, 2**48)
+"""By so much of itself the largest moment of a plane body may exceed the sum of the others."""
+
+
+class EllipticMotion(Nutating):
+    """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3) at t = 0.
+
+    Every value is computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`; which case it
+    is, is decided on the exact inputs.
+    """
+
+    frame = 1
+    """Rate of Larmor's frame about the field, in units of -b."""
+
+    def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
+        self.inertia = moments = rationals(inertia, "inertia (I1, I2, I3)", 3)
+        self.field = rationals(field, "field (B1, B2, B3)", 3)
+        self.z, sign = rational(z, "z"), rational(branch, "branch")
+        if sign not in (1, -1):
+            raise DomainError(f"The branch, the sign of v, is 1 or -1, not {nearest(sign)}.")
+        self.branch = int(sign.p)
+        check_moments(moments)
+        self.square = square_of_v(moments, self.z)
+        D = moments[0] * moments[1] * moments[2]
+        self._e = tuple(1 / (self.z * I + D) for I in moments)
+        self._start()
+
+    def _start(self) -> None:
+        self.places = self._order()
+        e, K = self._turned(self._e), self._turned(self.field)
+        self.quartic: EllipticQuartic = EllipticQuartic(e, K, self.square, self.branch)
+        self.kind = self._kind()
+
+    def _order(self) -> tuple[int, int, int]:
+        """Return the axes in a cyclic order, the one last whose component nutates, or about which K turns."""
+        e, K = self._e, self.field
+        low, middle, high = sorted(range(3), key=lambda i: e[i])
+        if sum(x != 0 for x in K) == 1:
+            last = next(i for i in range(3) if K[i] != 0)
+        elif e[middle] in (e[low], e[high]):  # of two equal ones neither; of a ball any
+            last = high if e[middle] == e[low] else low
+        else:
+            last = low if sum((c - e[middle]) * x * x for c, x in zip(e, K, strict=True)) > 0 else high
+        return (last + 1) % 3, (last + 2) % 3, last
+
+    def _kind(self) -> str:
+        e, K = self._e, self.field
+        if self._rests and all(x == 0 or c * self.branch < 0 for c, x in zip(e, K, strict=True)):
+            return "at rest"
+        if self.z == 0:
+            return "Omega = -2 K"
+        if e[0] == e[1] == e[2]:
+            return "ball"
+        if sum(x != 0 for x in K) == 1:
+            return "field along an axis"
+        if len(set(e)) == 2:
+            return "elementary"
+        return "separatrix" if any(x.multiplicity > 1 for x in self.quartic.roots()) else "elliptic"
+
+    @property
+    def _rests(self) -> bool:
+        """Whether |E_i| = 1 wherever K_i is not zero: the body is at rest, or at -2 K."""
+        return all(x == 0 or c * c * self.square == 1 for c, x in zip(self._e, self.field, strict=True))
+
+    @property
+    def splitting(self) -> fmpq:
+        """C/D^2, whose sign decides on stability: see `atlas.motions.nutation.formula_elliptic`."""
+        square: fmpq = splitting(self.inertia, self.field, self.z)
+        return square
+
+    @property
+    def stability(self) -> str:
+        """Whether all motions that start near stay beside the curve of K and M: "stable", "unstable" or "undecided".
+
+        At rest and at Omega = -2 K the curve is that of the flow of F, along which neighbours drift slowly.
+        """
+        C, stays = self.splitting, self._change() >= 0 if self.is_steady else self.kind != "separatrix"
+        if self._rests or (C > 0 and stays):
+            return "stable"
+        return "undecided" if C == 0 and stays else "unstable"
+
+    def _change(self) -> fmpq:
+        """Return the squared frequency of a small change in the family of a K that is constant."""
+        first, second, last = self.places
+        e = self._e
+        return (e[first] - e[last]) * (e[second] - e[last]) * self.square * self.quartic.N
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether R(t) is two turns one after the other, about the field and about a principal axis."""
+        return self.kind not in ("elliptic", "separatrix")
+
+    @property
+    def swings_evenly(self) -> bool:
+        """Whether the body turns by nothing about the axis of the pair in a period: wherever that nutates."""
+        return not self.is_steady
+
+    @property
+    def v(self) -> Real:
+        """The root v of prod(z + D/I_i), of the sign of the branch."""
+        return self.branch * root(self.square)
+
+    @property
+    def E(self) -> tuple[Real, Real, Real]:
+        """The tensor E_i = -v/(z I_i + D), along the principal axes: Omega = (E - 1) K."""
+        v = self.v
+        return -v * self._e[0], -v * self._e[1], -v * self._e[2]
+
+    @property
+    def omega(self) -> list[Real]:  # type: ignore[override]  # it is a root of what is given
+        """The initial angular velocity."""
+        return self.rate_of(self.field)
+
+    @property
+    def invariants(self) -> list[Real]:
+        """H, F, (M, K), K^2 and the kinetic energy, theorem-clebsch."""
+        J = [self.inertia[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
+        H, F, MK, K2, energy = clebsch(*J, *self.omega, *self.field)
+        return [H / 2, F, MK, K2, energy / 2]
+
+    def rate_of(self, K: Any) -> list[Real]:
+        """Return Omega where the field in the body is K."""
+        return [(E - self.frame) * x for E, x in zip(self.E, K, strict=True)]
+
+    @property
+    def precession(self) -> Real:
+        """Rate E_a b - b of the frame about the field in which the pair has its own rates."""
+        return (self.E[self.places[2]] - self.frame) * self.b
+
+    @by_precision
+    def sphere(self) -> Sphere:
+        """The sphere of K, at the precision of the moment, its last axis a."""
+        K, b = self._turned(self.field), self.b
+        torque, zero = arb(root(self.square)) * self.quartic.torque, fmpq(0)
+        start, length = (K, b) if self.quartic.N else ((zero, zero, fmpq(1)), fmpq(1))
+        return Sphere(
+            start=start,
+            length=length,
+            poles={pole: arb(-pole * b) for pole in POLES},
+            torques=dict.fromkeys(POLES, torque),
+            signs={pole: self.quartic.sign_beside(pole) for pole in POLES},
+            frames=dict.fromkeys(POLES, arb(self.precession) / 2),
+            slopes=dict.fromkeys(POLES, acb(0)),
+            precession=self.precession,
+            spin=zero,
+        )
+
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about the field and phi about the axis a of a motion that is two turns."""
+        first, _, last = self.places
+        if self.kind != "elementary":  # K is constant, along an axis or where E is a number
+            return self.precession, fmpq(0)
+        return (self.E[first] - self.frame) * self.b, (self.E[last] - self.E[first]) * self.field[last]
+
+    @property
+    def period(self) -> arb:
+        """Period of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
+        if not self.is_steady:
+            return super().period
+        if self.kind == "elementary":
+            rate = abs(arb(self.steady_rates()[1]))
+        else:
+            square = self._change() if sum(x != 0 for x in self.field) == 1 else fmpq(0)
+            rate = arb(root(square)) if square > 0 else arb(0)
+        return arb("inf") if rate.is_zero() else 2 * arb.pi() / rate
+
+    @property
+    def circled(self) -> int:
+        """Place of the axis about which K goes round, of the largest or the least E; of two equal E the third axis."""
+        e, (first, second, last) = self._e, self.places
+        if len(set(e)) == 2:
+            return next(i for i in range(3) if e.count(e[i]) == 1)
+        return last if self.is_steady else max((first, second), key=lambda i: abs(e[i] - e[last]))
+
+    @property
+    def is_middle(self) -> bool:
+        """Whether the motion is on the separatrix: it tends to the axis of the middle E, or is the spin about it."""
+        return self.kind == "separatrix" or (self.is_steady and self._change() < 0)
+
+    @property
+    def turn_per_period(self) -> arb:
+        """Angle by which the body has turned about B after one period, of precession and spin together."""
+        return super()._angles()[0]
+
+    def _angles(self) -> tuple[arb, arb]:
+        """Return the angles of precession and of spin of the axis about which K goes round, once in a period.
+
+        The pair is that of another axis, which goes once more or less about B in that time. Where K stands on an axis,
+        the angles are the limits of those of a motion next to it.
+        """
+        precession, spin = super()._angles()
+        if self.kind in ("elementary", "at rest"):
+            return precession, spin
+        c, last = self.circled, self.places[2]
+        other = self.places[0] if c == last else last
+        sense = -self.branch if self._e[c] > self._e[other] else self.branch
+        turn = 2 * arb.pi() * sense
+        return precession - turn, spin + (turn if self.field[c] > 0 else -turn)
+
+    @property
+    def precession_rate(self) -> Real:
+        """Mean rate of precession about B of the axis about which K goes round; where K stands, of that or any."""
+        return self._mean_rates()[0]
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about that axis, 2 pi over the period, or 0."""
+        return self._mean_rates()[1]
+
+    def _mean_rates(self) -> tuple[Real, Real]:
+        if self.kind == "at rest":
+            return fmpq(0), fmpq(0)
+        if self.is_middle:
+            raise DomainError(
+                "On the separatrix, to which the spin about the middle axis belongs, the motion does not come back: it "
+                "has no period and no mean rates."
+            )
+        if self.kind == "elementary" or infinite(self.period):
+            return self.steady_rates()
+        precession, spin = self._angles()
+        return precession / self.period, spin / self.period
+
+    @property
+    def _half(self) -> arb:
+        return self.period / 2
+
+    def _periods(self) -> tuple[arb, arb]:
+        return (arb(1), arb("inf")) if self.is_steady else super()._periods()
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) = (E - 1) K(t) in the body's frame."""
+        return self.rate_of(self.field_in_body(t))
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m = R II Omega in the laboratory frame."""
+        m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
+        return [dot(row, m) for row in self.rotation(t)]
+
+    def from_frame(self, a: acb, b: acb) -> list[arb]:
+        """Return the quaternion, its vector along the principal axes in the order of the moments."""
+        q = super().from_frame(a, b)
+        return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
+
+    def _turned(self, vector: Any) -> Any:
+        """Return components in the order of the axes."""
+        return tuple(vector[i] for i in self.places)
+
+
+class EulerTop(EllipticMotion):
+    """The motion R(t), R(0) = 1, of a free body with moments (I1, I2, I3) that starts with ``omega``.
+
+    The angular momentum m = II Omega in the body stands for the field, and E = II^-1: m' = [m, E m]. No frame turns.
+    """
+
+    frame = 0
+
+    def __init__(self, inertia: Any, omega: Any) -> None:
+        self.inertia = moments = rationals(inertia, "inertia (I1, I2, I3)", 3)
+        check_moments(moments)
+        self.field = tuple(I * w for I, w in zip(moments, rationals(omega, "omega", 3), strict=True))
+        self._e = tuple(1 / I for I in moments)
+        self.square, self.branch, self.z = fmpq(1), -1, fmpq(1)
+        self._start()
+
+    @property
+    def _rests(self) -> bool:
+        """Whether there is no motion."""
+        return not any(self.field)
+
+    @property
+    def mode(self) -> str:
+        """Axis that the momentum goes round: "long axis", of the least moment, or "short axis", of the largest."""
+        if self._rests or len(set(self.inertia)) == 1:
+            return "at rest" if self._rests else "ball"
+        if self.is_middle:
+            return "separatrix"
+        return "long axis" if self.inertia[self.circled] == min(self.inertia) else "short axis"
+
+
+def check_moments(moments: tuple[fmpq, ...]) -> None:
+    """Raise DomainError for what are no moments of a body."""
+    shown = ", ".join(str(nearest(I)) for I in moments)
+    if min(moments) <= 0:
+        raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")
+    if max(moments) * (2 - ROUNDING) > sum(moments):
+        raise DomainError(f"No body has the moments of inertia {shown}: the largest is at most the sum of the others.")
+
+
+def square_of_v(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
+    """Return v^2 = prod(z + D/I_i); DomainError where it is not positive."""
+    D = moments[0] * moments[1] * moments[2]
+    zeros = sorted(-D / I for I in moments)
+    if not (z > zeros[2] or zeros[0] < z < zeros[1]):
+        low, middle, high = map(nearest, zeros)
+        oval = f" and between {low} and {middle}" if zeros[0] < zeros[1] else ""
+        raise DomainError(
+            f"There is no elliptic motion with z = {nearest(z)}: v^2 = prod(z + D/I_i) is positive for z above "
+            f"{high}{oval}, the ends excluded."
+        )
+    return (z - zeros[0]) * (z - zeros[1]) * (z - zeros[2])

@@ -1,0 +1,235 @@
+"""The general motion of a charged symmetric body as balls: R(t) for any initial angular velocity (not in the paper).
+
+Seen from the frame that turns with -B', and with a turn (1-I) c3 t about the body's axis taken off, the body is a ball
+in the potential (I-1) b^2 nu^2/2, nu = K3/b. With M3 = I c3 and p = (M, K)/b its Cayley-Klein parameters obey
+
+    alpha'/alpha = [nu' + i (p + M3)]/(2 (1 + nu)),    beta'/beta = [-nu' + i (p - M3)]/(2 (1 - nu)),
+
+each with one simple zero in a cell of the lattice of Omega3: so each is a theta function times exp(i lambda t), up to a
+factor that both share, and the matrix is that of the quaternion (alpha, beta) over its length.
+"""
+
+from typing import Any, Self
+
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rationals
+from atlas.arithmetic.numbers import by_precision, dot, root
+from atlas.bodies.certified_body import ratio_of
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified import Nutating
+from atlas.motions.nutation.certified_cayley_klein import Lattice, Parameter, Solution, Sum, steady
+from atlas.motions.nutation.certified_constants import Nutation
+from atlas.motions.nutation.certified_quartic import Quartic, Vector
+from atlas.motions.nutation.certified_spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
+
+
+class GeneralMotion(Nutating):
+    """The motion R(t), R(0) = 1, that starts with Omega(0) = ``omega`` in the field B' = (0, B2, B3).
+
+    `at_state` takes a field in any direction. Every value is computed anew at the precision of the moment, see
+    `atlas.arithmetic.certified_digits`; which case it is, is decided on the exact inputs.
+    """
+
+    def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
+        B2, B3 = rationals(field, "the field (B2, B3)", 2)
+        self._start(ratio_of(ratio), rationals(omega, "omega", 3), (fmpq(0), B2, B3))
+
+    @classmethod
+    def at_state(cls, ratio: Any, Omega: Any, K: Any) -> Self:
+        """Return the motion that starts with the angular velocity Omega and the field K, both in the body, (3,)."""
+        motion = cls.__new__(cls)
+        motion._start(  # noqa: SLF001  of this class
+            ratio_of(ratio), rationals(Omega, "Omega", 3), rationals(K, "K", 3)
+        )
+        return motion
+
+    def _start(self, I: fmpq, Omega: Any, K: Any) -> None:
+        self.I, self.omega, self.field = I, Omega, K
+        self.quartic = Quartic(I, Omega, K)
+        self.kind = self._kind()
+
+    @cached_property
+    def cancelled(self) -> int:
+        """Digits, of base two, that the spin in a period loses: it is of the order of 1 - I."""
+        less = abs(1 - self.I)
+        return max(0, int(less.q).bit_length() - int(less.p).bit_length()) if less != 0 else 0
+
+    def _kind(self) -> str:
+        q = self.quartic
+        if q.K2 == 0 or q.is_constant:
+            rest = all(w == 0 for w in self.omega)
+            steady = "at rest" if rest else "precession" if q.across != 0 else "spin along the field"
+            return "free body" if q.K2 == 0 and not rest else steady
+        if self.I == 1:
+            return "ball"
+        if name := self._separatrix("B and -B"):
+            return name
+        return f"nutation, {'four' if all(r.is_real for r in q.roots()) else 'two'} real roots"
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        return self.kind in {"free body", "at rest", "precession", "spin along the field"}
+
+    @property
+    def B2(self) -> fmpq:
+        """Second component of the field in the body at t = 0."""
+        return self.field[1]
+
+    @property
+    def B3(self) -> fmpq:
+        """Third component of the field in the body at t = 0."""
+        return self.field[2]
+
+    def _solved(self, *, trigonometric: bool = False) -> Solution:
+        if self.kind == "ball":
+            return self._ball(self.sphere, self._momentum)
+        return super()._solved(trigonometric=trigonometric)
+
+    @by_precision
+    def velocity(self) -> Solution:
+        """The constants of the pair from which Omega follows, see `atlas.motions.nutation.certified_spheres`."""
+        sphere = self._velocity_sphere
+        if self.is_steady:
+            return steady(sphere.tilt, fmpq(0), self._steady_turn(), self._half)
+        if self.kind != "ball":
+            return Nutation(self.quartic, sphere).solution()
+        M1, M2, M3 = self._momentum
+        return self._ball(sphere, (M2, M1, -M3))
+
+    @by_precision
+    def sphere(self) -> Sphere:
+        """The sphere of K, or of a free body's momentum, at the precision of the moment."""
+        return sphere_of_field(self.quartic, self._axis)
+
+    @by_precision
+    def _velocity_sphere(self) -> Sphere:
+        return sphere_of_velocity(self.quartic)
+
+    @property
+    def _momentum(self) -> Vector:
+        """M of a ball, in the body at t = 0, over its moment."""
+        M1, M2, M3 = (w + K for w, K in zip(self.quartic.Omega, self.quartic.K, strict=True))
+        return M1, M2, M3
+
+    @cached_property
+    def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
+        """Vector along the axis of precession, in the body at t = 0: the field, else the momentum, at rest e3."""
+        if self.quartic.K2 != 0:
+            K1, K2, K3 = self.field
+            return K1, K2, K3
+        w1, w2, w3 = self.omega
+        momentum = w1, w2, self.I * w3
+        return momentum if any(w != 0 for w in self.omega) else (fmpq(0), fmpq(0), fmpq(1))
+
+    def velocity_sizes(self) -> tuple[Real, Real, Real, Real]:
+        """Return cos and sin of the azimuth of Omega(0), and the largest Omega across and along the axis."""
+        sphere = self._velocity_sphere
+        return sphere.tilt[2], sphere.tilt[3], sphere.length, abs(sphere.poles[1])
+
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about the field and phi about the body's axis where Omega3 is constant."""
+        q, (w1, w2, w3) = self.quartic, self.omega
+        if self.kind == "free body":
+            return root(w1**2 + w2**2 + (self.I * w3) ** 2), (1 - self.I) * w3
+        if q.across == 0:
+            return fmpq(0), w3
+        return q.along * self.b / q.across, w3 - self.field[2] * q.along / q.across
+
+    def _steady_turn(self) -> fmpq:
+        """Return the rate at which (Omega1, Omega2) turns in the body where Omega3 is constant."""
+        q, (w1, w2, w3) = self.quartic, self.omega
+        across = w1**2 + w2**2
+        return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.along / across if across != 0 else 0)
+
+    @property
+    def _half(self) -> arb:
+        if self.kind == "free body":
+            return arb.pi() / self.steady_rates()[0]
+        return super()._half
+
+    def _ball(self, sphere: Sphere, M: tuple[fmpq, fmpq, fmpq]) -> Solution:
+        """Return the turn of the vector about M, which stands in the body."""
+        c, s, C, S = sphere.tilt
+        size = root(M[0] ** 2 + M[1] ** 2 + M[2] ** 2)
+        m1, m2, m3 = (M[0] * C - M[1] * S) / size, (M[0] * S + M[1] * C) / size, M[2] / size
+        lattice = Lattice("trigonometric", arb.pi() / size, arb("inf"), oblique=False, rate=arb(size) / 2)
+        sums = (
+            Sum(lattice, (acb(-arb(s) * m1, arb(c) * m3 + arb(s) * m2),), (acb(c),), arb(0)),
+            Sum(lattice, (acb(arb(c) * m1, arb(c) * m2 - arb(s) * m3),), (acb(s),), arb(0)),
+        )
+        alpha, beta = (
+            Parameter(acb(1), arb(0), arb(sphere.frames[pole]), arb(0), x, sphere.signs[pole])
+            for pole, x in zip(POLES, sums, strict=True)
+        )
+        return Solution(lattice, arb(0), alpha, beta, sphere.precession, sphere.spin)
+
+    @property
+    def roots(self) -> list[acb]:
+        """Roots of Q, each as often as it counts: the real ones ascending, then the complex pair; none for B = 0."""
+        if self.quartic.K2 == 0:
+            return []
+        return [root.value for root in self.quartic.roots() for _ in range(root.multiplicity)]
+
+    @property
+    def turning_points(self) -> tuple[Real, Real]:
+        """Least and largest Omega3; on a separatrix one of them is approached and never reached."""
+        q = self.quartic
+        if self.is_steady or q.is_constant:
+            return q.u.value, q.u.value
+        roots = q.roots()
+        return roots[q.low].value.real, roots[q.high].value.real
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether M is along neither the field nor the axis, p = M3 = 0."""
+        return not self.is_steady and bool(self.quartic.c3 == self.quartic.momentum == 0)
+
+    @property
+    def precession(self) -> Real:
+        """Rate of Larmor's frame about the field."""
+        return -self.b
+
+    @property
+    def swings_evenly(self) -> bool:
+        """Whether nu swings evenly about zero, and chi' = -p nu/(1 - nu^2) with it."""
+        q = self.quartic
+        return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory frame."""
+        w1, w2, w3 = self.angular_velocity(t)
+        return [dot(row, (w1, w2, self.I * w3)) for row in self.rotation(t)]
+
+    @property
+    def invariants(self) -> dict[str, fmpq]:
+        """The constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M = II (Omega + K) in units of I2."""
+        q = self.quartic
+        return {"E'": q.E, "K^2": q.K2, "c3": q.c3, "c5": q.c5, "(M,B')": q.momentum}
+
+
+class Symmetric:
+    """The motion of a body with two equal moments, whatever the order of its axes."""
+
+    def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
+        last = next(i for i in range(3) if moments[i - 1] == moments[i - 2])
+        places = (last - 2) % 3, (last - 1) % 3, last
+        spin, field = ([x[i] for i in places] for x in (Omega, K))
+        self.exact = GeneralMotion.at_state(moments[last] / moments[last - 1], spin, field)
+        self._back = [places.index(i) for i in range(3)]
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        R = self.exact.rotation(t)
+        return [[R[i][j] for j in self._back] for i in self._back]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body."""
+        Omega = self.exact.angular_velocity(t)
+        return [Omega[i] for i in self._back]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B'."""
+        K = self.exact.field_in_body(t)
+        return [K[i] for i in self._back]

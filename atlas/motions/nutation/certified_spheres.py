@@ -1,0 +1,93 @@
+"""The two vectors of constant length that move with Omega3: the field in the body, and the angular velocity.
+
+A unit vector is a pair (alpha, beta) up to a factor: cos and sin of half its polar angle, with phases. Both pairs are
+functions of one form, told apart by where Omega3 has its poles:
+
+    alpha'/alpha = [-u' + i T]/(2 (U - u)) + i f,    T the torque at the pole U, -Q(U) = T^2,
+    beta'/beta   = [ u' + i T]/(2 (u - U)) + i f,    and another T, U, f for beta,
+
+each with one simple zero in a cell of the lattice. For K, of length b, the poles are c3 ± b, where the torque is
+(M,K) ± b M3, and f is the rate of Larmor's frame. For the angular velocity the vector is (Omega2, Omega1,
+-sqrt(I) Omega3), whose length is sqrt(E'); its poles are ± sqrt(E'/I), the torque there is
+P(u) = u^2 - (2-I) c3 u + c5, and f = 0. So Omega keeps its digits however slow the body turns beside its Larmor frame.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.certified_inputs import Real
+from atlas.arithmetic.certified_surd import Surd
+from atlas.arithmetic.numbers import root
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_quartic import Quartic, Vector
+
+POLES = (-1, 1)
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Poles -1 (of alpha) and 1 (of beta): values of Omega3, torques, their exact signs, rates f of the frame.
+
+    `start` is the vector at t = 0, of that `length`. `slopes` are the derivatives of alpha and beta at t = 0, for the
+    one that is zero there. The frame has the rates `precession` and `spin`.
+    """
+
+    start: tuple[Real, Real, Real]
+    length: Real
+    poles: Mapping[int, arb]
+    torques: Mapping[int, arb]
+    signs: Mapping[int, int]
+    frames: Mapping[int, Real]
+    slopes: Mapping[int, acb]
+    precession: Real
+    spin: Real
+
+    @cached_property
+    def tilt(self) -> tuple[Real, Real, Real, Real]:
+        """Cosine and sine of half the polar angle at t = 0, and of the azimuth from the second axis to the first."""
+        x, y, z = self.start
+        if x == 0 and y == 0:
+            return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z >= 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
+        across = abs(y) if x == 0 else root(x * x + y * y)
+        # of the two halves the one that does not cancel first
+        longer = arb((1 + abs(arb(z) / self.length)) / 2).sqrt()
+        shorter = arb(across) / (2 * longer * self.length)
+        return (longer, shorter, y / across, x / across) if z >= 0 else (shorter, longer, y / across, x / across)
+
+
+def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
+    """Return the sphere of K; of a free body, where K = 0, that of its momentum, along `axis`."""
+    (w1, w2, _), (x, y, z) = q.Omega, axis
+    b = root(q.K2)
+    return Sphere(
+        start=axis,
+        length=root(x * x + y * y + z * z),
+        poles={pole: q.c3 - pole * arb(b) for pole in POLES},
+        torques={pole: q.momentum - pole * arb(b) * q.I * q.c3 for pole in POLES},
+        signs={pole: q.sign_beside(pole) for pole in POLES},
+        frames={pole: (-b - pole * (1 - q.I) * q.c3) / 2 for pole in POLES},
+        slopes={-1: acb(-w1, w2) / 2, 1: acb(w1, w2) / 2},
+        precession=-b,
+        spin=(1 - q.I) * q.c3,
+    )
+
+
+def sphere_of_velocity(q: Quartic) -> Sphere:
+    """Return the sphere of Omega."""
+    (w1, w2, w3), (K1, K2, _) = q.Omega, q.K
+    square = q.E / q.I
+    end, short = arb(root(square)), root(q.I)
+    turn = acb(K1, K2) * acb(0, 1) * arb(short) / 2
+    return Sphere(
+        start=(w2, w1, -short * w3),
+        length=root(q.E),
+        poles={pole: -pole * end for pole in POLES},
+        torques={pole: square + q.c5 + pole * (2 - q.I) * q.c3 * end for pole in POLES},
+        signs={pole: (Surd.root(square) * (pole * (2 - q.I) * q.c3) + (square + q.c5)).sign for pole in POLES},
+        frames={pole: fmpq(0) for pole in POLES},
+        slopes={-1: turn, 1: -turn.conjugate()},
+        precession=fmpq(0),
+        spin=fmpq(0),
+    )

@@ -1,0 +1,209 @@
+"""What the integral of nu adds to a top's turn about its own axis, kappa times it, as a function of time.
+
+    integral of nu = rate t + twist s + (2 sense/sqrt(|A|)) at(O(s)/E(s)),    at = arctan for A < 0, artanh for A > 0,
+
+s the time since a turning point, less whole periods where the sums are for one only. O and E are the odd and the even
+part of a theta function with its zero where nu is infinite: two simple poles for A != 0. As A goes to 0 they become a
+double one, and O a multiple of sqrt(|A|): so O/sqrt(|A|) is what is kept, at A = 0 the derivative of E.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import count
+
+from flint import acb, arb, ctx
+
+from atlas.arithmetic.numbers import workprec
+from atlas.motions.nutation.certified_cayley_klein import Lattice, Sum, infinite, theta_sum, vanishing_at
+from atlas.motions.nutation.certified_constants import Nutation
+from atlas.motions.nutation.certified_quartic import TopQuartic
+
+MODEST = 2
+"""Half an angle that a double holds."""
+
+STEEP = arb("0.368")
+"""A k is at most exp(k STEEP), 1/e being less."""
+
+ROUGH = 80
+"""Binary digits with which a size is found where they suffice."""
+
+
+@dataclass(frozen=True)
+class Swing:
+    """kappa times the integral of nu: rates by t and by s, and 2 at(x)/sqrt(|A|), x sqrt(|A|) = odd/even."""
+
+    lattice: Lattice
+    kappa: arb
+    A: arb
+    rate: arb
+    twist: arb
+    odd: Sum
+    even: Sum
+    depth: arb
+    """Where A > 0, rate x: nu is infinite at s = x + i imaginary."""
+    width: arb
+    """Distance of the turning points of nu."""
+
+    def at(self, t: arb, s: arb) -> arb:
+        """Return kappa times the integral of nu from a turning point, at time t, which is s in its own period."""
+        return self.kappa * (self.rate * t + self.twist * s + self.oscillation(s))
+
+    @property
+    def steepest(self) -> arb:
+        """Largest change of half of that part by a radian of the phase rate s."""
+        return abs(self.kappa) * self.width / (2 * self.lattice.rate)
+
+    @property
+    def largest(self) -> arb:
+        """Half of its largest part that is no multiple of time, about; a bound where that is modest."""
+        half = self.lattice.half
+        most = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
+        if most < MODEST:
+            return most
+        unit = 8 / self.lattice.rate if infinite(half) else half
+
+        def found() -> arb:
+            sizes = [abs(self.kappa * self.oscillation(unit * k / 8)) / 2 for k in range(1, 9)]
+            return max(sizes, key=lambda x: float(x.mid()))
+
+        with workprec(ROUGH):
+            rough = found()
+        return rough if rough.rel_accuracy_bits() > ROUGH // 4 else found()
+
+    def oscillation(self, s: arb) -> arb:
+        """Return the part that is no multiple of time."""
+        return turn_of(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n, where it has no rate.
+
+    It is, but for a constant, kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): kappa the one way before s = 0 and
+    the other after.
+    """
+
+    kappa: arb
+    slope: arb
+    origin: arb
+    sense: int
+    rate = 1
+    """Size of the rate of the integral long before and after."""
+
+    def at(self, _: arb, s: arb) -> arb:
+        """Return kappa times an integral of nu."""
+        x = self.slope * abs(s)
+        return self.kappa * self.sense * (x + (1 + (-2 * x).exp()).log()) / self.slope
+
+
+def turn_of(odd: arb, even: arb, A: arb) -> arb:
+    """Return 2 at(odd/even sqrt(|A|))/sqrt(|A|)."""
+    if A == 0:
+        return 2 * odd / even
+    size = abs(A).sqrt()
+    if A > 0:
+        return 2 * (odd / even * size).atanh() / size
+    return 2 * arb.atan2(odd * size, even) / size
+
+
+def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
+    """Return the constants of the integral of nu for a motion of that quartic, but for the `crossing` of n and -n."""
+    lattice, A = nutation.lattice, arb(quartic.A)
+    sense = 1 if nutation.start.place == quartic.low else -1
+    depth = arb(0)
+    if quartic.A > 0:
+        outermost = nutation.turning(0 if sense > 0 else len(nutation.real) - 1)
+        depth = lattice.rate * outermost.real_time_to_infinity()
+        odd, even = _apart(lattice, depth, sense / A.sqrt())
+    elif quartic.A < 0:
+        odd, even = _across(lattice, nutation.start.imaginary_time_to_infinity, sense / (-A).sqrt())
+    elif quartic.a.is_zero:
+        amplitude = nutation.roots[nutation.other].value.real - nutation.start.u
+        like = Sum(lattice, (), (), arb(0), doubled=True)
+        odd, even = _split(like, [arb(0), amplitude / (8 * lattice.rate)], [arb(1), arb(0)], arb(1))
+    else:
+        odd, even = _merged(lattice, lattice.rate / arb(quartic.a.value))
+    # nu is that of the turning point at s = 0
+    whole = -nutation.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
+    twist, width = arb(0), abs(nutation.roots[nutation.other].value.real - nutation.start.u)
+    if lattice.form == "hyperbolic" and not infinite(lattice.half):
+        twist = -turn_of(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
+    return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth, width)
+
+
+def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
+    """Return the constants for the motion between n and -n that passes the equator at the time -origin."""
+    return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
+
+
+def _apart(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
+    """Return O, times a factor, and E for poles at s = x + i imaginary, `depth` being rate x."""
+    if lattice.form == "trigonometric":
+        return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())
+    return _beside_imaginary(lattice, depth, factor, lambda k: (depth * k).sinh_cosh())
+
+
+def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
+    """Return O, less the derivative of E over rate times a factor, and E for a double pole at s = i imaginary."""
+    sign = 1 if lattice.form == "trigonometric" else -1
+    return _beside_imaginary(lattice, STEEP, sign * factor, lambda k: (arb(k), arb(1)))
+
+
+def _across(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
+    """Return O, times a factor, and E for poles at s = i y."""
+    if lattice.form == "trigonometric":
+        function = _inclined(lattice, y)
+        odd, even = [x.real for x in function.odd], [x.real for x in function.even]
+    else:
+        function = vanishing_at(lattice, y, beyond=False)
+        linear = lattice.form == "linear"
+        odd, even = [x.real if linear else x.imag for x in function.odd], [x.real for x in function.even]
+        even = [y] if linear else even
+    return _split(function, odd, even, factor)
+
+
+def _split(like: Sum, odd: list[arb], even: list[arb], factor: arb) -> tuple[Sum, Sum]:
+    """Return the odd part, times a factor, and the even part as sums."""
+    none = (acb(0),) * len(odd)
+    return (
+        replace(like, odd=tuple(acb(x * factor) for x in odd), even=none, bound=abs(factor) * like.bound),
+        replace(like, odd=none, even=tuple(acb(x) for x in even)),
+    )
+
+
+def _beside_imaginary(
+    lattice: Lattice, depth: arb, factor: arb, weights: Callable[[int], tuple[arb, arb]]
+) -> tuple[Sum, Sum]:
+    """Return O, times a factor, and E for a zero beside i imaginary.
+
+    They are given by the weights of S(k rate s) and of C(k rate s), at most exp(k depth).
+    """
+    doubled = lattice.form == "trigonometric"
+
+    def pairs() -> Iterator[tuple[acb, acb]]:
+        for n in count():
+            odd, even = weights(2 * n if doubled else 2 * n + 1)
+            sign = 1 if doubled else (-1) ** n  # terms of the turned lattice do not alternate
+            yield acb(sign * odd), acb(sign * even)
+
+    whole = theta_sum(lattice, depth, pairs(), doubled=doubled)
+    return _split(whole, [x.real for x in whole.odd], [x.real for x in whole.even], factor)
+
+
+def _inclined(lattice: Lattice, y: arb) -> Sum:
+    """Return exp(-i v) times the theta function with a zero at i y, v = rate s, in trigonometric form."""
+    nome, eta, odd, even, n = lattice.nome, lattice.rate * y, list[acb](), list[acb](), 0
+    size = abs(nome)
+    if not (size.is_finite() and eta.is_finite() and size < 1):
+        return Sum(lattice, (acb(arb("nan")),), (acb(arb("nan")),), arb(0), doubled=True)
+    while True:
+        up = (-1) ** n * (nome ** (n * (n + 1))).real * (2 * n * eta).exp()
+        down = (-1) ** (n - 1) * (nome ** (n * (n - 1))).real * (-2 * n * eta).exp() if n else arb(0)
+        first = (size ** (n * (n + 1)) * (2 * n * eta).exp() + size ** (n * (n - 1)) * (-2 * n * eta).exp()) * 4
+        falls = n and size ** (2 * n) * ((2 * eta).exp() * size**2 + (-2 * eta).exp()) < 0.25
+        if (nome == 0 and n > 1) or (falls and first < arb(2) ** -(ctx.prec + 8)):
+            break
+        odd.append(acb(up + down) if n else acb(0))
+        even.append(acb(up - down))
+        n += 1
+    return Sum(lattice, tuple(odd), tuple(even), arb(0) if nome == 0 else first, doubled=True)

@@ -1,0 +1,192 @@
+"""Motions of a symmetric top in a uniform field as balls: R(t) from any start (not in the paper).
+
+M = I Omega + k b, b = R^T n, in the potential U(nu) = linear nu + quadratic nu^2/2, nu = cos theta = (R_3, n). With psi
+about n and chi about the body's axis, in units of I2,
+
+    psi' = (p - M3 nu)/(1 - nu^2) - k2,     chi' = M3/I - nu (p - M3 nu)/(1 - nu^2) + kappa nu,     kappa = k2 - k3/I:
+
+the Cayley-Klein parameters are those of `atlas.motions.nutation.certified_general`, and kappa times the integral of nu
+is a further turn about the body's axis.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rationals
+from atlas.arithmetic.numbers import by_precision, dot, length
+from atlas.motions.nutation import certified_top_steady as top_steady
+from atlas.motions.nutation.certified import Nutating
+from atlas.motions.nutation.certified_cayley_klein import Solution
+from atlas.motions.nutation.certified_constants import Nutation
+from atlas.motions.nutation.certified_quartic import TopQuartic
+from atlas.motions.nutation.certified_spheres import POLES, Sphere
+from atlas.motions.nutation.certified_swing import crossing, swing
+from atlas.motions.nutation.certified_top_steady import SteadyPrecession
+from atlas.surfaces.certified_top import inputs_of_top
+from atlas.surfaces.formula_top import constants
+
+
+class TopMotion(Nutating):
+    """The motion R(t), R(0) = 1, of a top with inertia (I2, I3), coupling (k2, k3) and direction (n2, n3) at t = 0.
+
+    Every value is computed anew at the precision of the moment, see `atlas.arithmetic.certified_digits`; which case it
+    is, is decided on the exact inputs.
+    """
+
+    def __init__(
+        self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0, quadratic: Any = 0
+    ) -> None:
+        self.I, self.coupling, self.direction, self.potential = inputs_of_top(
+            inertia, coupling, direction, linear, quadratic
+        )
+        self.omega = rationals(omega, "omega", 3)
+        self.field = fmpq(0), *self.direction
+        self.quartic: TopQuartic = TopQuartic(self.I, self.coupling, self.direction, self.omega, self.potential)
+        self.kind = self._kind()
+
+    def _kind(self) -> str:
+        q = self.quartic
+        if q.is_constant:
+            if all(w == 0 for w in self.omega):
+                return "at rest"
+            return "vertical spin" if q.across.is_zero else "steady precession"
+        if len(q.polynomial) == 3:
+            return "regular nutation"
+        if name := self._separatrix("n and -n"):
+            return name
+        if len(q.polynomial) == 4:
+            return "nutation, three real roots"
+        return f"nutation, {'two' if any(r.is_complex for r in q.roots()) else 'four'} real roots"
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        return self.quartic.is_constant
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether the top is a plane pendulum in a frame that turns about n: p = M3 = 0, and kappa = 0."""
+        q = self.quartic
+        return not self.is_steady and q.p.is_zero and q.M3.is_zero and bool(q.kappa == 0)
+
+    @property
+    def precession(self) -> Real:
+        """Rate of that frame about n."""
+        return -self.coupling[0]
+
+    @property
+    def swings_evenly(self) -> bool:
+        """Whether the spin in a period is exactly zero: M3 = 0, so that chi' is odd in nu, which swings about zero."""
+        return self.quartic.M3.is_zero and self._is_even
+
+    @property
+    def precesses_evenly(self) -> bool:
+        """Whether that in a period is Larmor's alone: p = 0, so that the rest is odd in nu, which swings about zero."""
+        return self.quartic.p.is_zero and self._is_even
+
+    @property
+    def _is_even(self) -> bool:
+        """Whether nu swings evenly about zero: the potential is even, and (p - M3 nu)^2."""
+        q = self.quartic
+        even = q.a.is_zero and (q.M3.is_zero or q.p.is_zero) and not q.is_constant
+        return even and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
+
+    @property
+    def b(self) -> Real:
+        """Length of the direction."""
+        return fmpq(1)
+
+    @by_precision
+    def sphere(self) -> Sphere:
+        """The sphere of b, the direction n in the body, at the precision of the moment."""
+        q, (w1, w2, _), k2 = self.quartic, self.omega, self.coupling[0]
+        M3, p = arb(q.M3.value), arb(q.p.value)
+        spin = (q.M3 / self.I - q.M3).value
+        return Sphere(
+            start=(fmpq(0), q.across.value, q.nu.value),
+            length=fmpq(1),
+            poles={pole: arb(-pole) for pole in POLES},
+            torques={pole: p - pole * M3 for pole in POLES},
+            signs={pole: q.sign_beside(pole) for pole in POLES},
+            frames={pole: (-k2 - pole * spin) / 2 for pole in POLES},
+            slopes={-1: acb(-w1, w2) / 2, 1: acb(w1, w2) / 2},
+            precession=-k2,
+            spin=spin,
+        )
+
+    @property
+    def invariants(self) -> list[Real]:
+        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction."""
+        q, (k2, k3), (a0, A0), (w1, w2, w3) = self.quartic, self.coupling, self.potential, self.omega
+        energy, M3, p = constants(self.I, k2, k3, q.across, q.nu, a0, A0, w1, w2, w3)
+        return [(energy / 2).value, M3.value, p.value]
+
+    def _solved(self, *, trigonometric: bool = False) -> Solution:
+        if self.is_steady or self.quartic.kappa == 0:
+            return super()._solved(trigonometric=trigonometric)
+        nutation = Nutation(self.quartic, self.sphere)
+        solution = nutation.solution(trigonometric=trigonometric)
+        if self.kind.endswith("between n and -n"):
+            return replace(solution, swing=crossing(self.quartic, solution.origin))
+        return replace(solution, swing=swing(nutation, self.quartic))
+
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about n and phi about the body's axis where theta is constant."""
+        q, (_, w2, w3) = self.quartic, self.omega
+        if q.across.is_zero:
+            return fmpq(0), w3
+        return (q.across.of(w2) / q.across).value, (q.across.of(w3) - q.nu * w2 / q.across).value
+
+    @property
+    def roots(self) -> list[acb]:
+        """Roots in nu of (dnu/dt)^2, each as often as it counts: the real ones ascending, then the complex pair."""
+        finite_roots = [root for root in self.quartic.roots() if not root.is_infinite]
+        real = [root for root in finite_roots if root.is_real]
+        return [-x.value for x in real[::-1] + finite_roots[len(real) :] for _ in range(x.multiplicity)]
+
+    @property
+    def turning_points(self) -> tuple[Real, Real]:
+        """Least and largest nu = cos theta; on a separatrix one of them is approached and never reached."""
+        q = self.quartic
+        if self.is_steady:
+            return q.nu.value, q.nu.value
+        roots = q.roots()
+        return -roots[q.high].value.real, -roots[q.low].value.real
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether a motion with constant theta is stable against nutation, decided exactly; None where theta varies."""
+        return top_steady.stable(self.quartic) if self.is_steady else None
+
+    @property
+    def steady_precessions(self) -> list[SteadyPrecession]:
+        """The steady precessions of this top at its inclination and with its omega3, at most two."""
+        return top_steady.steady_precessions(self.quartic, self.coupling[0])
+
+    @property
+    def sleeping_bands(self) -> dict[str, tuple[Real, Real] | None]:
+        """The omega3 between which this top falls over, if its axis is along n, "upright", or against it, "hanging"."""
+        q, k3 = self.quartic, self.coupling[1]
+        return {
+            name: top_steady.sleeping_band(self.I, q.kappa, k3, (q.linear, q.A), side)
+            for name, side in (("upright", 1), ("hanging", -1))
+        }
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame."""
+        across, other, along = super().angular_velocity(t)
+        # without k3 there is no torque about the axis that is not one of n
+        return [across, other, along if self.coupling[1] else self.omega[2]]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return b(t) = R^T n, the direction n in the body."""
+        size = length(*self.direction)
+        return [x / size for x in super().field_in_body(t)]
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return I Omega + k b, over I2, in the laboratory frame: R(t) M."""
+        (w1, w2, w3), b, (k2, k3) = self.angular_velocity(t), self.field_in_body(t), self.coupling
+        M = w1 + k2 * b[0], w2 + k2 * b[1], self.I * w3 + k3 * b[2]
+        return [dot(row, M) for row in self.rotation(t)]

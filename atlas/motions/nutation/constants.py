@@ -1,0 +1,208 @@
+"""The Cayley-Klein parameters of one motion: constants made in balls, at rising precision until each is known.
+
+alpha and beta, up to a common real factor, are sums of the functions of time of `functions` times phases exp(i f t).
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import rational, workprec
+from atlas.arithmetic.phase import EVEN, ROUNDER, Phases
+from atlas.arithmetic.words import ZERO, middle
+from atlas.errors import DomainError
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_cayley_klein import Solution, infinite
+from atlas.motions.nutation.certified_swing import Crossing as ExactCrossing
+from atlas.motions.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
+from atlas.motions.nutation.swing import Crossing, Swing
+
+FIRST = 256
+"""Binary digits with which the constants are tried first."""
+
+MOST = 1 << 17
+"""Binary digits beyond which they are not tried."""
+
+FREQUENCY, WEIGHT = 2.0**-120, 2.0**-80
+"""Radius to which frequencies (of the largest) and weights (of themselves) are known before they are rounded."""
+
+FAINT = 1e-70
+"""Next to a separatrix alpha and beta may both become so small, over the common factor, that their squares vanish."""
+
+KINDS: Mapping[str, Callable[..., Functions]] = {
+    "trigonometric": Trigonometric,
+    "hyperbolic": Hyperbolic,
+    "linear": Linear,
+}
+
+
+class CayleyKlein:
+    """alpha and beta of one motion: constants made at rising precision until each is known, then rounded.
+
+    `values` (4, rows) are the weights of their real, then of their imaginary parts; `slopes` adds those of their
+    derivatives by time, but for the further turn of a top.
+    """
+
+    def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
+        self.precision, self.sloping, self._solution = FIRST, slopes, solution
+        while not self._are_constants_known(solution, self.precision):
+            self.precision = _doubled(self.precision)
+
+    def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Return what `Evaluation.parts` does, each time by itself: where the turn of a top is too long for words."""
+        self.phases.check(t)
+        lacks = np.zeros(t.size) if low is None else np.broadcast_to(low, t.shape)
+        times = [rational(x) + rational(y) for x, y in zip(t.tolist(), lacks.tolist(), strict=True)]
+        return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
+
+    def _in_balls(self, t: fmpq) -> list[float]:
+        """Return the real parts, the imaginary parts and, if `sloping`, those of the derivatives at a time."""
+        precision = self.precision
+        while True:
+            with workprec(precision):
+                solution = self._solution()
+                a, b, da, db = solution.parameters(t, turning=False)
+                unit = (abs(a) ** 2 + abs(b) ** 2).sqrt() * (-1 if solution.is_flipped(t) else 1)
+                parts = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
+                parts += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
+                sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in parts]
+                if all(_radius(x) <= WEIGHT * float(y) for four, y in zip(parts, sizes, strict=True) for x in four):
+                    return [float(x.mid()) for four in parts for x in four]
+            precision = _doubled(precision)
+
+    def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
+        """Take the constants at one precision; return whether it suffices."""
+        with workprec(precision):
+            constants = solution()
+            lattice, pair = constants.lattice, (constants.alpha, constants.beta)
+            self.periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
+            turns, origin = _turns(constants, self.periodic)
+            if not constants.origin.is_finite() or not _reducible(turns, origin):
+                return False
+            kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
+            self.functions = kind(constants, [x.sum for x in pair])
+            self.swing = _swing(constants.swing)
+            self.by_balls = bool(self.swing and self.swing.is_coarse)
+            tables = _weights(constants, self.functions, slopes=self.sloping)
+            largest = max(abs(x).mid() for row in tables[0] for x in row)
+            if not all(_is_known(x, largest) for table in tables for row in table for x in row):
+                return False
+            if self.swing and not self.swing.is_known:
+                return False
+            self.frequencies = [middle(x) for x in turns]
+            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else _crossed(constants)
+            self.phases = self._phases()
+            self.values = np.concatenate([_real_parts(table, largest) for table in tables])
+            self.lost = self._lost(tables[0])
+            least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
+            self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
+        return True
+
+    @cached_property
+    def alternates(self) -> bool:
+        """Whether both change their sign with each whole turn that is left out of the phase in a period."""
+        with workprec(self.precision):
+            return self.periodic and self._solution().alternates
+
+    def _lost(self, values: list[list[acb]]) -> bool:
+        """Return whether alpha or beta is too small for a float beside the other, but not zero."""
+        pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
+        return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
+
+    def _phases(self) -> Phases:
+        """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
+
+        It multiplies the phase in the period by a large slope, as does the turn of a top in a slow nutation: so this is
+        reduced as if it were long, without any loss.
+        """
+        hyperbolic = self.periodic and isinstance(self.functions, Hyperbolic)
+        rounder = np.array([EVEN, EVEN, ROUNDER])[:, None] if hyperbolic else EVEN
+        phases = Phases(self.frequencies, self.origins, rounder)
+        if hyperbolic or (self.swing and self.swing.is_large):
+            phases.near = -1.0
+        return phases
+
+
+def _doubled(precision: int) -> int:
+    """Return twice the precision. Raises DomainError where more digits are hopeless."""
+    if 2 * precision > MOST:
+        raise DomainError(
+            f"The constants of this motion are not known with {MOST} binary digits: it is too near to a case of "
+            "its own, as is a separatrix, or its rates are of sizes too different."
+        )
+    return 2 * precision
+
+
+def _swing(exact: Any) -> Any:
+    """Return what the integral of nu adds to the turn about the axis, None for nothing."""
+    if exact is None:
+        return None
+    return Crossing(exact) if isinstance(exact, ExactCrossing) else Swing(exact)
+
+
+def _crossed(solution: Solution) -> list[arb] | None:
+    """Return the phases at t = 0 on a separatrix: of kappa s between n and -n, else None."""
+    if not isinstance(solution.swing, ExactCrossing):
+        return None
+    return [ZERO, middle(solution.swing.kappa * solution.swing.origin / (2 * arb.pi()))]
+
+
+def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
+    """Return the frequencies, in turns per unit of time, and the phase in the period at t = 0, in turns."""
+    pair, swing = (solution.alpha, solution.beta), solution.swing
+    rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
+    if swing:
+        rates[1] += swing.kappa * swing.rate
+    turns = [x / (2 * arb.pi()) for x in rates]
+    if not periodic:
+        return turns, arb(0)
+    # the phase is 2v where only sin v / cos v is wanted, else v
+    odd = solution.lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
+    whole = (2 if odd else 4) * solution.lattice.half
+    return [*turns, 1 / whole], solution.origin / whole
+
+
+def _reducible(turns: list[arb], origin: arb) -> bool:
+    """Return whether frequencies and origin are known so well that phases can be reduced."""
+    if not all(x.is_finite() for x in turns):
+        return False
+    scale = max(abs(x) for x in turns)
+    return all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) and bool(_radius(origin) <= FREQUENCY)
+
+
+def _weights(solution: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
+    """Return the weights of the functions of time in alpha and beta and, with `slopes`, in their derivatives."""
+    swing, start = solution.swing, acb(1)
+    if swing:
+        start = acb(0, -swing.at(arb(0), solution.origin) / 2).exp()
+    pair = [(solution.alpha, solution.alpha.factor * start), (solution.beta, solution.beta.factor / start)]
+    plain = [functions.weights(x.sum) for x, _ in pair]
+    tables = [[[factor * w for w in row] for (_, factor), row in zip(pair, plain, strict=True)]]
+    if slopes:
+        rising = [functions.weights(x.sum.derivative) for x, _ in pair]
+        tables.append([
+            [factor * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(row, change, strict=True)]
+            for (x, factor), row, change in zip(pair, plain, rising, strict=True)
+        ])  # fmt: skip
+    return tables
+
+
+def _radius(x: arb) -> float:
+    return float(x.rad()) if x.is_finite() else float("inf")
+
+
+def _is_known(x: acb, largest: arb) -> bool:
+    """Whether a weight is known to itself, or too small to matter."""
+    radius = max(_radius(x.real), _radius(x.imag))
+    return radius <= WEIGHT * float(abs(x).mid()) or radius <= WEIGHT**2 * float(largest)
+
+
+def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:
+    """Return real parts of alpha's and beta's weights, then imaginary parts, (4, rows), over the largest."""
+    rows = [[x / largest for x in row] for row in pair]
+    return np.array(
+        [[float(x.real.mid()) for x in row] for row in rows] + [[float(x.imag.mid()) for x in row] for row in rows]
+    )

@@ -1,0 +1,220 @@
+"""Derivatives of a motion of one nutation in its inputs: the vector v in the laboratory, dR/dp = [v]x R, and dv/dt.
+
+Every motion of one nutation is R = exp(lambda t n) S(s) exp(sigma t e3), s = t + origin less whole periods T, so
+
+    v = t lambda_p n + t sigma_p R e3 + (origin_p - count T_p) v_s + (what is bounded and periodic).
+
+Whatever grows with time is in three derivatives of frequencies, which `atlas.motions.nutation.certified_derivatives`
+makes in balls with all other constants; v_s and the bounded part are those of the pair (alpha, beta) at a fixed place s
+in the period.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from flint import acb
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_derivatives import Variation
+from atlas.motions.nutation.certified_differences import Differences
+from atlas.motions.nutation.derivatives_pair import Array, Pair
+
+BLOCK = 2048
+"""Times at once: products of so few the library does not thread."""
+
+MUCH, LOST = 256.0, 4096.0
+"""Sizes of terms in v, beside 1 and beside 1 + |v|, from which they may cancel, and from which they do too much."""
+
+
+class Weighted:
+    """v of some combinations of a pair's inputs: sums of what depends on time, with weights that do not.
+
+    In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q and
+    along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so from b;
+    a_p and b_p are the derivatives. `left` (3, 3) takes vectors into the laboratory, `names` (N, P) are combinations of
+    inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its own, besides.
+    """
+
+    def __init__(self, pair: Pair, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> None:
+        self.pair, self.axes, self.names = pair, left @ pair.axes, names
+        self.parts = []
+        for i, table in enumerate(pair.tables):
+            rows = np.concatenate([table[:2], names @ table[2:]])
+            both = np.array([rows, pair.slope(rows, i)])
+            self.parts.append(np.stack([both.real, both.imag], 1))
+        (first, second), turned, spun = pair.twisting, pair.turned @ left.T, np.outer(spins, np.eye(7)[3])
+        columns = np.column_stack(
+            [pair.faster, -pair.cells, pair.rates[:, 1], pair.chi, first - second, pair.rates[:, 0], first + second]
+        )
+        self.fixed, combined = names @ turned + turns, names @ columns + spun
+        self.columns = np.array([np.column_stack([combined, x]) for x in self.fixed.T])
+        # of terms before they are combined, since what cancels may do so there
+        sizes, fixed = abs(names), (abs(names) @ abs(turned) + abs(turns)).max(1)
+        self.sizes = np.column_stack([sizes @ abs(columns) + abs(spun), fixed])
+        self.weights = [sizes @ (abs(x[2:].real) + abs(x[2:].imag)) for x in pair.tables]
+        sizes = sum(x.sum(1) for x in self.weights) + self.sizes[:, 3::4].max(1)
+        self.cancels = pair.hyperbolic or not (sizes < MUCH).all()
+
+    def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
+        """Return v at times (m,), (3, N, m), dv/dt if asked for; and the sizes of v's terms, (N, m), 0 if all small."""
+        pair, counts = self.pair, [len(x) for x in self.pair.frequencies]
+        turn, s, count = pair.places(t)
+        if pair.doubled[0] == pair.doubled[1]:
+            f = [pair.functions(s, pair.doubled[0], max(counts))] * 2
+        else:
+            f = [pair.functions(s, doubled, n) for doubled, n in zip(pair.doubled, counts, strict=False)]
+        f = [x[: 2 * n] for x, n in zip(f, counts, strict=True)]
+        levels = range(1 + slopes)
+        # by level, part, row and time: a, its slope, its derivatives
+        A, B = (np.matmul(x[: 1 + slopes], y) for x, y in zip(self.parts, f, strict=True))
+        a, b = (x[:, 0, 0] + 1j * x[:, 1, 0] for x in (A, B))
+        square = (a[0] * a[0].conj() + b[0] * b[0].conj()).real
+        phase = np.empty(t.size, complex)
+        angle = turn + pair.twist * s
+        phase.real, phase.imag = np.cos(angle), np.sin(angle)
+        u, w = ([2 / square * x] for x in (a[0], b[0]))
+        e, nu = [-1j * (u[0] * phase) * b[0]], [(a[0] * u[0].conj() - b[0] * w[0].conj()).real / 2]
+        p, q = [u[0] * phase], [w[0] * phase]
+        if slopes:
+            less = (a[1] * u[0].conj() + b[1] * w[0].conj()).real
+            by = 1j * pair.frame - less
+            e.append(by * e[0] - 1j * (a[1] * q[0] + p[0] * b[1]))
+            nu.append((a[1] * u[0].conj() - b[1] * w[0].conj()).real - less * nu[0])
+            p.append(by * p[0] + 2 / square * a[1] * phase)
+            q.append(by * q[0] + 2 / square * b[1] * phase)
+            for x, y in ((u, a), (w, b)):
+                x.append(2 / square * y[1] - less * x[0])
+        ways = [self._ways(*x) for x in zip(p, q, u, w, strict=True)]
+        axis = [self.axes @ np.array([x.real, x.imag, y]) for x, y in zip(e, nu, strict=True)]
+        derivatives = [np.array([x[i, j] for x in (A, B) for j in range(2)]) for i in levels]
+        by_s = [self._sum(ways, derivatives, i, slice(1, 2))[:, 0] for i in levels]
+        basis = [self._basis(t, s, count, by_s, axis, i) for i in levels]
+        vectors = [np.matmul(self.columns, x) for x in basis]
+        for i in levels:
+            vectors[i] += self._sum(ways, derivatives, i, slice(2, None))
+        if pair.swing:
+            change = pair.swing.change(self.names, s, count)
+            for i in levels:
+                vectors[i] += axis[i][:, None] * change
+            if slopes:
+                normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
+                changes = ((vectors[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
+                vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], changes)
+        basis_size = abs(basis[0]).max(0)
+        if not self.cancels and (self.sizes @ basis_size.max(1)).max() < LOST:
+            return vectors, 0.0
+        terms = sum(x @ abs(y) for x, y in zip(self.weights, f, strict=True)) * 2 / np.sqrt(square)
+        return vectors, terms + self.sizes @ basis_size
+
+    def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
+        """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""
+        ways = np.array([
+            [-q.real, q.imag, p.real, -p.imag],
+            [-q.imag, -q.real, p.imag, p.real],
+            [-u.imag, u.real, -w.imag, w.real],
+        ])  # fmt: skip
+        return np.asarray(np.matmul(self.axes, ways.reshape(3, -1)).reshape(ways.shape))
+
+    @staticmethod
+    def _sum(ways: Sequence[FloatArray], parts: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
+        """Return what rows of derivatives add to v, or to dv/dt, (3, rows, m)."""
+        pairs = [(ways[i], parts[level - i][:, rows]) for i in range(level + 1)]
+        terms = [(way[:, j, None], derivative[j]) for way, derivative in pairs for j in range(4)]
+        total = np.multiply(*terms[0])
+        product = np.empty_like(total)
+        for way, derivative in terms[1:]:
+            total += np.multiply(way, derivative, out=product)
+        return np.asarray(total)
+
+    def _basis(
+        self, t: FloatArray, s: FloatArray, count: FloatArray, by_s: Sequence[FloatArray], axis: Sequence[FloatArray],
+        level: int,
+    ) -> FloatArray:  # fmt: skip
+        """Return what the columns weigh, or the slopes of it, (3, 8, m)."""
+        (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
+        basis = np.empty((3, 8, t.size))
+        basis[:, 0], basis[:, 1], basis[:, 2], basis[:, 3], basis[:, 4] = s * v, count * v, t * e, e, s * e
+        basis[:, 5], basis[:, 6], basis[:, 7] = (n, n, 0.0) if level else (n * t, n * s, 1.0)
+        if level:
+            basis[:, 0] += by_s[0]
+            basis[:, 2] += axis[0]
+            basis[:, 4] += axis[0]
+        return basis
+
+
+class Varied:
+    """Derivatives of one motion in several inputs, of which those with the same constants are made at once.
+
+    Where there are none, or where terms cancel, they are differences of the motion in balls.
+    """
+
+    def __init__(self, variations: Sequence[Variation], differences: Callable[[], Differences]) -> None:
+        self.pairs = [(group, Pair([variations[i] for i in group])) for group in _alike(variations)]
+        self._make = differences
+
+    @cached_property
+    def differences(self) -> Differences:
+        """What gives derivatives at single times."""
+        return self._make()
+
+    def weighted(self, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
+        """Return what gives v of combinations of inputs, see `Weighted`; v is the sum of all."""
+        weighted: list[Weighted] = []
+        for group, pair in self.pairs:
+            rest = 0 if weighted else 1
+            weighted.append(Weighted(pair, left, names[:, group], rest * turns, rest * spins))
+        return weighted
+
+    def vectors(
+        self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray,
+        known: list[Weighted],
+    ) -> list[FloatArray]:  # fmt: skip
+        """Return v of combinations of inputs at times (m,), (m, N, 3), and dv/dt if asked for."""
+        out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
+        for i in range(0, t.size, BLOCK):
+            block = slice(i, i + BLOCK)
+            terms: Any = 0.0 if known else np.nan
+            for n, combination in enumerate(known):
+                values, sizes = combination.at(t[block], slopes)
+                terms = terms + sizes
+                for x, y in zip(out, values, strict=True):
+                    if n:
+                        x[block] += y.transpose(2, 1, 0)
+                    else:
+                        x[block] = y.transpose(2, 1, 0)
+            if not np.any(terms):
+                continue
+            alone = ~(terms <= LOST * (1 + abs(out[0][block]).max(2).T)).all(0)
+            for j in (i + np.flatnonzero(alone)).tolist():
+                v, faster, axis, more = self.differences.at(float(t[j]))
+                out[0][j] = names @ v @ left.T + turns + np.outer(spins, left @ axis)
+                if slopes:
+                    out[1][j] = names @ faster @ left.T + np.outer(spins, left @ more)
+        return out
+
+
+def _alike(variations: Sequence[Variation]) -> list[list[int]]:
+    """Return the places of variations with the same constants: on a border each input has its own."""
+    groups: list[list[int]] = []
+    for i, x in enumerate(variations):
+        for group in groups:
+            other = variations[group[0]]
+            same = other.values is x.values or (
+                other.form == x.form
+                and all(
+                    len(row) == len(x.values[name]) and all(map(_same, row, x.values[name]))
+                    for name, row in other.values.items()
+                )
+            )
+            if same:
+                group.append(i)
+                break
+        else:
+            groups.append([i])
+    return groups
+
+
+def _same(x: Any, y: Any) -> bool:
+    return complex(acb(x).mid()) == complex(acb(y).mid())

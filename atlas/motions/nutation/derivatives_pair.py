@@ -1,0 +1,200 @@
+"""The pair (alpha, beta) of a motion with its derivatives in several inputs, from constants differentiated in balls."""
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import acb, arb
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.phase import EVEN, Phases, room
+from atlas.arithmetic.words import TURN
+from atlas.motions.nutation.certified_derivatives import Tables, TooNearError, Variation
+
+NEGLIGIBLE = 2.0**-64
+"""Part of the largest term of a sum below which a term is left out."""
+
+SERIES, SMALL = 14, 0.1
+"""Terms of the series in A u^2 of the derivative in A of the integral of nu, and up to where it is taken."""
+
+Array: TypeAlias = np.ndarray[Any, Any]
+
+
+class Pair:
+    """alpha and beta of one motion in doubles, with their derivatives in several inputs, at any time."""
+
+    def __init__(self, variations: Sequence[Variation]) -> None:
+        form, places, _, kinds, *_ = variations[0].form
+        self.steady, self.hyperbolic = form == "steady", form == "hyperbolic"
+        self.doubled = [doubled for doubled, _ in kinds]
+        value, slopes = variations[0].values, [x.slopes for x in variations]
+        self.rates = _doubles(slopes, "rates").real
+        with workprec():
+            cells = 1 if self.hyperbolic else 2
+            half, origin = value["times"] or (arb(1), arb(0))
+            self.cell = 2 * cells * half
+            turns, starts = [value["rates"][0].mid() / TURN], [arb(0)]
+            if not self.steady:
+                turns, starts = [*turns, (1 / self.cell).mid()], [*starts, (origin / self.cell).mid()]
+            self.phases = Phases(turns, starts, rounder=EVEN)
+            self.start = float((origin / self.cell).mid())
+            self.cell, self.origin = float(self.cell.mid()), float(origin.mid())
+            self.rate, *self.twists = (float(x.mid()) for x in value["slopes"])
+            self.twist = float((value["slopes"][1] + value["slopes"][2]).mid())
+            self.frame = float(value["rates"][0].mid())
+            self.tables, self.frequencies = list[Array](), list[FloatArray]()
+            for i in range(2):
+                self._weigh(i, value, slopes)
+        times = np.zeros((len(slopes), 2)) if self.steady else _doubles(slopes, "times").real
+        self.cells, self.origins = 2 * cells * times[:, 0], times[:, 1]
+        rates, *twists = _doubles(slopes, "slopes").real.T
+        self.faster = rates / (self.rate or 1)
+        self.twisting = np.array([x - y * self.faster for x, y in zip(twists, self.twists, strict=True)])
+        self._place(_double(value["tilt"]).real, _doubles(slopes, "tilt").real.T, np.eye(3)[list(places)].T)
+        self.swing = Swing(value, slopes, self) if "swing" in value else None
+
+    def _weigh(self, i: int, value: Tables, slopes: Sequence[Tables]) -> None:
+        """Keep the weights of S, C by turns in alpha or beta, in its slope by s, and in its derivatives at rest."""
+        rate, *twists = value["slopes"]
+        row, twist, sign = value[f"sum {i}"], twists[i] * acb(0, 1), 1 if self.hyperbolic else -1
+        k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
+        # S and C change places: the derivative by rate s is odd C -+ even S
+        turned = [k[n] * (row[n - 1] if n % 2 else sign * row[n + 1]) for n in range(len(row))]
+        slope = [twist * x + rate * y for x, y in zip(row, turned, strict=True)]
+        still = [slope]
+        for x in slopes:
+            origin = x["times"][1] if x["times"] else arb(0)
+            # in balls: next to a steady motion the origin moves fast, and the weights against it
+            still.append([y + origin * z for y, z in zip(x[f"sum {i}"], slope, strict=True)])
+        rows = [row, *still]
+        if self.hyperbolic:  # of exponentials: sinh and cosh would cancel
+            rows = [[(x[n - n % 2 + 1] + (-1) ** n * x[n - n % 2]) / 2 for n in range(len(x))] for x in rows]
+        table, frequencies = np.array([_double(x) for x in rows]), np.array(k[::2], dtype=float)
+        reach = self.rate * self.cell / 2 if self.hyperbolic else 0.0
+        size = abs(table).reshape(len(table), -1, 2).max(2)
+        with np.errstate(over="ignore", invalid="ignore"):
+            grown = size * np.exp(frequencies * reach)
+            largest = np.maximum(grown.max(1, keepdims=True), grown[0].max())  # of each: one may be 1e9 times another
+            count = int(np.nonzero(grown > NEGLIGIBLE * largest)[1].max(initial=0)) + 1
+        if not np.isfinite(grown).all():
+            raise TooNearError("The motion is too near to a separatrix for derivatives in floats.")
+        self.tables.append(table[:, : 2 * count])
+        self.frequencies.append(frequencies[:count])
+
+    def _place(self, tilt: FloatArray, tilts: FloatArray, order: FloatArray) -> None:
+        """Keep what takes vectors out of the frame of the field, and how that turns for each input."""
+        (c, sine, C, S), (dc, ds, dC, dS) = tilt, tilts
+        cos, sin = c * c - sine * sine, 2 * c * sine
+        self.chi, lean = C * dS - S * dC, -2 * (c * ds - sine * dc)
+        self.axes = order @ np.array([[C, S * cos, S * sin], [-S, C * cos, C * sin], [0, -sin, cos]])
+        self.turned = np.stack([C * lean, -S * lean, -self.chi], -1) @ order.T
+
+    def places(self, t: FloatArray) -> tuple[Array, FloatArray, FloatArray]:
+        """Return lambda t, s, and the count of whole cells."""
+        half, rest, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
+        turn = 2 * (half + rest)
+        if self.steady:
+            return turn[0], np.zeros(t.size), np.zeros(t.size)
+        parts = turn[1] / float(TURN)
+        return turn[0], parts * self.cell, np.rint(t / self.cell + self.start - parts)
+
+    def functions(self, s: FloatArray, doubled: bool, count: int) -> FloatArray:
+        """Return sin and cos of k x by turns, x = rate s, or exp(k x) and exp(-k x); k = 1, 3, ... or 0, 2, ...."""
+        x = self.rate * s
+        out = np.empty((count, 2, s.size))
+        if self.hyperbolic:
+            out[0] = 1.0 if doubled else np.exp([x, -x])
+            if count > 1:
+                twice = np.exp([2 * x, -2 * x])
+                for n in range(1, count):
+                    np.multiply(out[n - 1], twice, out=out[n])
+            return out.reshape(2 * count, s.size)
+        S, C = np.sin(x), np.cos(x)
+        further, less = 2 * S * C, 1 - 2 * S * S
+        out[0, 0], out[0, 1] = (0.0, 1.0) if doubled else (S, C)
+        for n in range(1, count):
+            (S, C), (up, down) = out[n - 1], out[n]
+            np.add(S * less, C * further, out=up)
+            np.subtract(C * less, S * further, out=down)
+        return out.reshape(2 * count, s.size)
+
+    def slope(self, table: Array, i: int) -> Array:
+        """Return the weights of the slopes by s of what has some weights in alpha or beta."""
+        k, pairs = self.rate * self.frequencies[i], table.reshape(len(table), -1, 2)
+        first, second = (pairs[..., 0], -pairs[..., 1]) if self.hyperbolic else (-pairs[..., 1], pairs[..., 0])
+        return 1j * self.twists[i] * table + np.stack([k * first, k * second], -1).reshape(table.shape)
+
+
+class Swing:
+    """What the integral of nu adds to the turn about a top's axis, and its derivatives."""
+
+    def __init__(self, value: Tables, slopes: Sequence[Tables], pair: Pair) -> None:
+        self.pair, self.A = pair, float(value["A"][0].mid())
+        self.kappa, self.twist = (_double(value[x]).real[0] for x in ("swing", "twist"))
+        kappas, twists, constants, As, rates = (
+            _doubles(slopes, x).real[:, 0] for x in ("swing", "twist", "swing rate", "A", "slopes")
+        )
+        self.sums = [_double(value[x]).reshape(-1, 2).real for x in ("sum 2", "sum 3")]
+        self.changes = [_doubles(slopes, x).real for x in ("sum 2", "sum 3")]
+        self.spins = np.stack([kappas, -constants], -1)
+        self.columns = np.stack([kappas, twists, As, rates, pair.origins, -pair.cells, np.zeros(len(As))], -1)
+        start, zero = np.array([pair.origin]), np.zeros(1)
+        self.columns[:, 6] = -self.change(np.eye(len(As)), start, zero)[:, 0]
+
+    def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
+        """Return the derivatives of the angle in combinations of inputs, but for what grows with time, (N, m)."""
+        parts, bys, functions = [], [], []
+        for i, both in enumerate(self.sums):
+            doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
+            k = np.arange(len(both), dtype=float) * 2 + (not doubled)
+            f = self.pair.functions(s, doubled, len(both))
+            if hyperbolic:
+                up, down = f[::2], f[1::2]
+                f = np.stack([(up - down) / 2, (up + down) / 2], 1).reshape(f.shape)
+            turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1)
+            functions.append(f)
+            parts.append(both.ravel() @ f)
+            bys.append(turned.ravel() @ f)
+        (o, e), (o_s, e_s) = parts, bys
+        by_s = 2 * self.kappa * (o_s * e - o * e_s) / (e * e - self.A * o * o)
+        slope = self.kappa * self.twist + self.pair.rate * by_s
+        integral, by_A = self._bent(o, e)
+        basis = np.array([
+            self.twist * s + integral, self.kappa * s, self.kappa * by_A, s * by_s, slope, count * slope,
+            np.ones(s.size),
+        ])  # fmt: skip
+        changes = (names @ self.columns) @ basis
+        weight = 2 * self.kappa / (e * e - self.A * o * o)
+        for change, f, other in zip(self.changes, functions, (e, -o), strict=True):
+            changes += (names @ change) @ (f * (weight * other))
+        return np.asarray(changes)
+
+    def _bent(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return 2 at(sqrt(|A|) o/e)/sqrt(|A|), and its derivative in A."""
+        A, size = self.A, np.sqrt(abs(self.A))
+        integral = 2 * o / e
+        if A:
+            integral = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
+        by_A = (o * e / (e * e - A * o * o) - integral / 2) / A if A else 2 * (o / e) ** 3 / 3
+        near = abs(A) * o * o < SMALL * e * e
+        u = o[near] / e[near]
+        square, series = A * u * u, np.zeros(u.size)
+        for n in range(SERIES, 0, -1):
+            series = series * square + 2 * n / (2 * n + 1)
+        by_A[near] = series * u**3
+        return integral, by_A
+
+    def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
+        """Return the rates of the derivatives of the angle, kappa nu, but for those that are constant."""
+        varied = names @ self.spins
+        return np.asarray(varied[:, :1] * nu + varied[:, 1:] + self.kappa * changes)
+
+
+def _double(row: Sequence[Any]) -> Array:
+    """Return balls as complex doubles."""
+    return np.array([complex(acb(x).mid()) for x in row], dtype=complex)
+
+
+def _doubles(tables: Sequence[Tables], name: str) -> Array:
+    return np.array([_double(x[name]) for x in tables])

@@ -1,0 +1,234 @@
+"""Slow change of a symmetric body's motion, by averaging over its fast phases: an approximation, not certified.
+
+A field whose strength changes by a part f of itself in a unit of time, and drag, a torque -I (d2, d2, d3) Omega, change
+energy h, M3 and p = (M, n) slowly. Averaged over a nutation their rates are functions of these three alone,
+
+    dh/dt = <N, Omega> - f <Omega, k b> + <dU/dt>,      dM3/dt = <N3>,      dp/dt = <N, b>,
+
+N being the drag; the canonical momenta do not feel the field's change. Averages are means over the angle s between the
+turning points, nu = (mid) - (half) cos s, in which the integrand is periodic: the midpoint rule has them to rounding.
+So the averaged equations are stepped over thousands of turns at once. With e the rates of change beside those of the
+motion, h, M3, p and the actions are right to the order of e for times of the order of 1/e, and so are the mean rates;
+the phases, which add up over such a time, are right but for an angle of the order of one. (Averaging over one fast
+phase: Arnold, Mathematical Methods of Classical Mechanics, section 52.) Near a separatrix it does not hold.
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import TIME, bare
+from atlas.arithmetic.inputs import FloatArray, number, real
+from atlas.bodies.body import moments
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.nutation.kernel_top import TopMotion
+
+NODES, MOST = 16, 4096
+"""Points of the midpoint rule that are tried first, and most of them."""
+
+TOLERANCE, SETTLED = 1e-9, 1e-12
+"""Relative error of the steps, and of the averages."""
+
+NARROW, WITHIN_A_STEP = 1e-6, 1e-2
+"""Width of a nutation that is none, and what a steady motion may lack of its energy; within a step that is tried."""
+
+
+class Body(NamedTuple):
+    """Moments, coupling and potential of a top."""
+
+    I2: float
+    I3: float
+    k2: float
+    k3: float
+    linear: float
+    quadratic: float
+
+
+@dataclass(frozen=True)
+class Drift:
+    """A motion that changes slowly, at times `t` (m,): each value (m,), in the units of the motion.
+
+    `energy`, `M3` and `p`; `action` of the nutation; the mean `nutation`, `precession` and `spin` rates, and the angles
+    `phases` (m, 3) by which these have gone on since t = 0; the extremes of `nu` (m, 2), cos theta. `motion(i)` is the
+    one with these constants at time t_i, from where nu is least.
+    """
+
+    t: FloatArray
+    energy: FloatArray
+    M3: FloatArray
+    p: FloatArray
+    action: FloatArray
+    nutation: FloatArray
+    precession: FloatArray
+    spin: FloatArray
+    phases: FloatArray
+    nu: FloatArray
+    bodies: tuple[Body, ...]
+
+    def motion(self, i: int) -> TopMotion:
+        """Return the motion at time t_i, its axis at the least nu."""
+        b, nu = self.bodies[i], float(self.nu[i, 0])
+        across = float(np.sqrt(max(1 - nu * nu, 0.0)))
+        w2 = ((self.p[i] - self.M3[i] * nu) / across - b.k2 * across) / b.I2 if across else 0.0
+        w3 = (self.M3[i] - b.k3 * nu) / b.I3
+        return TopMotion((b.I2, b.I3), (b.k2, b.k3), (across, nu), (0.0, w2, w3), b.linear, b.quadratic)
+
+
+def drift(
+    motion: Any, t: Any, *, field: float = 0.0, drag: Any = 0.0, linear: float = 0.0, quadratic: float = 0.0
+) -> Drift:
+    """Motion of a symmetric body under a slow change, averaged over its fast phases: an approximation.
+
+    `motion` is one `GeneralMotion` or `TopMotion`, or `atlas.motion` of that class; `t` (m,) from zero on, ascending.
+    The field's strength is multiplied by 1 + `field` t, and with it the coupling; `drag` is d, or (d2, d3), of a torque
+    -I (d2, d2, d3) Omega, in 1/time; `linear` and `quadratic` are what a unit of time adds to the potential of a top.
+
+    With e these rates beside those of the motion, constants, actions and mean rates are right to the order of e for
+    times of the order of 1/e, phases but for an angle of the order of one; nothing is certified. The cost depends on
+    how much changes, not on how many turns there are. Raises DomainError where the motion comes to a separatrix, where
+    averaging fails, AtlasError for another motion and for what is no number.
+
+        >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+        >>> slowed = atlas.drift(motion, [0.0, 5e4], field=1e-5)
+        >>> slowed.action.round(6), slowed.nutation.round(4)
+        (array([0.038207, 0.038207]), array([2.8804, 2.6824]))
+    """
+    from scipy.integrate import solve_ivp
+
+    body, state, nu = _start(motion)
+    times = np.atleast_1d(real(bare(t, "The time", TIME), "The time"))
+    if times.ndim != 1 or not times.size or times[0] < 0 or (np.diff(times) < 0).any():
+        raise AtlasError("The times of a drift are a row of them, ascending from zero on.")
+    d2, d3 = np.broadcast_to(real(drag, "The drag"), (2,)).tolist()
+    rates = [number(x, name) for x, name in ((field, "field"), (linear, "linear"), (quadratic, "quadratic"))]
+    if 1 + rates[0] * times[-1] <= 0:
+        raise DomainError(f"The field is gone at t = {-1 / rates[0]:g}: 1 + field t must stay positive.")
+
+    def body_at(time: float) -> Body:
+        grown = 1 + rates[0] * time
+        return body._replace(
+            k2=body.k2 * grown, k3=body.k3 * grown,
+            linear=body.linear + rates[1] * time, quadratic=body.quadratic + rates[2] * time,
+        )  # fmt: skip
+
+    def slopes(time: float, y: FloatArray) -> FloatArray:
+        nonlocal nu
+        b, f = body_at(time), rates[0] / (1 + rates[0] * time)
+        x = Averages(b, y[:3], nu, WITHIN_A_STEP)
+        nu, third, along = x.middle, x.Omega3, x.along
+        h = -d2 * b.I2 * x.mean(x.square) - d3 * b.I3 * x.mean(third**2)
+        h -= f * x.mean(b.k2 * along + b.k3 * third * x.nu)
+        h += rates[1] * x.mean(x.nu) + rates[2] * x.mean(x.nu**2) / 2
+        p = x.mean(-d2 * b.I2 * along - d3 * b.I3 * third * x.nu)
+        return np.array([h, -d3 * b.I3 * x.mean(third), p, *x.rates])
+
+    start = np.array([*state, 0.0, 0.0, 0.0])
+    if times[-1] > 0:
+        solution = solve_ivp(
+            slopes, (0.0, times[-1]), start, "DOP853", dense_output=True, rtol=TOLERANCE,
+            atol=np.array([*(TOLERANCE * np.abs(state) + 1e-300), *[TOLERANCE] * 3]),
+        )  # fmt: skip
+        if not solution.success:
+            raise DomainError(f"The averaged motion can't be followed further than t = {solution.t[-1]:.6g}.")
+        rows = solution.sol(times).T
+    else:
+        rows = np.tile(start, (times.size, 1))
+    nu, each, bodies = nu if times[-1] == 0 else _start(motion)[2], [], tuple(map(body_at, times.tolist()))
+    for b, y in zip(bodies, rows, strict=True):
+        x = Averages(b, y[:3], nu)
+        nu = x.middle
+        each.append([x.action, *x.rates, *x.ends])
+    action, nutation, precession, spin, *ends = np.array(each).T
+    h, M3, p = rows[:, :3].T
+    return Drift(times, h, M3, p, action, nutation, precession, spin, rows[:, 3:], np.array(ends).T, bodies)
+
+
+def _start(motion: Any) -> tuple[Body, FloatArray, float]:
+    """Return a body, its energy, M3 and p, and nu at t = 0."""
+    own = getattr(motion, "own", motion)
+    if getattr(own, "shape", None) != () or own.family not in ("general", "elementary", "top"):
+        three = getattr(own, "family", "") in ("asymmetric", "elliptic")
+        why = ": a body with three moments has two phases to average over" if three else ""
+        raise AtlasError(
+            f"A drift is that of one GeneralMotion, ElementaryMotion or TopMotion, not of {type(own).__name__}{why}."
+        )
+    Omega, b = own.angular_velocity(0.0), own.field_in_body(0.0)
+    if own.family == "top":
+        (I2, I3), (k2, k3) = own.inertia, own.coupling
+        body = Body(I2, I3, k2, k3, own.linear, own.quadratic)
+    else:
+        size, (I2, I3) = float(np.linalg.norm(b)), moments(own.ratio)
+        if not size:
+            raise DomainError("A body without a field has no direction: take a TopMotion with no coupling.")
+        body, b = Body(1.0, I3 / I2, size, size * I3 / I2, 0.0, 0.0), b / size
+    if np.hypot(b[0], b[1]) < NARROW:
+        raise DomainError("The axis stands along the field, where a nutation has no phase to average over.")
+    J, k, nu = np.array([body.I2, body.I2, body.I3]), np.array([body.k2, body.k2, body.k3]), float(b[2])
+    h = (J * Omega * Omega).sum() / 2 + body.linear * nu + body.quadratic * nu * nu / 2
+    M = J * Omega + k * b
+    return body, np.array([h, M[2], M @ b]), nu
+
+
+class Averages:
+    """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and what varies with it."""
+
+    def __init__(self, body: Body, state: FloatArray, near: float, lacking: float = NARROW) -> None:
+        self.body, self.state = body, state
+        (I2, I3, k2, k3, a, A), (h, M3, p) = body, state
+        # I2 nu'^2/(1 - nu^2) + ..., by powers of nu
+        g = [
+            k2 * k2 - I2 * (A + k3 * k3 / I3),
+            2 * I2 * (M3 * k3 / I3 - a) - 2 * k2 * M3,
+            2 * I2 * (h - M3 * M3 / (2 * I3)) + 2 * k2 * p - k2 * k2,
+        ]
+        Q = np.polysub(np.polymul([-1.0, 0.0, 1.0], g), [M3 * M3, -2 * p * M3, p * p]) / I2**2
+        self.ends = _turning_points(Q, near, lacking)
+        low, high = self.ends
+        self.middle, half = (low + high) / 2, (high - low) / 2
+        rest = np.polydiv(Q, np.polymul([1.0, -low], [-1.0, high]))[0]
+        count, before = NODES, np.full(3, np.nan)
+        more = np.array([0.0, abs(k2 / I2) + abs(M3 / I2), abs(M3) + abs(p)])
+        while True:
+            s = (np.arange(count) + 0.5) * (np.pi / count)
+            self.nu = self.middle - half * np.cos(s)
+            root = np.sqrt(np.maximum(np.polyval(rest, self.nu), 0.0))
+            with np.errstate(divide="ignore"):
+                self.weights = 1 / root
+            self.period = float(2 * np.pi * self.weights.mean())
+            sine2 = 1 - self.nu * self.nu
+            self.action = float(I2 * np.mean((half * np.sin(s)) ** 2 * root / sine2))
+            turning = (p - M3 * self.nu) / (I2 * sine2) - k2 / I2
+            means = np.array([self.period, self.mean(turning), self.action])
+            if np.all(abs(means - before) <= SETTLED * (abs(means) + more)):
+                break
+            count, before = 2 * count, means
+            if count > MOST or not np.isfinite(self.period):
+                raise DomainError(
+                    "The motion comes to a separatrix or a pole, where averaging over its nutation fails."
+                )
+        self.Omega3 = (M3 - k3 * self.nu) / I3
+        self.along = (p - M3 * self.nu - k2 * sine2) / I2
+        potential = a * self.nu + A * self.nu**2 / 2
+        self.square = 2 / I2 * (h - potential - I3 * self.Omega3**2 / 2)
+        self.rates = 2 * np.pi / self.period, float(means[1]), self.mean(self.Omega3 - self.nu * turning)
+
+    def mean(self, values: FloatArray) -> float:
+        """Return the mean over time of values at the nodes."""
+        return float((values * self.weights).mean() / self.weights.mean())
+
+
+def _turning_points(Q: FloatArray, near: float, lacking: float) -> tuple[float, float]:
+    """Return the two roots of Q between -1 and 1 that enclose a nu or are next to it; of a steady motion one twice."""
+    roots = np.roots(Q)
+    inside = np.sort(roots.real[(abs(roots.imag) < NARROW) & (abs(roots.real) < 1 + NARROW)].clip(-1.0, 1.0))
+    pairs = [(float(x), float(y)) for x, y in pairwise(inside) if np.polyval(Q, (x + y) / 2) > 0 or y - x < NARROW]
+    if not pairs:  # a step may leave a steady motion less energy than the least
+        extremes = np.roots(np.polyder(Q))
+        tops = [x.real for x in extremes if abs(x.imag) < NARROW and abs(x) < 1 and np.polyval(np.polyder(Q, 2), x) < 0]
+        if not tops or np.polyval(Q, tops).max() < -lacking * abs(Q).max():
+            raise DomainError("There is no motion with these constants: the drift is too fast for averages.")
+        top = float(min(tops, key=lambda x: abs(x - near)))
+        return top, top
+    return min(pairs, key=lambda x: max(x[0] - near, near - x[1]))

@@ -1,0 +1,56 @@
+"""The motion of a charged symmetric body from any initial angular velocity, in elliptic functions."""
+
+from atlas.families.family import RATE, Command, Family, Quantity, Sampled
+from atlas.families.parameters import ELLIPTIC, FIELD, OMEGA, RATIO, integrals, nutation, rotation
+
+
+def _complex(x: str, y: str) -> str:
+    return x if y == "0" else f"{x} {'-' if y.startswith('-') else '+'} {y.lstrip('-')} i"
+
+
+FAMILY = Family(
+    "general",
+    "any motion of a charged symmetric body",
+    "motions.nutation.{}_general.GeneralMotion",
+    (RATIO, FIELD, OMEGA),
+    (
+        Quantity("kind", "name of the kind"),
+        Quantity(
+            "turning_points", "least and largest", RATE, symbol="Omega3", columns=("least", "largest"),
+            text=" ... ".join, certified=True,
+        ),
+        Quantity(
+            "roots", "of Q(Omega3)", RATE, tabled=False,
+            get=lambda motion: [[z.real, z.imag] for z in motion.roots if abs(float(z.real)) != float("inf")],
+            text=lambda roots: ", ".join(_complex(*z) for z in roots) or "none",
+        ),
+        *nutation("B"),
+        *ELLIPTIC,
+        *integrals("M"),
+    ),
+    (
+        *rotation("", "general R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="general Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, checked="general K", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, symbol="m_i/I2"),
+    ),
+    {
+        "general R": 8, "general R grid": 16, "general Omega": 16, "general K": 16, "general orthogonality": 8,
+        "general R(0) = 1": 4,
+    },
+    Command(
+        "motion",
+        "",
+        "",
+        (
+            "atlas motion --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1 2.5 --json",
+            "atlas motion --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 1e6 --digits 50",
+            "atlas motion --ratio 2 --field 0 1 --omega 1e-4 0 -1 --grid 0 1 40",
+        ),
+        "general motion: ",
+        "kind",
+        undecided=True,
+    ),
+    at_once=8192,
+    figures=("general_motion", "larmor_pair", "pseudo_oscillator", "spectrum", "quadric"),
+)  # fmt: skip

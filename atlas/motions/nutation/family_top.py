@@ -1,0 +1,89 @@
+"""Every symmetric top in a uniform field, from any start: from the paper's body to Lagrange's heavy top."""
+
+from typing import Any
+
+from atlas.families.family import RATE, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.parameters import ELLIPTIC, OMEGA, nutation, rotation
+
+
+def _rates(motion: Any) -> Any:
+    """Return the rates of the steady precessions, of which there are two at most."""
+    return [precession.rate for precession in motion.steady_precessions] or "none"
+
+
+def _stability(motion: Any) -> str:
+    """Return "stable" or "unstable"."""
+    return {True: "stable", False: "unstable", None: "not steady"}[motion.stable]
+
+
+FAMILY = Family(
+    "top",
+    "any motion of a symmetric top in a uniform field",
+    "motions.nutation.{}_top.TopMotion",
+    (
+        Parameter(
+            "inertia", "Moments of inertia across and along the axis.", "inertia", (1.0, 0.5), (0.05, 2.0),
+            columns=("I2", "I3"), metavar="I2 I3",
+        ),
+        Parameter(
+            "coupling", "M = I Omega + k b, b the direction n in the body.", "inertia/time", (0.0, 0.0), (-3.0, 3.0),
+            needed=False, omitted=0.0, columns=("k2", "k3"), metavar="K2 K3",
+        ),
+        Parameter(
+            "direction", "Vector along n in the body at t = 0, across and along the axis.", "", (0.6, 0.8), (-1.0, 1.0),
+            columns=("n2", "n3"), metavar="N2 N3",
+        ),
+        OMEGA,
+        Parameter(
+            "linear", "Potential linear nu + quadratic nu^2/2; m g l of a heavy top.", "inertia/time^2", (3.0,),
+            (-5.0, 5.0), needed=False, omitted=0.0,
+        ),
+        Parameter(
+            "quadratic", "Its other coefficient, of an anisotropy.", "inertia/time^2", (0.0,), (-5.0, 5.0),
+            needed=False, omitted=0.0,
+        ),
+    ),
+    (
+        Quantity("kind", "name of the kind"),
+        Quantity(
+            "turning_points", "least and largest", symbol="nu", columns=("least", "largest"), text=" ... ".join,
+            certified=True,
+        ),
+        *nutation("n"),
+        Quantity(
+            "steady_precessions", "rates of steady precession at this inclination and omega3", RATE,
+            "theorem-top-precession", get=_rates, exact=_rates, tabled=False,
+            text=lambda rates: rates if isinstance(rates, str) else " and ".join(rates),
+        ),
+        Quantity(
+            "stable", "this steady motion against nutation", "", "theorem-top-nutation", get=_stability,
+            exact=_stability, tabled=False,
+        ),
+        *ELLIPTIC,
+    ),
+    (
+        *rotation("", "top R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="top Omega"),
+        Sampled("b", "field_in_body", "direction n in the body", checked="top b", printed=False),
+    ),
+    {"top R": 16, "top R grid": 24, "top Omega": 16, "top b": 16, "top orthogonality": 16, "top R(0) = 1": 8},
+    Command(
+        "top",
+        "Compute any motion of a symmetric top: heavy, charged, magnetised.",
+        "Nutation, rotation matrix R(t) and angular velocity of a symmetric top in a uniform field: M = I Omega + k b, "
+        "potential linear nu + quadratic nu^2/2, nu the cosine between the axis and n (not in the paper).",
+        (
+            "atlas top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --times 0 1 1e6",
+            "atlas top --inertia 1 0.75 --coupling 1 1.5 --direction 1 2 --omega 0.3 0.7 0.2 --times 1e12 --digits 40",
+            "atlas top --shape disk --radius 0.03 --mass 0.1 --heavy 9.81 0.04 --direction 0.3 1 --omega 0 0 150",
+            "atlas top --inertia 1 0.5 --mass 1 --heavy 9.81 0.5 --charged 0.2 0.3 --magnetic 0.3 1 --omega 0 0 9",
+            "atlas top --inertia 2e-27 1e-27 --charged 1e-23 2e-23 --magnetic 1 2 --omega 0.1 0.2 0.3",
+            "atlas top --inertia 1 0.5 --direction 0 1 --omega 1e-3 0 1 --linear 2 --grid 0 1 40 --json",
+        ),
+        "top: ",
+        "kind",
+        undecided=True,
+    ),
+    at_once=8192,
+    figures=("top_motion",),
+)  # fmt: skip

@@ -1,0 +1,273 @@
+"""The functions of time of which alpha and beta of the general motion are made: a few rows of them at many times.
+
+Their weights are those of `atlas.motions.nutation.certified_cayley_klein.Sum`, rearranged so that no sum cancels. A
+common real factor, such as the cosh x by which all that is hyperbolic is divided, is left out: it drops out of the
+matrix.
+"""
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+from typing import TypeAlias
+
+import numpy as np
+from flint import acb, arb, fmpq, fmpq_poly
+
+from atlas.arithmetic.circle import WHOLE
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.phase import SPLITTER
+from atlas.arithmetic.words import words
+from atlas.motions.nutation.certified_cayley_klein import Solution, Sum, infinite
+
+NEGLIGIBLE = 2.0**-58
+"""Part of the first term below which a term is left out."""
+
+SATURATED = 700.0
+"""From there on exp(-x) is nothing beside one, and exp x nearly infinite."""
+
+RAISED = 2.0**500
+"""What sech x is multiplied by where x leaves that range: one of alpha and beta may be as small as it is there."""
+
+
+class Steady:
+    """One function: one."""
+
+    def __init__(self, _found: Solution, _sums: Sequence[Sum]) -> None:
+        self.count = 1
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        return [sum_.even[0]]
+
+    def fill(self, rows: FloatArray, _t: FloatArray) -> None:
+        """Fill the rows at times t."""
+        rows[0] = 1.0
+
+
+class Trigonometric:
+    """sin v and cos v times powers of F = 2 cos 2v, and 1 where one of the sums is constant, up to a common factor."""
+
+    def __init__(self, _found: Solution, sums: Sequence[Sum]) -> None:
+        self.terms = max(_terms(sum_) for sum_ in sums)
+        self.constant = any(sum_.doubled for sum_ in sums)
+        self.count = 2 * self.terms + self.constant
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        if sum_.doubled:
+            return [acb(0)] * (2 * self.terms) + [sum_.even[0]]
+        pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
+        return _powers(pairs, doubled=False) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
+
+    def fill(self, rows: FloatArray, u: FloatArray) -> None:
+        """Fill the rows, over cos v, from u = tan v; where one is constant, times 1 + u^2, from u = tan(v/2)."""
+        sin, cos = rows[:2]
+        square = u * u
+        if self.constant:
+            whole = np.add(square, WHOLE, out=rows[-1])
+            np.subtract(WHOLE, square, out=cos)
+            np.add(u, u, out=sin)
+            factor = np.divide(cos, whole, out=square)
+            factor *= factor
+            factor *= 4.0
+        else:
+            sin[:], cos[:] = u, 1.0
+            square += WHOLE
+            factor = np.divide(4.0, square, out=square)
+        factor -= 2.0
+        pairs = rows[: 2 * self.terms].reshape(self.terms, 2, -1)
+        for n in range(1, self.terms):
+            np.multiply(pairs[n - 1], factor, out=pairs[n])
+
+    @property
+    def multiple(self) -> int:
+        """Twice v is so many times the angle whose tangent `fill` takes."""
+        return 4 if self.constant else 2
+
+    def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return cos 2v and sin 2v from what `fill` takes."""
+        if self.constant:
+            u = 2 * u / (1.0 - u * u)
+        square = u * u
+        over = WHOLE / (WHOLE + square)
+        return (WHOLE - square) * over, 2 * u * over
+
+
+class Hyperbolic:
+    """tanh x and 1 times powers of W = cosh 2x/cosh 2X, X the largest x; and the same times sech x.
+
+    In one period x is proportional to v; on a separatrix, where there is none, to the time itself.
+    """
+
+    def __init__(self, solution: Solution, sums: Sequence[Sum]) -> None:
+        lattice = solution.lattice
+        self.periodic = not infinite(lattice.half)
+        self.reach = lattice.reach
+        slope, start = lattice.rate, lattice.rate * solution.origin
+        if self.periodic:
+            # W = part (exp 2x + exp -2x), part = peak^2
+            self.inverse = 2 * (2 * self.reach).cosh()
+            self.peak, self.part = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
+            slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
+            first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
+            self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
+        self.line = Line(slope, start)
+        self.distant = words(self.reach, 2) if self.periodic and self.reach > SATURATED else None
+        self.sech = any(sum_.doubled for sum_ in sums)
+        polynomials = [self._polynomials(sum_) for sum_ in sums]
+        self.powers = max(self._needed(weights) for weights in polynomials)
+        self.count = 2 * self.powers * (1 + self.sech)
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        none = [acb(0)] * (2 * self.powers)
+        polynomial = (self._polynomials(sum_) + none)[: 2 * self.powers]
+        if not self.sech:
+            return polynomial
+        if sum_.doubled and self.distant:
+            polynomial = [x / RAISED for x in polynomial]
+        return none + polynomial if sum_.doubled else polynomial + none
+
+    def _needed(self, weights: list[acb]) -> int:
+        """Return how many powers of W matter."""
+        sizes = [float(abs(x).mid()) for x in weights]
+        least = NEGLIGIBLE * max(sizes[:2])
+        return max([1, *(j // 2 + 1 for j, size in enumerate(sizes) if size > least)])
+
+    def _polynomials(self, sum_: Sum) -> list[acb]:
+        """Return the weights of tanh x W^j and of W^j by turns: both are polynomials in 2 cosh 2x = W/part."""
+        pairs = zip(sum_.odd, sum_.even, strict=True)
+        powers = _powers(pairs, doubled=sum_.doubled)
+        return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
+
+    def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
+        """Fill the rows (m, N) from x + rest, both (N,)."""
+        # m = exp|x| - 1 keeps its digits for small and large x; what x lacks is added to first order
+        m = np.expm1(np.minimum(np.abs(x), SATURATED))
+        up = m + WHOLE
+        rest = np.copysign(1.0, x) * rest
+        lacking = rest * up
+        m += lacking
+        up += lacking
+        down = WHOLE / up
+        E = down * down
+        over = WHOLE / (E + WHOLE)
+        m *= down
+        m *= down + WHOLE
+        m *= over
+        np.copysign(m, x, out=rows[0])
+        rows[1] = 1.0
+        if self.powers > 1:
+            if self.distant:  # all that is left of W
+                W = np.exp(2 * (np.abs(x) - self.distant[0] + (rest - self.distant[1])))
+            else:
+                W = up
+                W *= self.peak
+                W *= W
+                E *= self.part
+                W += E
+            pairs = rows[: 2 * self.powers].reshape(self.powers, 2, -1)
+            for j in range(1, self.powers):
+                np.multiply(pairs[j - 1], W, out=pairs[j])
+        if self.sech:
+            down *= over
+            down *= 2.0
+            if self.distant:
+                down *= RAISED * np.exp(np.minimum(SATURATED - np.abs(x), 0.0))
+            n = 2 * self.powers
+            np.multiply(rows[:n], down, out=rows[n : 2 * n])
+
+
+class Linear:
+    """x and 1, over the larger of |x| and 1; x is the time since the turning point."""
+
+    def __init__(self, solution: Solution, _sums: Sequence[Sum]) -> None:
+        self.count = 2
+        self.line = Line(solution.lattice.rate, solution.lattice.rate * solution.origin, saturates=False)
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        return [sum_.odd[0], sum_.even[0]]
+
+    def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
+        """Fill the rows (m, N) from x + rest, both (N,)."""
+        x = x + rest
+        size = np.maximum(np.abs(x), 1.0)
+        np.divide(x, size, out=rows[0])
+        np.divide(1.0, size, out=rows[1])
+
+
+Functions: TypeAlias = Steady | Trigonometric | Hyperbolic | Linear
+
+
+class Line:
+    """x = slope t + start as the sum of two doubles, slope and start being exact.
+
+    If what is made of x `saturates`, no more than the `longest` time has to be asked for.
+    """
+
+    def __init__(self, slope: arb, start: arb, *, saturates: bool = True) -> None:
+        self.slope, self.slope_rest = words(slope, 2)
+        self.start, self.start_rest = words(start, 2)
+        head = self.slope * SPLITTER - (self.slope * SPLITTER - self.slope)
+        self.halves = float(head), float(self.slope - head)
+        self.longest = (2 * SATURATED + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
+
+    def at(self, t: FloatArray, rest: FloatArray | float) -> tuple[FloatArray, FloatArray]:
+        """Return x at t + rest, and what rounding left out of it."""
+        upper = t * SPLITTER
+        upper -= upper - t
+        lower = t - upper
+        x = self.slope * t
+        left = self.halves[0] * upper
+        left -= x
+        left += self.halves[0] * lower
+        left += self.halves[1] * upper
+        left += self.halves[1] * lower
+        left += self.slope_rest * t
+        left += self.slope * rest
+        if self.start:
+            total = x + self.start
+            rounded = total - x
+            left += (x - (total - rounded)) + (self.start - rounded)
+            left += self.start_rest
+            x = total
+        return x, left
+
+
+F, HALF = fmpq_poly([0, 1]), fmpq(1, 2)
+ONE_ODD = (F * 0 - 1, F * 0 + 1), (F * 0 + 1, F * 0 + 1)
+"""For k = -1 and 1 the polynomials in F = 2 cos 2v (2 cosh 2x) by which sin v and cos v (sinh, cosh) are multiplied to
+give sin kv and cos kv; each next pair is F times the one before it less the one before that."""
+ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
+"""The same for k = -2 and 0; sinh 2nx is tanh x (1 + cosh 2x) times a polynomial."""
+
+
+def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
+    """Return the weights of both functions times powers of F by turns, from those for rising k."""
+    total = list[acb]()
+    for n, both in enumerate(weights):
+        total += [acb(0), acb(0)]
+        for place, weight in enumerate(both):
+            for j, c in _multiple(n, place, doubled=doubled):
+                total[2 * j + place] += weight * c
+    return total
+
+
+@cache
+def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
+    """Return the powers of F in a polynomial of the n-th pair, with their coefficients."""
+    before, polynomial = (pair[place] for pair in (ONE_EVEN if doubled else ONE_ODD))
+    for _ in range(n):
+        before, polynomial = polynomial, F * polynomial - before
+    return [(j, acb(c)) for j, c in enumerate(polynomial.coeffs()) if c != 0]
+
+
+def _terms(sum_: Sum) -> int:
+    """Return how many terms of a trigonometric sum matter."""
+    if sum_.doubled:
+        return 1
+    needed = 1
+    for weights in (sum_.odd, sum_.even):
+        first = float(abs(weights[0]).mid())
+        needed = max([needed, *(n + 1 for n, x in enumerate(weights) if float(abs(x).mid()) > NEGLIGIBLE * first)])
+    return needed

@@ -1,0 +1,232 @@
+"""Rotation matrices of the general motion on a uniform grid.
+
+Where the grid is fine, the entries of R over a window of some hundred times are polynomials to the last digit: they are
+evaluated at a few of these times and interpolated, by one matrix product. Their last coefficients tell if they are.
+
+Elsewhere, in trigonometric form, alpha and beta are sums of exponentials exp(i f_m t), so that their values at s + tau
+are a product of a coarse table of exp(i f_m s) and a fine one of z_m exp(i f_m tau): one matrix product instead of
+phases and tangents at every time. Where the sums would cancel, next to a separatrix, and on it, a grid that is not fine
+is evaluated time by time.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from math import frexp
+
+import numpy as np
+from flint import fmpq
+
+from atlas.arithmetic.double_double import DoubleDouble
+from atlas.arithmetic.grid import check_grid
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.machine import shared
+from atlas.arithmetic.numbers import rational
+from atlas.arithmetic.phase import Phases, room
+from atlas.arithmetic.rotation import BLOCK, combined
+from atlas.motions.nutation.cayley_klein import Evaluation, Products
+from atlas.motions.nutation.exponentials import FINE, Exponentials
+from atlas.motions.nutation.single import SingleMotion
+
+COARSE = 34
+"""Coarse times in one product."""
+
+GROUP = 16 * COARSE
+"""Coarse times whose exponentials are made at once."""
+
+FEW = 100_000
+"""Shorter grids do without: their tables would cost more."""
+
+NODES, LENGTHS = 16, (512, 384, 256, 192, 128, 96, 64)
+"""Times at which polynomials are made, and numbers of times that they may serve."""
+
+SMOOTH = 2.0**-50
+"""Largest of their last two coefficients: those left out are far smaller then."""
+
+TURNED, TRIED, MANY = 3.0, 60, 375
+"""Angle by which all phases together turn in a window that is tried at most, windows tried, and windows at once."""
+
+SHORT = 8000
+"""Shorter grids are evaluated time by time."""
+
+
+CLOSE = 2.0**-20
+"""Part of the longest time below which a time is near zero."""
+
+TINY = 2.0**-900
+"""Last digit of the times from which on none of their products is lost."""
+
+
+def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) -> None:
+    """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
+    count = len(out)
+    if not count:
+        return
+    check_grid(start, step, count, motion.parts.phases.reach)
+    grid = Grid(motion, start, step)
+    length = window(grid, count) if count >= SHORT else 0
+    if length:
+        fill_windows(grid, length, out)
+        return
+    sums = motion.exponentials if count >= FEW else None
+    if sums is None:
+        fill_each(grid, out)
+        return
+    blocks, rest = divmod(count, FINE)
+    fill_products(motion, sums, rational(start), rational(step), out[: blocks * FINE])
+    if rest:
+        fill_each(grid, out[count - rest :], blocks * FINE)
+    if step and 0 <= (first := -rational(start) / rational(step)) < count:
+        i = int(first.ceil())
+        fill_each(grid, out[i : i + 1], i)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A motion at the times start + i step."""
+
+    motion: SingleMotion
+    start: float
+    step: float
+
+    def fill(self, evaluation: Evaluation, index: FloatArray, rows: FloatArray) -> None:
+        """Fill rows (m, 9) with the matrices of the numbers i, the first and last of which are the extreme ones."""
+        times = moments(self.motion.parts.phases, self.start, self.step, index)
+        combined(evaluation.products_at(*times), self.motion.entries, rows)
+
+
+def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
+    """Return the times start + i step as doubles and what these lack, None for nothing; first and last i are extreme.
+
+    What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times not too many
+    and the start not far beyond them, start and step are cut instead where the last digit of a double twice as large as
+    any time is: then the first words are exact, and the rest is known to 2^-85 of the time; that next to zero is made
+    by itself.
+    """
+    first, last = (start + step * float(index[i]) for i in (0, -1))
+    far = max(abs(first), abs(last))
+    digit = 2.0 ** (frexp(far)[1] - 52)
+    away = start == 0 or far == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
+    if not (abs(start) <= far <= phases.near and digit > TINY and (away or abs(step) > 2 * CLOSE * far)):
+        t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
+        return t.hi, t.low
+    origin, stride = (round(x / digit) * digit for x in (start, step))
+    times, low = index * stride, None
+    times += origin
+    if start != origin or step != stride:
+        low = index * (step - stride)
+        low += start - origin
+        i = 0 if away else np.abs(times).argmin()
+        if start and abs(times[i]) <= CLOSE * far:
+            moment = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
+            times[i], low[i] = moment.hi, moment.low
+    return times, low
+
+
+def fill_each(grid: Grid, out: FloatArray, first: int = 0) -> None:
+    """Fill the matrices time by time, i = first, first + 1, ..."""
+    rows = out.reshape(len(out), 9)
+
+    def fill(low: int, high: int) -> None:
+        evaluation = Evaluation(grid.motion.parts, min(high - low, BLOCK))
+        for i in range(low, high, BLOCK):
+            j = min(i + BLOCK, high)
+            grid.fill(evaluation, first + np.arange(float(i), float(j)), rows[i:j])
+
+    shared(fill, len(out), BLOCK)
+
+
+@cache
+def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return NODES of the times 0 ... length - 1, and what takes values there to all times and to two coefficients.
+
+    The nodes are Chebyshev's, with the ends, rounded to whole numbers; the coefficients are the last in his series.
+    """
+    half = (length - 1) / 2
+    nodes = np.round(half - half * np.cos(np.pi * np.arange(NODES) / (NODES - 1)))
+    long = nodes.astype(np.longdouble)
+    above = np.tile(np.arange(length)[:, None, None] - long, (1, NODES, 1))
+    below = long[:, None] - long
+    own = np.arange(NODES)
+    above[:, own, own] = below[own, own] = 1
+    table = (above / below).prod(axis=-1).astype(np.float64)
+    last = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes / half - 1, NODES - 1))[-2:]
+    return nodes, table, np.asarray(last)
+
+
+class Windows:
+    """Matrices at the nodes of up to `size` windows of `length` times, and polynomials through them."""
+
+    def __init__(self, grid: Grid, length: int, size: int) -> None:
+        self.grid, self.length = grid, length
+        self.nodes, self.table, self.last = interpolation(length)
+        self.evaluation = Evaluation(grid.motion.parts, NODES * size)
+        self.values = np.empty((NODES * size, 9))
+
+    def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
+        """Return values (j - i, NODES, 9) in the windows i ... j - 1, and whether polynomials hold there."""
+        index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
+        values = self.values[: index.size]
+        self.grid.fill(self.evaluation, index.reshape(-1), values)
+        smooth = np.abs(self.last @ values.reshape(NODES, -1)).max() <= SMOOTH
+        return values.reshape(NODES, j - i, 9).swapaxes(0, 1), bool(smooth)
+
+
+def window(grid: Grid, count: int) -> int:
+    """Return how many times a polynomial may serve, by what the first windows show; zero if too few to be worth it."""
+    angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.parts.frequencies)
+    for length in LENGTHS:
+        size = min(count // length, TRIED)
+        if length * angle <= TURNED and Windows(grid, length, size).at(0, size)[1]:
+            return length
+    return 0
+
+
+def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
+    """Fill the matrices by polynomials, and time by time where these do not hold."""
+    rows, count = out.reshape(-1, 9), len(out) // length
+
+    def fill(low: int, high: int) -> None:
+        windows = Windows(grid, length, min(high - low, MANY))
+        for i in range(low, high, MANY):
+            j = min(i + MANY, high)
+            values, smooth = windows.at(i, j)
+            if smooth:
+                np.matmul(windows.table, values, out=rows[i * length : j * length].reshape(j - i, length, 9))
+            else:
+                fill_each(grid, out[i * length : j * length], i * length)
+
+    shared(fill, count, MANY, length)
+    fill_each(grid, out[count * length :], count * length)
+
+
+def fill_products(
+    motion: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
+) -> None:
+    """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE."""
+    phases = [x.coarse(start, step * FINE) for x in sums]
+    tables = [np.ascontiguousarray(x.fine(step).swapaxes(0, 1)) for x in sums]
+    rows = out.reshape(-1, 9)
+
+    def fill(low: int, high: int) -> None:
+        """Fill the blocks low to high."""
+        q, products = np.empty((4, COARSE, FINE)), Products(COARSE * FINE)
+        for i in range(low, high, GROUP):
+            j = min(i + GROUP, high)
+            coarse = [circles(x, np.arange(float(i), float(j))) for x in phases]
+            for k in range(i, j, COARSE):
+                m = min(COARSE, j - k)
+                for place, (functions, table) in enumerate(zip(coarse, tables, strict=True)):
+                    for half in (0, 1):
+                        np.matmul(functions[k - i : k - i + m], table[half], out=q[place + 2 * half, :m])
+                matrices = products.of_pair(q[:, :m].reshape(4, m * FINE))
+                combined(matrices, motion.entries, rows[k * FINE : (k + m) * FINE])
+
+    shared(fill, len(out) // FINE, GROUP, FINE)
+
+
+def circles(phases: Phases, i: FloatArray) -> FloatArray:
+    """Return cos and sin of all phases, halved, (m, 2 M)."""
+    count, m = phases.words.shape[1], i.size
+    table = np.empty((2, count, m))
+    phases.circle(i, room(count, m), table[0], table[1], np.empty(m))
+    return np.ascontiguousarray(table.reshape(2 * count, m).T)

@@ -1,0 +1,183 @@
+"""What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
+
+from collections.abc import Callable, Container, Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+from flint import arb
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.inputs import FloatArray, finite, kept, plain
+from atlas.arithmetic.numbers import nearest
+from atlas.errors import DomainError
+from atlas.lazy import cached_property
+from atlas.motions.base import Motion
+from atlas.motions.nutation.rows import MotionsAtTimes, Rows
+from atlas.motions.nutation.rows_blocks import Blocks
+from atlas.motions.nutation.rows_scalars import Scalars
+from atlas.motions.nutation.single import BITS, SingleMotion
+
+NAME = "U28"
+"""Names of kinds, none of which is longer."""
+
+Nutation = TypeVar("Nutation", bound=SingleMotion)
+
+
+class NutatingMotion(Motion[Nutation]):
+    """Motions R(t) whose axis nutates, with the numbers of a period: in arrays by blocks."""
+
+    _in_arrays: Container[str] = ()
+    """Values that `_scalars` has for all motions at once; the others are made of each by itself."""
+    _kinds: Sequence[str] = ()
+    """Names of the kinds of arrays, by their codes."""
+    _blocks_of: type[Blocks] = Blocks
+    _motions_of: type[MotionsAtTimes] = MotionsAtTimes
+    _scalars_of: type[Scalars] = Scalars
+
+    @cached_property
+    def _blocks(self) -> Blocks:
+        """All motions in arrays, by blocks."""
+        return self._blocks_of(self._inputs, self.shape)
+
+    @cached_property
+    def _scalars(self) -> Scalars:
+        """Scalars of all motions in arrays."""
+        return self._scalars_of(self._blocks)
+
+    @cached_property
+    def _rows(self) -> Rows:
+        """All motions in arrays, for a few times each."""
+        return Rows(self._blocks, self._motions_of)
+
+    @kept
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
+
+    @kept
+    def period(self) -> Any:
+        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation.
+
+        Raises DomainError where it is beyond all floats.
+        """
+        return self._scalar("period")
+
+    @kept
+    def precession_per_period(self) -> Any:
+        """Angle of precession about the field in one period, radians; a passage through a pole counts half a turn less.
+
+        It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b;
+        for a top n stands for the field, and k2/I2 for b.
+        Where the period is infinite there is none: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("precession_per_period")
+
+    @kept
+    def spin_per_period(self) -> Any:
+        """Angle by which the body turns about its own axis in one period, radians: the integral of Omega3 - nu dpsi/dt.
+
+        Where the period is infinite there is none, as for `precession_per_period`.
+        """
+        return self._scalar("spin_per_period")
+
+    @property
+    def precession_rate(self) -> Any:
+        """Mean rate of precession about the field, `precession_per_period` over `period`; none where that has none."""
+        return plain(np.divide(self.precession_per_period, self.period))
+
+    @property
+    def spin_rate(self) -> Any:
+        """Mean rate at which the body turns about its own axis, `spin_per_period` over `period`."""
+        return plain(np.divide(self.spin_per_period, self.period))
+
+    @kept
+    def modulus(self) -> Any:
+        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
+
+        At a triple root it has no limit, nor has the nome: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("modulus")
+
+    @kept
+    def complementary_modulus(self) -> Any:
+        """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._scalar("complementary_modulus")
+
+    @kept
+    def nome(self) -> Any:
+        """Nome q = exp(-pi K'/K) of the elliptic functions."""
+        return self._scalar("nome")
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3); within the bound that the class states.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        Omega = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
+        return self._spun(np.asarray(finite(Omega, "Omega")), t)
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        K = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
+        return self._in_body(np.asarray(finite(K, "K")))
+
+    def _scalar(self, name: str) -> Any:
+        """Return a number for each motion, in an array NaN for a motion that has none."""
+        return self._each(name, lambda exact: scalar(exact, name, alone=not self.shape))
+
+    def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
+        """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
+        if not self.shape or name not in self._in_arrays:
+            return self._of_each(lambda single: value(single.exact))
+        values, certain = self._scalars[name]
+        rows = np.moveaxis(shown(values), -1, 0)
+        for i in np.flatnonzero(~certain).tolist():
+            rows[i] = value(self._single(i).exact)
+        return rows.reshape(self.shape + rows.shape[1:])
+
+    def _fill_grid(self, single: Nutation, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid."""
+        from atlas.motions.nutation.grid import fill_grid
+
+        fill_grid(single, start, step, out)
+
+
+def scalar(exact: Any, name: str, *, alone: bool) -> float:
+    """Return a number of a motion in balls, rounded once; where there is none NaN, and DomainError if it is `alone`."""
+    try:
+        ball = enclosed(lambda: arb(getattr(exact, name)), BITS)
+    except DomainError:
+        if alone:
+            raise
+        return np.nan
+    number = nearest(ball)
+    return number if ball == arb("inf") else float(finite(number, f"The {name}"))
+
+
+class SymmetricMotion(NutatingMotion[Nutation]):
+    """Motions of bodies with I1 = I2, whose quartic is that of the third component of Omega, or of nu."""
+
+    @kept
+    def roots(self) -> Any:
+        """Roots of Q in Omega3, of tops in nu, complex, shape (..., 4): the real ones ascending, then the others.
+
+        Those that have gone to infinity (two for I = 1, all for B = 0) are inf, and come last.
+        """
+        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
+
+    @kept
+    def turning_points(self) -> tuple[Any, Any]:
+        """Least and largest Omega3, of tops nu = cos theta; on a separatrix one is approached and never reached."""
+        ends = self._each(
+            "turning_points", lambda exact: [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
+        )
+        return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
+
+
+def padded(roots: list[Any]) -> Any:
+    """Return four roots as complex floats."""
+    finite_roots = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
+    return np.array(finite_roots + [complex("inf")] * (4 - len(finite_roots)))

@@ -1,0 +1,116 @@
+"""The general motion of a charged symmetric body, from any initial angular velocity (not in the paper)."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import RATE
+from atlas.arithmetic.double_double import over
+from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain
+from atlas.arithmetic.numbers import nearest, workprec
+from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.certified_body import Moments
+from atlas.bodies.formula_integrals import NAMES, constants
+from atlas.bodies.integrals import integrals, shape_factors
+from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.nutation.constants import FIRST
+from atlas.motions.nutation.kernel import SymmetricMotion
+from atlas.motions.nutation.rows_scalars import IN_ARRAYS, KINDS
+from atlas.motions.nutation.single import SingleGeneral
+
+CONSTANTS = (*NAMES[:4], "(M,B')")
+"""What a motion conserves, in this order."""
+
+
+def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
+    """Return the motion with R(0) = 1 from the field and the angular velocity in the body, six exact numbers."""
+    with workprec(FIRST):
+        return SingleGeneral(Balls.at_state(Moments(I2, I3), state[3:], state[:3]))
+
+
+class GeneralMotion(SymmetricMotion[SingleGeneral]):
+    """Motion R(t), R(0) = 1, of a charged symmetric body from any initial angular velocity (not in the paper).
+
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in (32), or all three
+    (B1, B2, B3) of a field in any direction; `omega` = (omega1, omega2, omega3), the initial angular velocity: in one
+    unit 1/time, of any sign. The inputs are taken as exact and broadcast with one another and with t. `in_laboratory`
+    takes any attitude.
+
+    Omega3 moves between two roots of the quartic Q, (dOmega3/dt)^2 = Q(Omega3); theta is the angle between the body's
+    axis and B, cos theta = K3/b. `kind` is one of
+
+    - "at rest", "precession", "spin along the field": Omega3 is constant, as in `ElementaryMotion`;
+    - "free body": B = 0, (87); "ball": I3 = I2, any motion that is none of these;
+    - "nutation, two real roots" and "nutation, four real roots" of Q: elliptic functions of time;
+    - "separatrix": Omega3 tends to a double root of Q, hyperbolic functions; "separatrix, triple root": rational ones;
+      "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
+
+    Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t. Entries of R
+    are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15. K is
+    within 1.8e-15 of |B'|, Omega within 16 ulp of its own largest component, however slowly the body turns beside its
+    Larmor frame, and m within 7e-15 of its length.
+    Raises AtlasError for what is no number. Values at a time raise DomainError if the body's axis comes to within some
+    1e-600 rad of the field, but not into it.
+
+        >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+        >>> motion.kind, round(motion.period, 9)
+        ('nutation, four real roots', 2.181330398)
+    """
+
+    family = "general"
+    _in_arrays, _kinds = (*IN_ARRAYS, "roots"), KINDS
+
+    def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
+        I2, I3 = moments(ratio)
+        self.ratio = kept_ratio(ratio, I3)
+        B = field_components(field)
+        omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
+        super().__init__(standing, I2, I3, *[0.0] * (3 - len(B)), *B, *omega)
+        self.field, self.omega = tuple(map(plain, B)), tuple(map(plain, omega))
+        self.arguments = {
+            "ratio": self.ratio, "field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega)),
+        }  # fmt: skip
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3).
+
+        Each component is within 7e-15 of the length of m. Raises AtlasError for a time that is not finite or whose
+        phases exceed 2^50.
+        """
+        return self._momentum_of(self._momentum, t, "m/I2")
+
+    def invariants(self, t: Any = None) -> dict[str, Any]:
+        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B')/I2 with M = II (Omega + K), by name.
+
+        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
+        check, good to some ulp of the largest term. DomainError where a term is too large for a float. Raises
+        AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        if t is None:
+            return {name: finite(plain(x), name) for name, x in zip(CONSTANTS, self._constants, strict=True)}
+        Omega, K = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
+        four = integrals(self.ratio, Omega, K)
+        along = finite(plain((self._momentum(Omega + K) * K).sum(-1)), CONSTANTS[-1])
+        return dict(zip(CONSTANTS, (four.E, four.K2, four.c3, four.c5, along), strict=True))
+
+    @kept
+    def _constants(self) -> Any:
+        """Return E', K^2, c3, c5 and (M, B')/I2 of the inputs."""
+        if not self.shape:
+            return [nearest(x) for x in self._single().exact.invariants.values()]
+        I2, I3, *state = self._inputs
+        return over(constants, I2, I3, *state[3:], *state[:3], unit=slice(2, None), degree=(2, 2, 1, 2, 2))
+
+    def _momentum(self, Omega: FloatArray) -> FloatArray:
+        """Return (Omega1, Omega2, I Omega3)."""
+        I = shape_factors(self.ratio)[0]
+        return np.asarray(Omega * np.stack(np.broadcast_arrays(1.0, 1.0, I), -1))
+
+
+def field_components(field: Any) -> list[Any]:
+    """Return the components (B2, B3) of a field, or (B1, B2, B3) where there are three, of a `Field` where B1 != 0."""
+    try:
+        three = field.prime[0] != 0 if hasattr(field, "prime") else len(getattr(field, "values", field)) == len("123")
+    except TypeError:
+        three = False
+    return components(field, ("B1", "B2", "B3") if three else ("B2", "B3"), "The field", RATE)

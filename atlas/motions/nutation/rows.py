@@ -1,0 +1,289 @@
+"""Many motions in arrays at a few times each: matrices, fields and angular velocities; none is made by itself.
+
+What two words do not hold for certain is not certain, and is left to the motion made by itself: next to a separatrix or
+a triple root, where the sums are long or cancel; where theta is constant, for the matrix; where the inputs are of very
+different sizes.
+"""
+
+from collections.abc import Callable
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray, largest
+from atlas.arithmetic.phase import LIMIT, Phases, room
+from atlas.arithmetic.rotation_rows import LOST, REACH
+from atlas.lazy import cached_property
+from atlas.motions.nutation.rows_blocks import KNOWN, Block, Blocks, Constants
+from atlas.motions.nutation.rows_pair import Pair, multiples
+from atlas.motions.nutation.rows_spheres import sphere_of_velocity
+from atlas.motions.nutation.rows_swing import TURN_ERROR, Swings
+
+CANCELLING = 6.0
+"""By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `Pairs`."""
+
+SMALL = 3.0
+"""By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
+
+FAST = 16.0
+"""By how much the sizes of what the rates are sums of may exceed the largest rate: up to 12 they were within 3 ulp."""
+
+
+class Third(NamedTuple):
+    """The third component of Omega at t = 0, and what it changes by, see `Change`; `start` are cos and sin of 2 y0.
+
+    `reach` bounds what it changes by, of which it has an error of some u.
+    """
+
+    value: FloatArray
+    reach: FloatArray
+    size: FloatArray
+    weights: FloatArray
+    start: FloatArray
+
+
+def _velocity(block: Block) -> tuple[Constants, Third]:
+    """Return the constants of the angular velocity of a block, and those of its third component."""
+    r = block.roots
+    pair = Pair(block.means, sphere_of_velocity(r))
+    constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
+    return constants._replace(is_certain=constants.is_certain & (change.size.rel < KNOWN)), Third(
+        np.ldexp(r.omega[2].hi, block.exponents),
+        np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
+        np.ldexp(change.size.hi, block.exponents),
+        change.weights,
+        np.array([(cos * cos - sin * sin).hi, (cos * sin).scaled(1).hi]),
+    )
+
+
+class Rows:
+    """Motions in arrays, ready to be evaluated as `motions`."""
+
+    def __init__(self, blocks: Blocks, motions: "type[MotionsAtTimes]") -> None:
+        self.blocks, self.indices, self._motions = blocks, np.arange(blocks.count), motions
+
+    @cached_property
+    def field(self) -> tuple[Any, ...]:
+        """Constants of the axis and of the field, and what else there is of such motions."""
+        return self._of(self._motions.constants)
+
+    @cached_property
+    def velocity(self) -> tuple[Any, ...]:
+        """Constants of the angular velocity, and of its third component."""
+        return self._of(_velocity)
+
+    def _of(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
+        with np.errstate(all="ignore"):
+            kinds = zip(*map(constants, self.blocks), strict=True)
+            return tuple(
+                type(kind[0])(*(np.concatenate(x, axis=-1) for x in zip(*kind, strict=True))) for kind in kinds
+            )
+
+    def at(self, index: Any, t: FloatArray) -> "MotionsAtTimes":
+        """Return motions by their index at the times t that go with them."""
+        return self._motions(self, index, t)
+
+
+class MotionsAtTimes:
+    """Motions in a row, each at one time; `extreme` are the places of those that have to be made alone."""
+
+    def __init__(self, rows: Rows, index: Any, t: FloatArray) -> None:
+        self._rows, self._index, self._times = rows, index, t
+        self.indices, self.extreme = rows.indices[index], np.arange(0)
+
+    @staticmethod
+    def constants(block: Any) -> tuple[Any, ...]:
+        """Return the constants of the axis and the field of a block."""
+        return (block.constants,)
+
+    def rotation(self, _: FloatArray, out: FloatArray) -> None:
+        """Write R into (m, 3, 3)."""
+        pair = self._pair(*self._rows.field)
+        for j in range(3):
+            pair.column(j + 1, out[:, :, j])
+        pair.turn_back(out)
+        pair.turn_back(np.swapaxes(out, -1, -2))
+
+    def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
+        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        pair = self._pair(*self._rows.field)
+        if pair.turns and j != len("123"):
+            R = np.empty((len(out), 3, 3))
+            self.rotation(t, R)
+            out[:] = R[:, :, j - 1]
+        else:
+            pair.column(j, out)
+            pair.turn_back(out)
+
+    def quaternion(self, _: FloatArray, out: FloatArray) -> None:
+        """Write quaternions (x, y, z, w) into (m, 4)."""
+        pair = self._pair(*self._rows.field)
+        pair.quaternion(out)
+        pair.turn_back(out)
+
+    def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
+        """Write K into (m, 3)."""
+        pair = self._pair(*self._rows.field)
+        pair.vector(out)
+        pair.turn_back(out)
+
+    def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
+        """Write Omega into (m, 3): its pair is that of (Omega2, Omega1, -sqrt(I) Omega3)."""
+        constants, third = self._rows.velocity
+        pair, third = self._pair(constants), self._taken(third)
+        pair.vector(out, first=1)
+        out[:, 2] = pair.third(third)
+        pair.turn_back(out)
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * largest(out)))
+
+    def _pair(self, constants: Constants, swings: Swings | None = None) -> "Pairs":
+        """Return a pair, and keep which motions it does not hold."""
+        own = self._taken(swings) if swings and swings.twisted[self._index].any() else None
+        pair = Pairs(self._taken(constants), self._times, own)
+        self.extreme = pair.extreme
+        return pair
+
+    def _taken(self, constants: Any) -> Any:
+        """Return the constants of these motions."""
+        return type(constants)(*(x[..., self._index] for x in constants))
+
+
+class TopsAtTimes(MotionsAtTimes):
+    """Tops in a row, each at one time."""
+
+    @staticmethod
+    def constants(block: Any) -> tuple[Any, ...]:
+        """Return the constants of the axis and of n in the body, and of what the integral of nu adds."""
+        return block.constants, block.swings
+
+    def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
+        """Write Omega into (m, 3): twice the vector part of the quaternion's logarithmic derivative."""
+        constants, swings = self._rows.field
+        pair = self._pair(constants, swings)
+        bound = velocity(pair, out)
+        out *= np.stack([pair.constants.azimuth[0], pair.constants.azimuth[0], np.ones(len(out))], -1)
+        slow = bound > FAST * swings.fastest[self._index]
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(slow))
+
+
+class Pairs:
+    """Pairs in a row, each at one time; `extreme` are the places of those that have to be made alone.
+
+    alpha and beta are known to 4 u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and
+    sin y, 1/2 u for a weight, 3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below
+    CANCELLING times the length of (alpha, beta), each entry of R is within 2 sqrt(2) 4 u CANCELLING + 10 u = 8.7e-15.
+    Of tops `swings` add what the integral of nu turns; `kappa` is as it is in Omega3.
+    """
+
+    def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None = None) -> None:
+        self.constants, self.kappa = constants, swings.kappa if swings else 0.0
+        c = constants
+        with np.errstate(all="ignore"):
+            cos, sin, half = _circles(c.words, t)
+            start = cos[2] * c.start[0] - sin[2] * c.start[1], sin[2] * c.start[0] + cos[2] * c.start[1]
+            self.turn = cos[2], sin[2]
+            self.circle = start
+            circles = [*islice(multiples(*start), c.terms.max(initial=1))]
+            sums = sum(a * x + 1j * (b * y) for a, b, (x, y) in zip(c.even, c.odd, circles, strict=False))
+            self.turned = (cos[:2] + 1j * sin[:2]) * c.factor
+            self.pair = sums * self.turned
+            self.square = (self.pair.real**2 + self.pair.imag**2).sum(axis=0)
+            sizes = abs(c.rates)
+            good = (
+                c.is_certain & (c.weight <= CANCELLING * np.sqrt(self.square)) & (abs(c.sizes) > 1 / REACH).all(axis=0)
+            )
+            good &= ((c.lack * abs(t) <= LOST) & (sizes * abs(t) <= LIMIT) & (sizes < REACH)).all(axis=0)
+            if swings:
+                turn, error = swings.half(half, t)
+                both = np.cos(turn).astype(float) + 1j * np.sin(turn).astype(float)
+                for x in (self.pair, self.turned):
+                    x[:] = np.where(swings.twisted, x * [both, both.conj()], x)
+                long = abs(c.words[0, :2] * t).max(axis=0) > LIMIT / np.pi
+                good &= ~(swings.twisted & (long | ~(error < TURN_ERROR)))
+            self.extreme = np.flatnonzero(~good)
+
+    def column(self, j: int, out: FloatArray) -> None:
+        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        x, y, z = (self._entry(i, j - 1) for i in range(3))
+        (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
+        first, third = (side, 1.0) if j == 3 else (1.0, side)
+        out[:, 0], out[:, 1], out[:, 2] = x * first, (cos * y + sin * z) * first, (cos * z - sin * y) * third
+
+    def quaternion(self, out: FloatArray) -> None:
+        """Write the quaternions into (m, 4): that of the pair after the tilt at the start, turned back."""
+        (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
+        longer = np.sqrt((1 + abs(cos)) / 2)
+        shorter = sin / (2 * longer)
+        C, S = np.where(cos < 0, (abs(shorter), np.copysign(longer, sin)), (longer, shorter)) / np.sqrt(self.square)
+        (w, x), (z, y) = self.pair.real, self.pair.imag
+        out[:] = np.stack([(C * x - S * w) * side, (C * y + S * z) * side, C * z - S * y, C * w + S * x], -1)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the field is not in the plane of e2 and e3 for all motions."""
+        return bool(self.constants.plane[1].any())
+
+    def turn_back(self, out: FloatArray) -> None:
+        """Turn vectors (m, ..., 3), or quaternions, into the axes in which the field was given."""
+        if self.turns:
+            x, y = out[..., 0].copy(), out[..., 1]
+            cos, sin = (z.reshape(-1, *[1] * (x.ndim - 1)) for z in self.constants.plane)
+            out[..., 0], out[..., 1] = cos * x + sin * y, cos * y - sin * x
+
+    def vector(self, out: FloatArray, first: int = 0) -> None:
+        """Write the vector into (m, 3), its first two components from the `first` on."""
+        (cos, sin), (across, along) = self.constants.azimuth, self.constants.sizes
+        x, y, z = (self._entry(2, j) for j in range(3))
+        out[:, first], out[:, 1 - first], out[:, 2] = (
+            across * (cos * x + sin * y),
+            across * (cos * y - sin * x),
+            along * z,
+        )
+
+    def third(self, third: Third) -> FloatArray:
+        """Return the third component of the angular velocity, (m,)."""
+        count, (cos, sin), (c, s) = self.constants.terms.max(initial=1), self.turn, third.start
+        product = third.size / self.square
+        for start in ((cos, sin), (cos * c - sin * s, sin * c + cos * s)):
+            circles = [*islice(multiples(*start), count)]
+            product = product * sum(a * x for a, (_, x) in zip(third.weights, circles, strict=False))
+        return np.asarray(third.value + product)
+
+    def _entry(self, i: int, j: int) -> FloatArray:
+        """Return an entry of the matrix of (alpha, beta), (m,)."""
+        w, *v = self.pair[0].real, self.pair[1].real, self.pair[1].imag, self.pair[0].imag
+        if i == j:
+            k, n = (i + 1) % 3, (i + 2) % 3
+            return np.asarray((w * w + v[i] * v[i] - v[k] * v[k] - v[n] * v[n]) / self.square)
+        across = v[3 - i - j] * w
+        return np.asarray(2 * (v[i] * v[j] + (across if (i - j) % 3 == 1 else -across)) / self.square)
+
+
+def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
+    """Return cosines and sines of phases, frequencies in half turns and two words (2, n, m), at times (m,).
+
+    Half the last phase, less whole quarter turns, comes after them, and what rounding left out of it.
+    """
+    half, rest, sign, _ = Phases.of_words(words).angles(t, room(*words.shape[1:]))
+    cos, sin = np.cos(2 * half), np.sin(2 * half)
+    return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])
+
+
+def velocity(pair: Pairs, out: FloatArray) -> FloatArray:
+    """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
+    c, rates = pair.constants, pair.constants.rates
+    with np.errstate(all="ignore"):
+        circles = [*islice(multiples(*pair.circle), c.terms.max(initial=1))]
+        terms = zip(range(1, 2 * len(circles), 2), c.even, c.odd, circles, strict=False)
+        rising = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
+        slope = 1j * rates[:2] * pair.pair + rates[2] * rising * pair.turned
+        sizes = (abs(c.even) + abs(c.odd)) * (2 * np.arange(len(c.even)) + 1)[:, None, None]
+        bound = abs(rates[:2]) * c.weight + abs(rates[2]) * (sizes.sum(axis=0) * abs(c.factor)).sum(axis=0)
+        (w, x), (dw, dx) = pair.pair.real, slope.real
+        (z, y), (dz, dy) = pair.pair.imag, slope.imag
+        out[:, 0] = 2 * (w * dx - x * dw - y * dz + z * dy) / pair.square
+        out[:, 1] = 2 * (w * dy - y * dw - z * dx + x * dz) / pair.square
+        out[:, 2] = 2 * (w * dz - z * dw - x * dy + y * dx) / pair.square
+        out[:, 2] += pair.kappa * ((w * w + z * z) - (x * x + y * y)) / pair.square
+        return np.asarray(2 * bound.max(axis=0) / np.sqrt(pair.square))

@@ -1,0 +1,230 @@
+"""Many motions by blocks: what their constants are made from, and whether their inputs are of one size.
+
+With y = M t + y0 the pair (alpha, beta) of the axis, and that of the angular velocity, is exp(i l t) F times the sum
+over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of
+`atlas.motions.nutation.certified_cayley_klein`. Where kappa is not zero, the integral of nu adds to the turn about the
+axis that the pair has: see `swing_rows`.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen, constant, stacked
+from atlas.arithmetic.given import broadcast, ldexp, part
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.rotation_rows import PER_RADIAN
+from atlas.lazy import cached_property
+from atlas.motions.nutation.rows_means import Means
+from atlas.motions.nutation.rows_pair import TERMS, Pair
+from atlas.motions.nutation.rows_roots import Roots, in_plane, roots_of, roots_of_tops
+from atlas.motions.nutation.rows_spheres import sphere_of_field
+from atlas.motions.nutation.rows_swing import Swings, SwingSums, swing_sums
+
+SPREAD = 2.0**-60
+"""Least part of the largest frequency that another one is, if it is not zero."""
+
+KNOWN = 2.0**-57
+"""Radius to which weights are known before they are rounded."""
+
+
+class Constants(NamedTuple):
+    """Constants of the pairs of motions in a row, the last axis of each.
+
+    `words` (2, 3, m) and `lack` (3, m) are the frequencies l of alpha and beta and M in half turns, in two words, and
+    what they may be off; `rates` (3, m) the same in radians. `even` and `odd` (TERMS, 2, m), of which `terms` matter,
+    `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos
+    and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
+    """
+
+    words: FloatArray
+    lack: FloatArray
+    rates: FloatArray
+    even: FloatArray
+    odd: FloatArray
+    terms: Any
+    factor: Any
+    start: FloatArray
+    weight: FloatArray
+    tilt: FloatArray
+    azimuth: FloatArray
+    sizes: FloatArray
+    plane: FloatArray
+    is_certain: Any
+
+
+@dataclass(frozen=True)
+class Block:
+    """Motions `rows` of all; the exponents of the power of two that their frequencies are over; where that is fine."""
+
+    rows: slice
+    roots: Roots
+    exponents: Any
+    fine: Any
+
+    @cached_property
+    def means(self) -> Means:
+        """Gauss's means."""
+        return Means(self.roots)
+
+    @cached_property
+    def pair(self) -> Pair:
+        """Pair of the axis and of the field."""
+        return Pair(self.means, sphere_of_field(self.roots))
+
+    @cached_property
+    def swing(self) -> SwingSums | None:
+        """What the integral of nu adds to the turn about the axis; None where kappa is zero in all rows."""
+        r = self.roots
+        return swing_sums(self.means, r.n3, r.A) if r.top and r.top.twisted.any() else None
+
+    @cached_property
+    def swing_rate(self) -> DoubleDouble | None:
+        """The rate that it adds to the turn about the axis, of tops."""
+        top = self.roots.top
+        return chosen(top.twisted, top.kappa * self.swing.rate, top.kappa) if top and self.swing else top and top.kappa
+
+    @property
+    def swings(self) -> Swings | None:
+        """What turns times into that turn of tops."""
+        top = self.roots.top
+        return top and Swings.of(self.swing, self.means, self.roots, top, self.exponents)
+
+    @property
+    def constants(self) -> Constants:
+        """Constants of the pair; its words are those of the whole turn, its rates are not."""
+        constants = self.constants_of(self.pair)
+        if not (self.roots.top and self.swing and self.swing_rate):
+            return constants
+        half = self.swing_rate.scaled(-1)
+        rates = self.pair.rates + stacked(half, -half, constant(0.0, half))
+        words, lack = in_half_turns(rates, self.exponents)
+        twisted = self.roots.top.twisted
+        return constants._replace(
+            words=np.where(twisted, words, constants.words), lack=np.where(twisted, lack, constants.lack)
+        )
+
+    def constants_of(self, pair: Pair) -> Constants:
+        """Return the constants of a pair."""
+        r, means, sphere = self.roots, pair.means, pair.sphere
+        (words, lack), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
+        even, odd, terms, *_ = pair.sums
+        factor, lost = pair.factors
+        known = ((lost < KNOWN) & (pair.zeros.growth.rel < KNOWN)).all(axis=0) & (means.nome.rel < KNOWN)
+        known &= (
+            np.isfinite(lack).all(axis=0) & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < KNOWN) & (terms <= TERMS)
+        )
+        return Constants(
+            words,
+            lack,
+            np.ldexp(pair.rates.hi, self.exponents),
+            even,
+            odd,
+            terms,
+            factor,
+            np.array([cos.hi, sin.hi]),
+            ((abs(even) + abs(odd)).sum(axis=0) * abs(factor)).sum(axis=0),
+            r.tilt,
+            np.array(sphere.azimuth),
+            np.ldexp(np.array(sphere.sizes), self.exponents if r.top is None else 0),
+            r.plane if r.plane is not None else np.stack([np.ones_like(r.b.hi), np.zeros_like(r.b.hi)]),
+            known & r.exact & self.fine & ~r.free,
+        )
+
+
+def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
+    """Return frequencies over a power of two as words in half turns, and what they may be off."""
+    turns = rates * PER_RADIAN
+    return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
+
+
+class Blocks:
+    """Motions I2, I3, B1, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
+
+    What is known of a single block is kept for whoever asks next; of many it would take too much memory.
+    """
+
+    _unit = slice(2, None)
+    """Inputs that are frequencies."""
+    _block: type[Block] = Block
+
+    def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
+        self.inputs, self.shape, self.count = inputs, shape, prod(shape)
+        self._kept: list[Block] = []
+
+    def __iter__(self) -> Iterator[Block]:
+        if self.count > BLOCK:
+            return self.each()
+        self._kept = self._kept or [*self.each()]
+        return iter(self._kept)
+
+    def each(self) -> Iterator[Block]:
+        """Make the blocks."""
+        columns = [broadcast(x, self.shape) for x in self.inputs]
+        for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
+            fine = _alike([abs(np.asarray(x).reshape(-1)[rows]) for x in columns[self._unit]])
+            power, ordinary = exponents or (0, True)
+            yield self._block(rows, roots, power, fine & ordinary)
+
+    @staticmethod
+    def _roots(*inputs: DoubleDouble) -> Any:
+        """Return the turning points and the rest."""
+        I2, I3, *vectors = inputs
+        (B2, B3), omega, plane = in_plane(*vectors)
+        return roots_of(I2, I3, (B2, B3), omega, plane=plane)
+
+
+class TopBlocks(Blocks):
+    """Tops I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic, which broadcast to a shape, by blocks."""
+
+    def each(self) -> Iterator[Block]:
+        """Make the blocks."""
+        columns = [broadcast(x, self.shape) for x in self.inputs]
+        for start in range(0, self.count, BLOCK):
+            given = [part(x, slice(start, start + BLOCK)) for x in columns]
+            rows_of_block = [np.asarray(x) for x in given]
+            powers, exponents = _powers(rows_of_block)
+            scaled = [x if power is None else ldexp(x, -power) for x, power in zip(given, powers, strict=True)]
+            shape = scaled[0].shape
+            for rows, _, extreme, (roots,) in blocks(roots_of_tops, scaled, shape, slice(0)):
+                I2, _, k2, k3, n2, n3, *omega, linear, quadratic = (abs(np.asarray(x)) for x in scaled)
+                potential = np.sqrt(linear / I2), np.sqrt(quadratic / I2)
+                fine = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])
+                fine = fine if extreme is None else fine & extreme[1]
+                # a number that the scaling made zero is none
+                fine &= np.logical_and.reduce(
+                    [(x == 0) == (np.asarray(y) == 0) for x, y in zip(rows_of_block, scaled, strict=True)]
+                )
+                yield Block(slice(start, start + rows.stop), roots, exponents, fine)
+
+
+def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
+    """Return powers of two over which moments, rates and n of tops are of the order of one, and those of their rates.
+
+    Tops whose numbers are ordinary as they are stay so; None where all are.
+    """
+    with np.errstate(all="ignore"):
+        I2, _, k2, k3, n2, n3, *omega, linear, quadratic = columns
+        plain = np.logical_and.reduce([(x == 0) | ((abs(x) > 1 / ORDINARY) & (abs(x) < ORDINARY)) for x in columns])
+        if plain.all():
+            return [None] * len(columns), 0
+        body, length = _exponent(I2, plain), _exponent(np.maximum(abs(n2), abs(n3)), plain)
+        couplings, potential = ([np.ldexp(x, -body) for x in pair] for pair in ((k2, k3), (linear, quadratic)))
+        largest = np.max([*map(abs, (*omega, *couplings)), *(np.sqrt(abs(x)) for x in potential)], axis=0)
+        rate = _exponent(largest, plain)
+        couplings, potential = [body + rate] * 2, [body + 2 * rate] * 2
+        return [body, body, *couplings, length, length, rate, rate, rate, *potential], rate
+
+
+def _exponent(x: FloatArray, plain: Any) -> Any:
+    """Return the power of two to divide by."""
+    return np.where(plain, 0, np.frexp(x)[1])
+
+
+def _alike(sizes: Sequence[Any]) -> Any:
+    """Return where the least number that is not zero is not too small beside the largest."""
+    x = np.array(sizes)
+    return np.where(x == 0, np.inf, x).min(axis=0) >= SPREAD * x.max(axis=0)

@@ -1,0 +1,292 @@
+"""Elliptic motions in arrays: the roots of Q, the sphere of K, and what turns times into matrices.
+
+Seen along the axis a about which K does not circle, an elliptic motion nutates like a top: u = -K_a moves between the
+roots ±u_t of a quartic that is even in u, see `atlas.motions.nutation.certified_elliptic_quartic`. With x_i = z +
+D/I_i, m the axis of the middle e_i = 1/(I_i x_i) and p the third one,
+
+    Q = L (u^2 - u_t^2) (u^2 - w),     L = -v^2 (e_a - e_m) (e_a - e_p),     e_i - e_j = z (I_j - I_i) e_i e_j,
+    u_t^2 = K_a^2 + [(I_p - I_m) I_a x_a] / [(I_p - I_a) I_m x_m] K_m^2,
+    w     = K_a^2 + [(I_m - I_p) I_a x_a] / [(I_m - I_a) I_p x_p] K_p^2 < 0,
+
+where nothing cancels but w, next to a separatrix. Kinds other than "elliptic" are not certain, and made by themselves.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, stacked
+from atlas.arithmetic.inputs import FloatArray
+from atlas.lazy import cached_property
+from atlas.motions.nutation.rows import MotionsAtTimes, Pairs
+from atlas.motions.nutation.rows_blocks import KNOWN, Block, Blocks, Constants
+from atlas.motions.nutation.rows_pair import Pair
+from atlas.motions.nutation.rows_roots import Turning, poles_of
+from atlas.motions.nutation.rows_scalars import HALF_TURN, Rounded, Scalars, of_period, rounded
+from atlas.motions.nutation.rows_spheres import Sphere, half_angles
+
+PLANE = 1 + 1e-12
+"""Factor to the largest moment from which on a body is all but plane, and whether it is one is told exactly."""
+
+
+@dataclass(frozen=True)
+class EllipticRoots(Turning):
+    """The turning points of u + K_a, with what else the sphere of K takes, for rows (m,).
+
+    `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
+    `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i and of K_c, c the axis about
+    which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
+    the third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
+    """
+
+    turning: DoubleDouble
+    w: DoubleDouble
+    K: Sequence[DoubleDouble]
+    v: DoubleDouble
+    along: DoubleDouble
+    across: DoubleDouble
+    b: DoubleDouble
+    torque: DoubleDouble
+    precession: DoubleDouble
+    rates: Sequence[DoubleDouble]
+    sense: tuple[FloatArray, FloatArray]
+    frame: FloatArray
+    elliptic: Any
+    top: None = None
+    plane: None = None
+
+    @property
+    def width(self) -> DoubleDouble:
+        """Distance of the turning points."""
+        return self.turning.scaled(1)
+
+    @property
+    def discriminant(self) -> DoubleDouble:
+        """A quarter of the discriminant of the other factor: negative."""
+        return self.f[2] * self.f[2] * self.w
+
+    @property
+    def ends(self) -> DoubleDouble:
+        """Values of -f at low and high, (2, m)."""
+        ends = self.f[2] * (self.w - self.turning * self.turning)
+        return stacked(ends, ends)
+
+    @property
+    def free(self) -> Any:
+        """Where the motion is of another kind."""
+        return ~self.elliptic
+
+    @property
+    def tilt(self) -> FloatArray:
+        """Cosine and sine of the angle between axis and field at the start, (2, m)."""
+        return np.array([(self.along / self.b).hi, (self.across / self.b).hi])
+
+
+def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
+    """Return the turning points and the rest from I1, I2, I3, B1, B2, B3, z, branch."""
+    *I, B1, B2, B3, z, branch = inputs
+    x = [z + I[i - 2] * I[i - 1] for i in range(3)]
+    square = x[0] * x[1] * x[2]
+    v = square.sqrt() * branch
+    e = [ONE / (a * b) for a, b in zip(I, x, strict=True)]
+    shape = np.broadcast_shapes(*(np.shape(y.hi) for y in inputs))
+    sign = [np.sign(y.hi) for y in x]
+    above = [
+        sum((np.sign(z.hi) * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
+        for i in range(3)
+    ]
+    rank = np.array([np.broadcast_to(y, shape) for y in above])  # of e: 0 for the least, 1 for that in the middle
+    K = (B1, B2, B3)
+    low, middle, high = (np.argmax(rank == n, axis=0) for n in range(3))
+
+    def of(places: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
+        """Return the numbers of the axes at these places."""
+        first, second, third = numbers
+        return chosen(places == 0, first, chosen(places == 1, second, third))
+
+    def part(third: Any, other: Any, axis: Any) -> DoubleDouble:
+        """Return [(I_third - I_other) I_axis x_axis]/[(I_third - I_axis) I_other x_other] K_other^2."""
+        size = of(other, K)
+        up = (of(third, I) - of(other, I)) * of(axis, I) * of(axis, x)
+        return up / ((of(third, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
+
+    # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
+    outer = [(of(middle, I) - of(i, I)) * of(i, e) * of(i, K) * of(i, K) for i in (low, high)]
+    beyond = (outer[0] + outer[1]).hi * np.sign(z.hi) * np.sign(of(middle, e).hi) > 0
+    axis, other = np.where(beyond, low, high), np.where(beyond, high, low)
+    along = of(axis, K)
+    own = along * along
+    rise, w = part(other, middle, axis), own + part(middle, other, axis)
+    turning = (own + rise).sqrt()
+    farther = turning + abs(along)
+    nearer = rise / farther
+    up = along.hi > 0  # v = u + K_a
+    left, right = (axis + 1) % 3, (axis + 2) % 3
+    first, second, e_a = of(left, K), of(right, K), of(axis, e)
+    sides = [z * (of(i, I) - of(axis, I)) * of(i, e) * e_a for i in (left, right)]  # e_a - e_i
+    squares = first * first, second * second
+    flat = squares[0] + squares[1]
+    across, b = flat.sqrt(), (flat + own).sqrt()
+    rates = [-(v * y) - ONE for y in e]  # E - 1
+    L = -(square * sides[0] * sides[1])
+    sizes = np.array([np.broadcast_to(y.hi, shape) for y in I])
+    certain = [
+        (sizes > 0).all(0) & (2 * PLANE * sizes.max(0) < sizes.sum(0)) & (abs(branch.hi) == 1),  # there is a motion
+        *(y.rel < 0.5 for y in x), square.hi > 0,
+        (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
+        np.count_nonzero(np.broadcast_arrays(*(y.hi for y in K)), axis=0) > 1,
+        w.hi < 0, w.rel < 0.5,
+        *(y.rel < KNOWN for y in rates),  # next to rest they are differences of what is all but one
+    ]  # fmt: skip
+    return EllipticRoots(
+        rate=v * first * second * z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
+        low=-chosen(up, nearer, farther),
+        high=chosen(up, farther, nearer),
+        f=(-(L * part(middle, other, axis)), -(L * along).scaled(1), L),
+        poles=poles_of(along, flat, b),
+        turning=turning,
+        w=w,
+        K=K,
+        v=v,
+        along=along,
+        across=across,
+        b=b,
+        torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
+        precession=of(axis, rates) * b,
+        rates=rates,
+        sense=(np.where(other == high, -1.0, 1.0) * np.sign(v.hi), np.sign(of(other, K).hi)),
+        frame=_frame(axis, (first / across).hi, (second / across).hi, shape),
+        elliptic=np.logical_and.reduce([np.broadcast_to(y, shape) for y in certain]),
+    )
+
+
+def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
+    """Return axes in which (x, y) along the two that follow `axis` in the cyclic order is along the second one."""
+    axes = np.zeros((3, 3, *shape))
+    for k in range(3):
+        own, left, right = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
+        axes[k] = np.where(left, y, np.where(right, -x, 0.0)), np.where(left, x, np.where(right, y, 0.0)), own
+    return axes
+
+
+@dataclass(frozen=True)
+class EllipticBlock(Block):
+    """Elliptic motions of a block."""
+
+    roots: EllipticRoots  # type: ignore[assignment]  # what both have is a Turning
+
+    @cached_property
+    def pair(self) -> Pair:
+        """Pair of the axis a, on the sphere of K."""
+        r = self.roots
+        length, half = r.b.hi, r.precession.scaled(-1)
+        return Pair(
+            self.means,
+            Sphere(
+                roots=r,
+                poles=r.poles,
+                torques=stacked(r.torque, r.torque),
+                amplitudes=half_angles(r.along, r.across, r.b),
+                meets=np.zeros((2, length.size), dtype=bool),
+                slopes=np.zeros((2, length.size)),
+                frames=stacked(half, half),
+                azimuth=(np.ones_like(length), np.zeros_like(length)),
+                sizes=(length, length),
+            ),
+        )
+
+
+class EllipticBlocks(Blocks):
+    """Motions I1, I2, I3, B1, B2, B3, z, branch, which broadcast to a shape, by blocks."""
+
+    _unit, _block, _roots = slice(3, 6), EllipticBlock, staticmethod(roots_of_elliptic)
+
+
+class EllipticScalars(Scalars):
+    """Scalars of elliptic motions in arrays: all of one pass."""
+
+    def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
+        del name
+        return _scalars
+
+
+def _scalars(block: Block) -> dict[str, Rounded]:
+    """Return kind, period, moduli, nome, the angles of a period, v and Omega(0) of a block."""
+    with np.errstate(all="ignore"):
+        r, angles = cast("EllipticRoots", block.roots), block.pair.angles
+        mean = angles[0] + angles[1] + r.precession.scaled(1)
+        omega = [rounded(rate * K, block, 1) for rate, K in zip(r.rates, r.K, strict=True)]
+        shape = r.elliptic.shape
+        turn = HALF_TURN.scaled(1) * DoubleDouble(r.sense[0])  # by which the axis that K goes round lags in a period
+        scalars = of_period(block) | {
+            "kind": Rounded(np.zeros(shape, int), block.fine),
+            "precession_per_period": rounded((HALF_TURN / block.means.rate).scaled(-1) * mean - turn, block),
+            "spin_per_period": rounded(turn * DoubleDouble(r.sense[1]), block),
+            "v": rounded(r.v, block),
+            "omega": Rounded(
+                np.array([np.broadcast_to(x.values, shape) for x in omega]),
+                np.logical_and.reduce([np.broadcast_to(x.is_certain, shape) for x in omega]),
+            ),
+        }
+        return {
+            name: Rounded(
+                np.broadcast_to(x.values, (*x.values.shape[:-1], *shape)), x.is_certain & r.elliptic & r.exact
+            )
+            for name, x in scalars.items()
+        }
+
+
+class Axes(NamedTuple):
+    """Axes of the pair in the body, (3, 3, m), and the factors E - 1 from K to Omega, (3, m)."""
+
+    frames: FloatArray
+    rates: FloatArray
+
+
+class EllipticAtTimes(MotionsAtTimes):
+    """Elliptic motions in a row, each at one time."""
+
+    @staticmethod
+    def constants(block: Any) -> tuple[Any, ...]:
+        """Return the constants of the pair of a block, and its axes."""
+        r = block.roots
+        rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
+        return block.constants, Axes(r.frame, np.array(rates))
+
+    def _pair(self, constants: Constants, _: Any = None) -> Pairs:
+        """Return the pair, and keep which motions it does not hold."""
+        return super()._pair(constants)
+
+    @property
+    def _frames(self) -> FloatArray:
+        """The axes of the pair in the body, (m, 3, 3)."""
+        return np.moveaxis(self._rows.field[1].frames[..., self._index], -1, 0)
+
+    def rotation(self, t: FloatArray, out: FloatArray) -> None:
+        """Write R into (m, 3, 3)."""
+        super().rotation(t, out)
+        C = self._frames
+        out[:] = C @ out @ C.mT
+
+    def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
+        """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
+        R = np.empty((len(out), 3, 3))
+        self.rotation(t, R)
+        out[:] = R[:, :, j - 1]
+
+    def quaternion(self, t: FloatArray, out: FloatArray) -> None:
+        """Write quaternions (x, y, z, w) into (m, 4)."""
+        super().quaternion(t, out)
+        out[:, :3] = np.matvec(self._frames, out[:, :3])
+
+    def field_in_body(self, t: FloatArray, out: FloatArray) -> None:
+        """Write K into (m, 3)."""
+        super().field_in_body(t, out)
+        out[:] = np.matvec(self._frames, out)
+
+    def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
+        """Write Omega = (E - 1) K into (m, 3)."""
+        self.field_in_body(t, out)
+        out *= self._rows.field[1].rates[:, self._index].T

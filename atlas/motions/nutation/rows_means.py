@@ -1,0 +1,152 @@
+"""Constants of many general motions in two words, by Gauss's means alone: roots of numbers, and no other function.
+
+With the turning points and the other factor f of Q, let N = sqrt(f(low) f(high))/4 and S = -[f0 + f1 (low + high)/2
++ f2 low high]/2. The means of sqrt(S + 2N)/2 and sqrt(N) tend to M = pi/T, whether two or four roots of Q are real.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant
+from atlas.lazy import cached_property
+from atlas.motions.nutation.rows_roots import Turning
+
+MEANS = 12
+"""Steps of the means in two words."""
+
+ENOUGH = 2.0**-107
+"""Difference of the means, in parts of them, below which they are one."""
+
+Circle = tuple[DoubleDouble, DoubleDouble]
+"""Cosine and sine."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """Two means a >= g, their difference, product and sum."""
+
+    a: DoubleDouble
+    g: DoubleDouble
+    difference: DoubleDouble
+    product: DoubleDouble
+    sum: DoubleDouble
+
+    @property
+    def parts(self) -> tuple[DoubleDouble, ...]:
+        """All five."""
+        return self.a, self.g, self.difference, self.product, self.sum
+
+    @cached_property
+    def is_merged(self) -> Any:
+        """Where both means are one."""
+        return ~(self.difference.hi > ENOUGH * self.a.hi)
+
+
+class Means:
+    """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; the start."""
+
+    def __init__(self, roots: Turning) -> None:
+        self.roots = roots
+        r, (f0, f1, f2) = roots, roots.f
+        low, high = r.ends[0], r.ends[1]
+        self.N = (low * high).sqrt().scaled(-2)
+        S = -(f0 + f1.scaled(-1) * (r.low + r.high) + f2 * r.low * r.high).scaled(-1)
+        D = r.width * r.width * r.discriminant.scaled(-2)
+        twice = self.N.scaled(1)
+        tall = S.hi > 0
+        larger = chosen(tall, S + twice, S - twice)
+        smaller = D / larger
+        self.S, self.D, self.plus, self.minus = S, D, chosen(tall, larger, smaller), chosen(tall, smaller, larger)
+        self.four = D.hi > 0
+        self.levels = self._levels()
+
+    def _levels(self) -> list[Level]:
+        """Return the means from the first."""
+        a, g = self.plus.sqrt().scaled(-1), self.N.sqrt()
+        both = a + g
+        larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
+        levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / both, larger * smaller, both)]
+        while len(levels) < MEANS and not levels[-1].is_merged.all():
+            last = levels[-1]
+            a, g = last.sum.scaled(-1), last.product.sqrt()
+            both, square = a + g, last.difference * last.difference
+            more = Level(a, g, (square / both).scaled(-2), a * g, both)
+            # means that are one stay as they are: no motion depends on those beside it
+            levels.append(Level(*(chosen(last.is_merged, x, y) for x, y in zip(last.parts, more.parts, strict=True))))
+        return levels
+
+    def level(self, n: int) -> Level:
+        """Return the means after n steps; the last ones are the same."""
+        return self.levels[min(n, len(self.levels) - 1)]
+
+    @cached_property
+    def rate(self) -> DoubleDouble:
+        """M = pi/T."""
+        last = self.levels[-1]
+        M = last.sum.scaled(-1)
+        return DoubleDouble(M.hi, M.lo, M.rel + last.difference.hi / M.hi)
+
+    @cached_property
+    def moduli(self) -> tuple[DoubleDouble, DoubleDouble]:
+        """Modulus and complementary modulus."""
+        first = self.levels[0]
+        root = abs(self.D).sqrt()
+        square = (self.S + root).scaled(-1)
+        c = abs(self.minus).sqrt().scaled(-1)
+        return (
+            chosen(self.four, (root / square).sqrt(), c / first.a),
+            chosen(self.four, self.N / square, first.g / first.a),
+        )
+
+    @cached_property
+    def nome(self) -> DoubleDouble:
+        """Nome of the theta functions, in size: that of the moduli for four real roots, else the root of it."""
+        product = constant(1.0, self.N)
+        for n in range(len(self.levels) - 1, 0, -1):
+            further = (product * self.level(n).a / self.level(n + 1).a).sqrt()
+            product = chosen(self.level(n).is_merged, product, further)
+        return abs(self.minus).sqrt().scaled(-3) / self.levels[0].sum.scaled(-1) * product
+
+    @cached_property
+    def start(self) -> Circle:
+        """Cosine and sine of M t, t the time since Omega3 was `low`, at the start: cot of twice it is (c - a g/c)/2."""
+        r = self.roots
+        square, below = r.ends[0].scaled(-2) * r.high, -r.low
+        scaled = self.N * below
+        C, D = square - scaled, (square * below).sqrt().scaled(1)
+        whole = _unit(C, self.levels[0].a * D)
+        turns = []
+        for m in self.levels:
+            squares, weighted = C * C, m.product * D * D
+            size, product = squares + weighted, C * D
+            turns.append(_unit(size, -(product * m.difference)))
+            C, D = (squares - weighted) / size, product.scaled(1) / size
+        one, zero = constant(1.0, C), constant(0.0, C)
+        rest = one, zero
+        for m, turn in zip(reversed(self.levels), reversed(turns), strict=True):
+            cos, sin = _half(_turned(turn, rest))
+            # once the means are one nothing is added, and what C and D have lost by then does not count
+            rest = chosen(m.is_merged, one, cos), chosen(m.is_merged, zero, sin)
+        cos, sin = _half(_turned(whole, rest))
+        return cos, chosen(r.rate.hi < 0, -sin, sin)
+
+
+def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
+    """Return cosine and sine of the angle of a point."""
+    size = (x * x + y * y).sqrt()
+    return x / size, y / size
+
+
+def _turned(angle: Circle, other: Circle) -> Circle:
+    """Return cosine and sine of the sum of two angles."""
+    (a, b), (c, d) = angle, other
+    return a * c - b * d, a * d + b * c
+
+
+def _half(angle: Circle) -> Circle:
+    """Return cosine and sine of half an angle below pi, the sine with its sign."""
+    cos, sin = angle
+    larger = ((abs(cos) + ONE).scaled(-1)).sqrt()
+    smaller = sin / larger.scaled(1)
+    sharp = cos.hi >= 0
+    return chosen(sharp, larger, abs(smaller)), chosen(sharp, smaller, larger)

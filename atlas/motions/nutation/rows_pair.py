@@ -1,0 +1,246 @@
+"""A pair alpha, beta of many motions in two words: the zeros of each, by Gauss's means, and the sums that vanish there.
+
+The steps of the means make, of the distances p^2 = |f(far)| near/(4 far) of a pole, complete integrals of the third
+kind (Gauss), and, of p = M coth y, the depth y of the zero: p' = (p^2 + a g)/(2 p) = M coth 2y.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.double_double import (
+    ONE,
+    DoubleDouble,
+    better,
+    chosen,
+    constant,
+    signed,
+    stacked,
+)
+from atlas.arithmetic.inputs import FloatArray
+from atlas.lazy import cached_property
+from atlas.motions.nutation.rows_means import ENOUGH, Circle, Level, Means
+from atlas.motions.nutation.rows_spheres import Sphere
+
+STEPS = 60
+"""Steps of what is made along with the means."""
+
+TERMS = 9
+"""Most terms of a sum."""
+
+NEGLIGIBLE = 2.0**-58
+"""Part of the first term below which a term is left out."""
+
+
+class Zeros(NamedTuple):
+    """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
+
+    `beside` is where it is the former, `sense` the sign of y, `growth` is exp y.
+    """
+
+    beside: Any
+    sense: FloatArray
+    growth: DoubleDouble
+
+
+class Sums(NamedTuple):
+    """Weights of cos k y and i sin k y, (TERMS, 2, m), how many matter, and the sums at the start.
+
+    `ends` are the sums where Omega3 is `low` and `high`, without i: those of `even`, and of `odd` with signs by turns.
+    """
+
+    even: FloatArray
+    odd: FloatArray
+    terms: Any
+    start: Circle
+    ends: Circle
+
+
+class Change(NamedTuple):
+    """Omega3 - omega3 is size S(M t) S(M t + 2 y0)/(|alpha|^2 + |beta|^2), S the sum of weights (TERMS, m) sin k y.
+
+    Both zeros are real: so the change keeps its digits where Omega3 is small beside its largest values.
+    """
+
+    size: DoubleDouble
+    weights: FloatArray
+
+
+@dataclass(frozen=True)
+class Pair:
+    """alpha and beta of a sphere."""
+
+    means: Means
+    sphere: Sphere
+
+    @cached_property
+    def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+        """p^2, and after the first step p and p - a, (2, m)."""
+        m, k = self.means, self.sphere
+        r, first = m.roots, m.levels[0]
+        square = stacked(r.ends[0], r.ends[1]).scaled(-2) * abs(k.near) / k.far
+        p = square.sqrt()
+        after = (square + m.N) / p.scaled(1)
+        both = (after + chosen(m.four, first.a, first.g)) * abs(k.near) * k.far
+        by_torque = k.torques * r.width / both.scaled(2)
+        root = (square - m.N) / (p + m.N.sqrt())
+        beyond = chosen(m.four, by_torque * by_torque * (after + first.a), root * root / p.scaled(1))
+        return square, after, beyond
+
+    @cached_property
+    def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
+        """The sum of Gauss's complete integrals of the third kind, and exp of the depths of zeros, (2, m)."""
+        m, (square, p, d) = self.means, self._starts
+        Q = ((square - m.N) / (square + m.N)).scaled(-1)
+        first = m.levels[0]
+        x = chosen(first.difference.hi == 0, constant(0.0, d), first.difference / d)
+        levels = [m.level(n) for n in range(STEPS + 1)]
+        total, product = _steps(levels, p, d, x, Q)
+        return Q + total + ONE, ((p + first.a) / d * product).sqrt().sqrt()
+
+    @cached_property
+    def zeros(self) -> Zeros:
+        """Zeros of alpha and beta."""
+        inside, k = self._starts[0].hi > self.means.N.hi, self.sphere
+        # where the vector starts at a pole, that of beta belongs to `low` and that of alpha to `high`
+        beside = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
+        sense = np.where(beside, -1.0, 1.0) * np.sign(k.torques.hi) * np.array([[1.0], [-1.0]])
+        depth = chosen(k.meets, constant(1.0, k.torques), self._third[1])
+        return Zeros(beside, sense, chosen(sense > 0, depth, ONE / depth))
+
+    @cached_property
+    def angles(self) -> DoubleDouble:
+        """What alpha and beta turn by, on the average, twice, seen from their frame: (2, m), in 1/time."""
+        k, width = self.sphere, self.means.roots.width
+        angles = k.torques / k.far * (width / abs(k.near).scaled(1) * self._third[0] + ONE)
+        return chosen(k.torques.hi == 0, k.torques, angles)
+
+    @cached_property
+    def rates(self) -> DoubleDouble:
+        """The frequencies l of alpha and beta, and M, (3, m).
+
+        Of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error.
+        """
+        M, own = self.means.rate, self.angles.scaled(-1)
+        pair = self.sphere.frames + own - signed(M, self.zeros.sense)
+        return stacked(pair[0], pair[1], M)
+
+    @cached_property
+    def sums(self) -> Sums:
+        """The sums, of exp(i k y) times the depth's exponential to the power k, and of its inverse."""
+        zeros, square = self.zeros, self.means.nome * self.means.nome
+        up, sign = zeros.growth, np.where(zeros.beside, -1.0, 1.0)
+        down, weight, power = ONE / up, constant(1.0, self.means.nome), constant(1.0, self.means.nome)
+        more, less = up * up, down * down
+        even, odd = np.zeros((2, TERMS, *up.hi.shape))
+        terms, matters = np.ones(weight.hi.shape, dtype=int), np.ones(weight.hi.shape, dtype=bool)
+        zero = constant(0.0, up)
+        sums, ends = (zero, zero), (zero, zero)
+        for n, circle in zip(range(TERMS), multiples(*self.means.start), strict=False):
+            flip = self._signs[n] * np.where(zeros.beside, (-1.0) ** n, 1.0)
+            weights, lower = signed(weight, flip), signed(down, sign)
+            # a term that does not matter in a row is none of it, whatever the rows beside it need
+            a, b = (chosen(matters, weights * x, zero) for x in (up + lower, up - lower))
+            even[n], odd[n] = a.hi, b.hi
+            sums = sums[0] + a * circle[0], sums[1] + b * circle[1]
+            ends = ends[0] + a, ends[1] + signed(b, (-1.0) ** n)
+            power = power * square
+            up, down, weight = up * more, down * less, weight * power
+            size = weight.hi * np.maximum(up.hi, down.hi)
+            matters &= (size > NEGLIGIBLE * np.maximum(abs(even[0]), abs(odd[0]))).any(axis=0)
+            terms[matters] = n + 2
+            if not matters.any():
+                break
+        return Sums(even, odd, terms, sums, ends)
+
+    @cached_property
+    def _signs(self) -> list[Any]:
+        """Signs of the powers of the nome."""
+        return [np.where(self.means.four, 1.0, (-1.0) ** (n * (n + 1) // 2)) for n in range(TERMS)]
+
+    @cached_property
+    def change(self) -> Change:
+        """What Omega3 changes by."""
+        r, square = self.means.roots, self.means.nome * self.means.nome
+        weight, power = constant(1.0, square), constant(1.0, square)
+        zero = constant(0.0, square)
+        weights, at_low, at_high = np.zeros((TERMS, *square.hi.shape)), zero, zero
+        count = min(int(self.sums.terms.max(initial=1)), TERMS)
+        for n, (cos, sin) in zip(range(count), multiples(*self.means.start), strict=False):
+            signs = self._signs[n]
+            weight = chosen(self.sums.terms > n, weight, zero)
+            weights[n] = weight.hi * signs * (-1.0) ** n
+            at_low, at_high = at_low + signed(weight, signs * (-1.0) ** n) * sin, at_high + signed(weight, signs) * cos
+            power = power * square
+            weight = weight * power
+        by_low, by_high = (self._length(x) for x in self.sums.ends)
+        below, above = -r.low * by_low / (at_low * at_low), r.high * by_high / (at_high * at_high)
+        return Change(chosen(abs(at_low.hi) > abs(at_high.hi), below, above), weights)
+
+    def _length(self, sums: DoubleDouble) -> DoubleDouble:
+        """Return |alpha|^2 + |beta|^2 where the sums are these."""
+        x, y = self.sums.start
+        both = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
+        return both[0] + both[1]
+
+    @cached_property
+    def factors(self) -> tuple[Any, FloatArray]:
+        """What the sums are multiplied by, (2, m), complex, and its relative error."""
+        k, (x, y) = self.sphere, self.sums.start
+        size = x * x + y * y
+        lost = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
+        factors = (k.amplitudes * x / size).hi - 1j * (k.amplitudes * y / size).hi
+        return np.where(k.meets, self._by_slopes, factors) if k.meets.any() else factors, np.where(k.meets, 0.0, lost)
+
+    @property
+    def _by_slopes(self) -> Any:
+        """The same where alpha or beta is zero at the start: by its derivative."""
+        cos, sin = (x.hi for x in self.means.start)
+        terms = zip(range(1, 2 * TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
+        slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
+        return self.sphere.slopes / (2 * self.means.rate.hi * slopes)
+
+
+def multiples(cos: Any, sin: Any) -> Iterator[tuple[Any, Any]]:
+    """Yield cosines and sines of an angle times 1, 3, 5 ..., in doubles or in two words."""
+    cosine = cos * cos - sin * sin
+    twice, before, circle = cosine + cosine, (cos, -sin), (cos, sin)
+    while True:
+        yield circle
+        circle, before = (twice * circle[0] - before[0], twice * circle[1] - before[1]), circle
+
+
+def _steps(
+    levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
+) -> tuple[DoubleDouble, DoubleDouble]:
+    """Return what the steps from p = a + d on add to the sum after Q, and make of the depth, x = (a - g)/d."""
+    m, after = levels[0], levels[1]
+    whole, above, more = p * p + m.product, p + m.a, x + ONE
+    Q = (Q * (d * above + m.a * m.difference) / whole).scaled(-1)
+    term = (p + m.g) / (above * more)
+    x = x * x / more * p / after.sum.scaled(1)
+    # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
+    by_product = d * (d + m.difference) / p.scaled(1)
+    half = (p + m.product / p).scaled(-1)
+    p, d = better(after.a + by_product, half), better(half - after.a, by_product)
+    going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
+    ended = DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
+    if not going.any() or len(levels) == 2:
+        return ended
+    rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
+    rest = [Level(*(y[..., rows] for y in level.parts)) for level in levels[1:]]
+    Q, term, p, d, x = (y[..., rows] for y in (Q, term, p, d, x))
+    total, product = _steps(rest, p, d, x, Q)
+    return _where(going, rows, Q + total, ended[0]), _where(going, rows, (term * product).sqrt(), ended[1])
+
+
+def _where(going: Any, rows: Any, x: DoubleDouble, other: DoubleDouble) -> DoubleDouble:
+    """Return x, of some rows or of all, where a condition holds, and the other elsewhere."""
+    if isinstance(rows, slice):
+        return chosen(going, x, other)
+    words = [np.array(np.broadcast_to(y, other.hi.shape)) for y in (other.hi, other.low, other.rel)]
+    for word, y in zip(words, (x.hi, x.low, x.rel), strict=True):
+        word[:, rows] = y
+    return DoubleDouble(*words)

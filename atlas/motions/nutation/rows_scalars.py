@@ -1,0 +1,165 @@
+"""The scalars of many motions in arrays: kind, turning points, roots, period, moduli, nome and the angles of a period.
+
+What two words do not hold for certain is not certain, and is left to the motion made by itself: next to a separatrix or
+a triple root, where theta is all but constant, where the inputs are of very different sizes; and a top's roots.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.arithmetic.double_double import DoubleDouble, chosen
+from atlas.motions.nutation.rows_blocks import Block, Blocks
+from atlas.motions.nutation.rows_roots import plus
+
+IN_ARRAYS = (
+    "kind",
+    "turning_points",
+    "period",
+    "modulus",
+    "complementary_modulus",
+    "nome",
+    "precession_per_period",
+    "spin_per_period",
+)
+"""Scalars of motions of any kind that are made in arrays."""
+
+KINDS = (
+    "nutation, two real roots",
+    "nutation, four real roots",
+    "ball",
+    "at rest",
+    "precession",
+    "spin along the field",
+    "free body",
+)
+"""Kinds that are decided in arrays; what is nearer to a border than the error is none of them."""
+
+TOP_KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
+"""Those of tops."""
+
+HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 2.0**-106)
+
+
+class Rounded(NamedTuple):
+    """Values in one row (..., m), and where they are the nearest doubles for certain."""
+
+    values: Any
+    is_certain: Any
+
+
+class Scalars:
+    """Scalars of many motions: each is `Rounded`, evaluated with others that share its steps."""
+
+    def __init__(self, blocks: Blocks) -> None:
+        self.blocks = blocks
+        self._known: dict[str, Rounded] = {}
+
+    def __getitem__(self, name: str) -> Rounded:
+        """Return a scalar by its name."""
+        if name not in self._known:
+            self._fill(self._values(name))
+        return self._known[name]
+
+    def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
+        """Return what makes a scalar, and others with it."""
+        return _angles if name.endswith("per_period") else _scalars
+
+    def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:
+        """Evaluate some scalars."""
+        parts: dict[str, list[Rounded]] = {}
+        count = self.blocks.count
+        for block in self.blocks if count else type(self.blocks)((1.0,) * len(self.blocks.inputs), (1,)):
+            for name, scalar in values(block).items():
+                parts.setdefault(name, []).append(scalar)
+        for name, all_of_it in parts.items():
+            columns = (np.concatenate(x, axis=-1)[..., :count] for x in zip(*all_of_it, strict=True))
+            self._known[name] = Rounded(*columns)
+
+
+def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
+    """Return numbers of a block, homogeneous of a degree in the frequencies, rounded once."""
+    values, certain = x.nearest()
+    values = np.ldexp(values, degree * block.exponents)
+    return Rounded(
+        values, certain & block.fine & ((values == 0) | ((abs(values) > 2.0**-1000) & (abs(values) < np.inf)))
+    )
+
+
+def _scalars(block: Block) -> dict[str, Rounded]:
+    """Return kind, turning points, roots, period, moduli and nome of a block."""
+    with np.errstate(all="ignore"):
+        r = block.roots
+        is_field = r.top is None
+        known = r.exact & (~r.free if is_field else r.moving)
+        scalars = of_period(block) | ({} if is_field else _of_tops(block))
+        scalars = {name: Rounded(x.values, x.is_certain & known) for name, x in scalars.items()}
+        return scalars | _kinds(block) | _all_roots(block) if is_field else scalars
+
+
+def _of_tops(block: Block) -> dict[str, Rounded]:
+    """Return the turning points of tops, (2, m), and the kind as its place in TOP_KINDS."""
+    r = block.roots
+    low, high = (rounded((r.n3 - x) / r.b, block) for x in (r.high, r.low))
+    cubic, even = r.A.hi == 0, (r.a.hi == 0) & (r.A.hi == 0) if r.a else np.False_
+    codes = np.select([even, cubic, r.discriminant.hi > 0], [3, 2, 1], 0)
+    certain = (cubic | (r.discriminant.rel < 0.5)) & r.moving
+    ends = Rounded(np.array([low.values, high.values]), low.is_certain & high.is_certain)
+    return {"turning_points": ends, "kind": Rounded(codes, block.fine & certain)}
+
+
+def of_period(block: Block) -> dict[str, Rounded]:
+    """Return period, moduli and nome of a block."""
+    means, nome = block.means, block.means.nome
+    return {
+        "period": rounded(HALF_TURN / means.rate, block, -1),
+        "modulus": rounded(means.moduli[0], block),
+        "complementary_modulus": rounded(means.moduli[1], block),
+        "nome": rounded(chosen(means.four, nome, nome * nome), block),
+    }
+
+
+def _kinds(block: Block) -> dict[str, Rounded]:
+    """Return the kind as its place in KINDS."""
+    r = block.roots
+    steady = np.select([r.still, r.along], [3, 5], 4)
+    free, moving = np.where(r.still, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
+    codes = np.select([r.free, r.steady, r.ball], [free, steady, 2], moving)
+    apart = r.exact & (r.discriminant.rel < 0.5)
+    return {"kind": Rounded(codes, block.fine & (r.free | r.steady | (r.moving & (r.ball | apart))))}
+
+
+def _all_roots(block: Block) -> dict[str, Rounded]:
+    """Return the turning points, (2, m), and the roots of Q, (4, m)."""
+    r = block.roots
+    first, second, imaginary = r.others
+    low, high = (rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
+    ends = Rounded(np.array([low.values, high.values]), low.is_certain & high.is_certain & r.exact)
+    parts = [rounded(x, block, 1) for x in (r.omega[2] + first, r.omega[2] + second, imaginary)]
+    x, y, z = (x.values for x in parts)
+    two = (r.discriminant.hi <= 0) & ~r.ball
+    gone = r.ball | two
+    roots = np.sort([*ends.values, np.where(gone, np.inf, x), np.where(gone, np.inf, y)], axis=0).astype(complex)
+    roots[2:, two] = np.array([x - 1j * z, x + 1j * z])[:, two]
+    others = np.logical_and.reduce([x.is_certain for x in parts]) & (r.discriminant.rel < 0.5)
+    return {"turning_points": ends, "roots": Rounded(roots, ends.is_certain & (r.ball | others) & ~r.free)}
+
+
+def _angles(block: Block) -> dict[str, Rounded]:
+    """Return the angles of precession and of spin in one period."""
+    with np.errstate(all="ignore"):
+        r = block.roots
+        sphere, angles = block.pair.sphere, block.pair.angles
+        first, second = angles[0], angles[1]
+        half = (HALF_TURN / block.means.rate).scaled(-1)
+        spin = half * (first - second + plus(block.swing_rate, r.less * r.c3).scaled(1))
+        # the two angles of a ball are half a turn each, or none, and must not cancel
+        whole = HALF_TURN * DoubleDouble(np.sign(sphere.torques.hi[0]) - np.sign(sphere.torques.hi[1]))
+        both = {
+            "precession_per_period": half * (first + second - r.frame.scaled(1)),
+            "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), whole, spin),
+        }
+        known = r.exact & (~r.free & ~(r.steady & r.along) if r.top is None else r.moving)
+        of_period = {name: rounded(x, block) for name, x in both.items()}
+        return {name: Rounded(x.values, x.is_certain & known) for name, x in of_period.items()}

@@ -1,0 +1,113 @@
+"""The two vectors of constant length that move with Omega3, in two words, as in `certified_spheres`.
+
+Their poles are two values of v = Omega3 - omega3 beyond the turning points, one on each side: alpha is zero at
+the upper, beta at the lower.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
+from atlas.arithmetic.inputs import FloatArray
+from atlas.lazy import cached_property
+from atlas.motions.nutation.rows_roots import Roots, Turning
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Poles of alpha and beta and the torques there, (2, m): -Q is the square of a torque.
+
+    `amplitudes` are cosine and sine of half the polar angle at the start, `slopes` twice the derivatives of alpha and
+    beta there, for the one that is zero, `frames` the rates of the frame that both are seen from. `meets` tells where
+    the vector starts at a pole. `azimuth` are cosine and sine of its azimuth at the start, from the second axis to the
+    first; `sizes` are the factors from the unit sphere to the vector, across the axis and, with a sign, along it.
+    """
+
+    roots: Turning
+    poles: DoubleDouble
+    torques: DoubleDouble
+    amplitudes: DoubleDouble
+    meets: Any
+    slopes: Any
+    frames: DoubleDouble
+    azimuth: tuple[FloatArray, FloatArray]
+    sizes: tuple[FloatArray, FloatArray]
+
+    @cached_property
+    def far(self) -> DoubleDouble:
+        """Distances of the poles from the turning point that is farther away, (2, m)."""
+        return stacked(self.poles[0] - self.roots.low, self.roots.high - self.poles[1])
+
+    @cached_property
+    def near(self) -> DoubleDouble:
+        """Distances of the poles from the turning point that is nearer, (2, m), with their sign.
+
+        Where that cancels, since the vector all but meets the pole, they are the square of the torque over -f far.
+        """
+        f0, f1, f2 = self.roots.f
+        plain = stacked(self.poles[0] - self.roots.high, self.roots.low - self.poles[1])
+        beyond = -((f2 * self.poles + f1) * self.poles + f0)
+        by_torque = self.torques * self.torques / (beyond * self.far)
+        return better(plain, by_torque)
+
+
+def sphere_of_field(r: Roots) -> Sphere:
+    """Return the sphere of K, or of n in the body, and of the axis: the poles are where nu is -1 and 1.
+
+    The torques are b [(M, n) - nu M3] there. The frame is Larmor's, with the turn (1-I) c3 about the axis.
+    """
+    torques = r.n2 * r.M2 + r.I * r.c3 * r.poles
+    up, spin = r.n3.hi >= 0, r.less * r.c3
+    (w1, w2, _), there = (w.hi for w in r.omega), r.along & (torques.hi == 0) & (torques.rel < 0.5)
+    length = r.b.hi if r.top is None else np.ones_like(r.b.hi)
+    return Sphere(
+        roots=r,
+        poles=r.poles,
+        torques=torques,
+        amplitudes=half_angles(r.n3, abs(r.n2), r.b),
+        meets=there & np.array([~up, up]),
+        slopes=np.array([1j * w2 - w1, 1j * w2 + w1]),
+        frames=stacked(spin - r.frame, -(spin + r.frame)).scaled(-1),
+        azimuth=(np.where(r.n2.hi < 0, -1.0, 1.0), np.zeros_like(length)),
+        sizes=(length, length),
+    )
+
+
+def half_angles(along: DoubleDouble, across: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+    """Return cosine and sine, (2, m), of half the angle whose cosine and sine are along/b and across/b."""
+    longer = ((abs(along) / b + ONE).scaled(-1)).sqrt()
+    shorter = across / (longer * b).scaled(1)
+    up = along.hi >= 0
+    return stacked(chosen(up, longer, shorter), chosen(up, shorter, longer))
+
+
+def sphere_of_velocity(r: Roots) -> Sphere:
+    """Return the sphere of (Omega2, Omega1, -sqrt(I) Omega3), of the length sqrt(E'): the poles are Omega3 = ± `end`.
+
+    The torques are P(u) = u^2 - (2-I) c3 u + c5, which starts as omega2 B2; there is no frame.
+    """
+    w1, w2, w3 = r.omega
+    short, up = r.I.sqrt(), w3.hi <= 0
+    square = w1 * w1 + w2 * w2
+    end = (square / r.I + w3 * w3).sqrt()
+    longer = end + abs(w3)
+    shorter = square / (r.I * longer)
+    poles = stacked(chosen(up, longer, shorter), -chosen(up, shorter, longer))
+    torques = w2 * r.n2 + poles * (r.I * w3 - (r.less + ONE) * r.n3 + poles)
+    twice, across = end.scaled(1), square.sqrt()
+    larger, smaller = (longer / twice).sqrt(), (shorter / twice).sqrt()
+    there = (square.hi == 0) & (torques.hi == 0) & (torques.rel < 0.5)
+    turn = short.hi * r.n2.hi
+    return Sphere(
+        roots=r,
+        poles=poles,
+        torques=torques,
+        amplitudes=stacked(chosen(up, larger, smaller), chosen(up, smaller, larger)),
+        meets=there & np.array([~up, up]),
+        slopes=np.array([-turn, turn]) + 0j,
+        frames=constant(0.0, poles),
+        azimuth=(np.where(across.hi == 0, 1.0, (w1 / across).hi), np.where(across.hi == 0, 0.0, (w2 / across).hi)),
+        sizes=((short * end).hi, -end.hi),
+    )

@@ -1,0 +1,209 @@
+"""What the integral of nu adds to the turn of many tops about their axes, kappa times it, in arrays.
+
+It is that of `atlas.motions.nutation.certified_swing`, with v = M s, M = pi/T, s the time since the turning point next
+to where nu is infinite, and cosines and sines of a multiple of an angle c, cos^2 + A sin^2 = 1, which join across A =
+0:
+
+    integral of nu = rate t + (2/sqrt(|A|)) at(sqrt(|A|) O/E),
+    E = 1 + 2 sum (-1)^n q^(n^2) cos(n c) cos(2 n v),     O = -2 sum (-1)^n q^(n^2) sin(n c) sin(2 n v).
+
+The angle follows from the steps of Gauss's means: of the p that a pole at infinity has after the first step, p = a +
+A e^2 less than it, the turns by -g'/(p + g') are all that two steps differ by.
+"""
+
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant, signed
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.rotation_rows import PER_RADIAN
+from atlas.motions.nutation.rows_means import ENOUGH, Circle, Means
+from atlas.motions.nutation.rows_pair import TERMS
+from atlas.motions.nutation.rows_roots import Roots, Top
+
+STEPS = 60
+"""Most steps of the means."""
+
+KNOWN = 2.0**-64
+"""Radius to which the phase at t = 0 is known before it is rounded."""
+
+FAINT = 2.0**-72
+"""Part of the first term below which a term is left out."""
+
+TURN_ERROR = 2.0**-53
+"""Largest error, in radians, of half the turn."""
+
+Extended = Any
+"""Arrays in the longest type that the processor has."""
+
+LAST = float(np.finfo(np.longdouble).eps)
+
+
+class SwingSums(NamedTuple):
+    """The rate, and the weights of cos 2 n y in E and of sin 2 n y in O, (TERMS, m), y the phase since nu was largest.
+
+    `known` bounds the relative error of the weights.
+    """
+
+    rate: DoubleDouble
+    even: Extended
+    odd: Extended
+    known: FloatArray
+
+
+class Swings(NamedTuple):
+    """What turns times into half of the turn that is no multiple of time, of tops in a row, the last axis of each.
+
+    `factor` is kappa/sqrt(|A|), `size` sqrt(|A|), where A = 0 kappa and 0; `start` (2, m) are cosine and sine of 2 y at
+    t = 0, `before` is half the turn there; `slope` is what a radian of y may make of it; `fastest` is the largest rate.
+    """
+
+    twisted: Any
+    kappa: FloatArray
+    factor: Extended
+    size: Extended
+    sign: FloatArray
+    even: Extended
+    odd: Extended
+    start: Extended
+    before: Extended
+    slope: FloatArray
+    lack: FloatArray
+    known: FloatArray
+    fastest: FloatArray
+
+    @classmethod
+    def of(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
+        """Return it for the tops of a block."""
+        A, kappa, (cos, sin) = r.A, top.kappa, means.start
+        nothing = np.zeros((TERMS, *A.hi.shape), dtype=np.longdouble)
+        sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))
+        size = np.sqrt(abs(extended(A)))
+        start = np.array([extended(cos * cos - sin * sin), extended((cos * sin).scaled(1))])
+        turns = means.rate * PER_RADIAN
+        swings = cls(
+            twisted=top.twisted,
+            kappa=np.ldexp((kappa * r.b).hi, exponents),
+            factor=extended(kappa) / np.where(size == 0, 1, size),
+            size=size,
+            sign=np.sign(A.hi),
+            even=sums.even,
+            odd=sums.odd,
+            start=start,
+            before=nothing[0],
+            slope=abs(kappa.hi) * r.width.hi / means.rate.hi,
+            lack=np.ldexp(turns.hi * turns.rel, exponents),
+            known=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < KNOWN, sums.known, np.inf),
+            fastest=np.ldexp(top.rates, exponents),
+        )
+        return swings._replace(before=swings.half_of(*start)[0])
+
+    def half(self, phase: tuple[FloatArray, FloatArray], t: FloatArray) -> tuple[Extended, FloatArray]:
+        """Return half the turn since t = 0, and its error, at a phase whose half is in two words, in radians."""
+        angle = 4 * (phase[0].astype(np.longdouble) + phase[1])
+        (c, s), cos, sin = self.start, np.cos(angle), np.sin(angle)
+        turn, error = self.half_of(c * cos - s * sin, s * cos + c * sin)
+        return turn - self.before, 2 * error + np.pi * self.slope * self.lack * abs(t)
+
+    def half_of(self, cos: Extended, sin: Extended) -> tuple[Extended, FloatArray]:
+        """Return half the turn from cosine and sine of 2 y, and its error."""
+        even, odd, first, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
+        lost_even, lost_odd = abs(self.even[0]), 0 * abs(sin)
+        for n in range(1, TERMS):
+            if not (self.even[n].any() or self.odd[n].any()):
+                break
+            even, odd = even + self.even[n] * first[0], odd + self.odd[n] * first[1]
+            lost_even, lost_odd = lost_even + (n + 1) * abs(self.even[n]), lost_odd + (n + 1) * abs(self.odd[n])
+            first, before = tuple(2 * cos * x - y for x, y in zip(first, before, strict=True)), first
+        x = self.size * odd
+        turn = np.select([self.sign > 0, self.sign < 0], [np.arctanh(x / even), np.arctan2(x, even)], odd / even)
+        lost = (abs(even) * lost_odd + abs(odd) * lost_even) / abs(even * even - self.sign * x * x)
+        scale = np.where(self.sign == 0, 1, self.size)
+        return self.factor * turn, abs(self.factor * scale * lost * (8 * LAST + self.known)).astype(float)
+
+
+def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
+    """Return them for tops whose b nu at t = 0, and A over b^2, are these."""
+    r, square = means.roots, means.nome * means.nome
+    beside = r.ends.hi[0] < r.ends.hi[1]
+    size = abs(A).sqrt()
+    cos, sin = angle_of_infinity(means, A, size)
+    sense = np.where(beside, -1.0, 1.0)
+    even, odd = np.zeros((2, TERMS, *nu.hi.shape), dtype=np.longdouble)
+    even[0] = 1
+    one, zero = constant(1.0, nu), constant(0.0, nu)
+    first, before, twice = (cos, sin), (one, zero), cos.scaled(1)
+    weight, power, total, slope = means.nome.scaled(1), means.nome, one, zero
+    matters, known = np.ones(nu.hi.shape, dtype=bool), np.zeros(nu.hi.shape)
+    for n in range(1, TERMS):
+        c, s = _on_lattice(n, first, size, means.four)
+        a, b = (chosen(matters, weight * x, zero) for x in (c, signed(s, -sense)))
+        total, slope = total + a, slope + b.scaled(1) * constant(float(n), b)
+        turned = np.where(beside, (-1.0) ** n, 1.0)
+        even[n], odd[n] = extended(a) * turned, extended(b) * turned
+        known = np.where(matters, np.fmax(known, np.fmax(a.rel, b.rel)), known)
+        matters &= weight.hi * np.maximum(abs(c.hi), size.hi * abs(s.hi)) > FAINT
+        if not matters.any():
+            break
+        power = power * square
+        weight = weight * power
+        first, before = (twice * first[0] - before[0], twice * first[1] - before[1]), first
+    end = nu - chosen(beside, r.high, r.low)
+    rate = end - (means.rate * slope / total).scaled(1)
+    # where more terms matter nothing is known
+    rate, known = DoubleDouble(rate.hi, rate.lo, np.where(matters, np.inf, rate.rel)), np.where(matters, np.inf, known)
+    return SwingSums(rate, even, odd, known)
+
+
+def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle:
+    """Return the weights of a term but for the power of q: where two roots are complex, q is i q, and c is shifted."""
+    (cos, sin), sign = circle, np.where(four, (-1.0) ** n, (-1.0) ** ((n + 1) // 2))
+    if n % 2:
+        cos, sin = chosen(four, cos, size * sin), chosen(four, sin, cos / size)
+    return signed(cos, sign), signed(sin, sign)
+
+
+def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circle:
+    """Return cosine and sine of c, the sine over sqrt(|A|), which is `size`."""
+    r, m = means.roots, means.levels
+    fourth = r.ends.sqrt().sqrt()
+    roots = fourth * fourth
+    both = roots[0] + roots[1]
+    p = both.scaled(-2)
+    slope = r.f[1] + r.f[2] * (r.low + r.high)
+    lean = (abs(slope) * r.width / (both * (fourth[0] + fourth[1]))).scaled(-1)
+    broad = r.width / (p + chosen(means.four, m[0].a, m[0].g)).sqrt().scaled(2)
+    # a p is that of the larger mean plus A e^2 less than it, and that of the smaller one plus h^2
+    e, h = chosen(means.four, broad, lean / size), chosen(means.four, lean, size * broad)
+    root = m[0].difference.sqrt()
+    whole, turns, ended = (h / root, e / root), list[Circle](), list[Any]()
+    for n in range(STEPS):
+        level, after = means.level(n), means.level(n + 1)
+        twice, product = p.scaled(1), e * h
+        unit = (twice * after.sum).sqrt()
+        turns.append(((p + after.g) / unit, -(product / unit)))
+        ended.append(level.is_merged & (abs(turns[-1][1].hi) * size.hi < ENOUGH))
+        if ended[-1].all():
+            break
+        root = twice.sqrt()
+        p, e, h = (p + level.product / p).scaled(-1), product / root, (p - after.g) / root
+    one, zero = constant(1.0, p), constant(0.0, p)
+    rest = one, zero
+    for turn, done in zip(reversed(turns), reversed(ended), strict=True):
+        cos, sin = _turned(turn, rest, A)
+        larger = ((cos + ONE).scaled(-1)).sqrt()
+        # once nothing is added, what has been lost by then does not count
+        rest = chosen(done, one, larger), chosen(done, zero, sin / larger.scaled(1))
+    return _turned(whole, rest, A)
+
+
+def _turned(angle: Circle, other: Circle, A: DoubleDouble) -> Circle:
+    """Return cosine and sine of the sum of two angles."""
+    (a, b), (c, d) = angle, other
+    return a * c - A * b * d, a * d + b * c
+
+
+def extended(x: DoubleDouble) -> Extended:
+    """Return numbers in two words in the longest type."""
+    return x.hi.astype(np.longdouble) + x.low

@@ -1,0 +1,234 @@
+"""One motion whose axis nutates: its constants in balls, and what turns times into matrices and into Omega.
+
+The angular velocity of a body in a field has a pair (alpha, beta) of its own; that of a top follows from the slopes of
+the pair of its axis.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from flint import arb, fmpq
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.given import exact_number
+from atlas.arithmetic.inputs import FloatArray, largest, real
+from atlas.arithmetic.numbers import nearest, workprec
+from atlas.arithmetic.quaternions import between
+from atlas.arithmetic.rotation import combined, evaluate
+from atlas.errors import DomainError
+from atlas.lazy import cached_property
+from atlas.motions.nutation.cayley_klein import Evaluation, entries
+from atlas.motions.nutation.certified import Nutating
+from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.nutation.certified_top import TopMotion
+from atlas.motions.nutation.constants import FIRST, CayleyKlein
+from atlas.motions.nutation.exponentials import Exponentials, exponentials
+
+BITS = 60
+"""Relative accuracy of a scalar before it is rounded, once."""
+
+VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
+"""Weights of the products in the vector of length 1 that a pair (alpha, beta) stands for."""
+
+
+class SingleMotion:
+    """One motion whose axis nutates: its constants in balls, and what turns times into matrices.
+
+    `exact` is the motion with R(0) = 1.
+    """
+
+    def __init__(self, exact: Nutating) -> None:
+        self.exact = exact
+
+    @cached_property
+    def parts(self) -> CayleyKlein:
+        """Constants of the pair. Raises DomainError where floats do not hold it."""
+        exact = self.exact  # not of self, which holds the parts: memory would wait for the collector of garbage
+        parts = CayleyKlein(lambda: exact.solution)
+        if parts.lost:
+            raise DomainError(
+                "The body's axis passes the line of the field at an angle too small for a float: give a larger "
+                "angular velocity across the axis, or none."
+            )
+        return parts
+
+    @cached_property
+    def _tilt(self) -> list[float]:
+        """Cosine and sine of theta(0), and of chi(0)."""
+        # at the precision of the other constants, which share the sphere
+        c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST - 64)
+        with workprec(2 * BITS):  # else it would be that of the caller
+            return [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
+
+    @cached_property
+    def right(self) -> FloatArray:
+        """The turn about the body's axis at t = 0."""
+        _, _, C, S = self._tilt
+        return np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
+
+    @cached_property
+    def left(self) -> FloatArray:
+        """What stands before the matrix of (alpha, beta)."""
+        cos, sin, _, _ = self._tilt
+        tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
+        return np.asarray(self.right.T @ tilt)
+
+    @cached_property
+    def entries(self) -> FloatArray:
+        """Weights of the products in the entries of R, (10, 9)."""
+        return entries(self.left, self.right)
+
+    @cached_property
+    def field(self) -> FloatArray:
+        """Weights of the products in K, (10, 3)."""
+        with workprec(2 * BITS):
+            b = nearest(arb(self.exact.b))
+        return np.asarray(b * VECTOR @ self.right)
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return self._linear(self.entries, t, (3, 3), out)
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return self._linear(np.ascontiguousarray(self.entries[:, j - 1 :: 3]), t, (3,), out)
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+
+        def prepare(size: int) -> Any:
+            """Return what fills a block."""
+            evaluation = Evaluation(self.parts, size, signed=True)
+
+            def fill(times: FloatArray, rows: FloatArray) -> None:
+                q = evaluation.parts(times)
+                q /= np.sqrt((q * q).sum(axis=0))
+                np.matmul(q.T, self._sides, out=rows)
+
+            return fill
+
+        return evaluate(real(t, "The time"), (4,), out, prepare)
+
+    @cached_property
+    def _sides(self) -> FloatArray:
+        """What takes the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
+        sides = between(self.left, self.right)[[3, 0, 2, 1]]
+        start = Evaluation(self.parts, 1, signed=True).parts(np.zeros(1))[:, 0] @ sides
+        return np.asarray(-sides if start[3] < 0 else sides)
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return self._linear(self.field, t, (3,), out)
+
+    @cached_property
+    def exponentials(self) -> tuple[Exponentials, Exponentials] | None:
+        """Alpha and beta as sums of exponentials for use on a grid, None where these would cancel or be too many."""
+        return exponentials(self.exact, self.parts.precision)
+
+    def _linear(
+        self,
+        weights: FloatArray,
+        t: Any,
+        shape: tuple[int, ...],
+        out: FloatArray | None,
+        parts: CayleyKlein | None = None,
+    ) -> FloatArray:
+        """Return linear combinations of the products of alpha and beta, or of another pair."""
+
+        def prepare(size: int) -> Any:
+            """Return what fills a block."""
+            evaluation = Evaluation(parts or self.parts, size)
+            return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
+
+        return evaluate(real(t, "The time"), shape, out, prepare)
+
+
+NEAR, SLENDER = 2.3, 1.45
+"""By how much the largest value that Omega3 could have may exceed the largest component of Omega at a time, and, of the
+largest Omega across the axis, where it never does: sqrt(1/I) for I > 0.48."""
+
+FEW = 16
+"""Times for which balls are made at once."""
+
+
+class SingleGeneral(SingleMotion):
+    """One general motion."""
+
+    exact: GeneralMotion
+
+    @cached_property
+    def velocity(self) -> tuple[CayleyKlein, FloatArray, float, float]:
+        """The pair (alpha, beta) of (Omega2, Omega1, -sqrt(I) Omega3), the weights of its products in Omega, and sizes.
+
+        The sizes are the largest that Omega across and along the axis could be, sqrt(E') and sqrt(E'/I).
+        """
+        parts = CayleyKlein(lambda: self.exact.velocity)
+        sizes = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
+        C, S, across, along = (float(x.mid()) for x in sizes)
+        turn = np.array([[-S * across, C * across, 0], [C * across, S * across, 0], [0, 0, -along]])
+        return parts, VECTOR @ turn, across, along
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t), shape (..., 3)."""
+        parts, weights, across, along = self.velocity
+        Omega = self._linear(weights, t, (3,), out, parts)
+        # Omega3 is within some u of the largest that it could be; of a slender body that exceeds all there is of Omega
+        if along > SLENDER * across:
+            rows = Omega.reshape(-1, 3)
+            small = np.flatnonzero(along > NEAR * largest(rows))
+            rows[small, 2] = self._third(np.ravel(real(t, "The time"))[small])
+        return Omega
+
+    def _third(self, t: FloatArray) -> FloatArray:
+        """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""
+        out, left = np.empty((t.size, 3)), np.arange(t.size)
+        if t.size > FEW:
+            from atlas.motions.nutation.rows import MotionsAtTimes, Rows
+            from atlas.motions.nutation.rows_blocks import Blocks
+
+            exact = self.exact
+            inputs = [exact_number(x) for x in (fmpq(1), exact.I, *exact.field, *exact.omega)]
+            rows = Rows(Blocks(inputs, (1,)), MotionsAtTimes).at(np.zeros(t.size, dtype=int), t)
+            rows.angular_velocity(t, out)
+            left = rows.extreme
+        for i in left.tolist():
+            third = partial(lambda time: self.exact.angular_velocity(time)[2], float(t[i]))
+            out[i, 2] = nearest(enclosed(third, BITS))
+        return out[:, 2]
+
+
+class SingleTop(SingleMotion):
+    """One motion of a top: its constants in balls, and what turns times into matrices."""
+
+    exact: TopMotion
+
+    @cached_property
+    def _sloping(self) -> CayleyKlein:
+        """The pair with its derivatives by time."""
+        return CayleyKlein(lambda: self.exact.solution, slopes=True)
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t), shape (..., 3): twice the vector part of the quaternion's logarithmic derivative."""
+        kappa = nearest(self.exact.quartic.kappa) if self._sloping.swing else 0.0
+
+        def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
+            """Return what fills a block."""
+            evaluation = Evaluation(self._sloping, size)
+
+            def fill(times: FloatArray, rows: FloatArray) -> None:
+                q = evaluation.parts(times)
+                (w, x, z, y), (dw, dx, dz, dy) = q[:4], q[4:]
+                up, down = w * w + z * z, x * x + y * y
+                half = (up + down) / 2
+                turn = (
+                    (w * dx - x * dw - y * dz + z * dy) / half,
+                    (w * dy - y * dw - z * dx + x * dz) / half,
+                    (w * dz - z * dw - x * dy + y * dx) / half + kappa * (up - down) / (up + down),
+                )
+                np.matmul(np.array(turn).T, self.right, out=rows)
+
+            return fill
+
+        return evaluate(real(t, "The time"), (3,), out, prepare)

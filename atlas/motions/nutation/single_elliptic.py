@@ -1,0 +1,67 @@
+"""One motion in Jacobi's functions, elliptic or of a free body: what turns times into matrices and into Omega."""
+
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import rounded
+from atlas.arithmetic.rotation import target
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
+from atlas.motions.nutation.single import BITS, SingleMotion
+
+WITHIN = 3.6e-15
+"""Bound on errors of entries of R, and of the vector that turns like K, beside its length."""
+
+
+class SingleElliptic(SingleMotion):
+    """One elliptic motion: its constants in balls, and what turns times into matrices."""
+
+    exact: EllipticMotion
+
+    def __init__(self, exact: EllipticMotion) -> None:
+        super().__init__(exact)
+
+    @cached_property
+    def right(self) -> FloatArray:
+        """The turn about the body's axis at t = 0, after its axes have changed their places."""
+        return np.asarray(super().right @ np.eye(3)[list(self.exact.places)])
+
+    @cached_property
+    def _rates(self) -> FloatArray:
+        """Factors from K to Omega."""
+        rates = enclosed(lambda: [arb(E - self.exact.frame) for E in self.exact.E], BITS)
+        return np.array([float(x.mid()) for x in rates])
+
+    def accuracy(self, size: float) -> float:
+        """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
+        return float(WITHIN * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""
+        Omega = self._linear(self.field, t, (3,), out)
+        Omega *= self._rates
+        return Omega
+
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
+        from atlas.motions.nutation.grid import fill_grid
+
+        fill_grid(self, start, step, out)
+
+
+class SingleEulerTop(SingleElliptic):
+    """One free body, or one that spins about a principal axis along a `field` in it, which stays."""
+
+    def __init__(self, exact: EulerTop, field: FloatArray) -> None:
+        super().__init__(exact)
+        self._constant = field
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K, which is constant, shape (..., 3)."""
+        K = target(out, (*np.shape(t), 3))
+        K[...] = self._constant
+        return K

@@ -1,0 +1,174 @@
+"""The further turn of a top about its axis, kappa times the integral of nu, at many times: its part that is periodic.
+
+It is (2 kappa/sqrt(|A|)) at(sqrt(|A|) O/E), at = arctan for A < 0 and artanh for A > 0, of
+`atlas.motions.nutation.certified_swing`; where A is zero 2 kappa O/E. So it goes through A = 0 without a gap:
+O/sqrt(|A|) was formed in balls before it was rounded.
+"""
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import arb
+from numpy.typing import NDArray
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.motions.nutation.certified_cayley_klein import infinite
+from atlas.motions.nutation.certified_swing import Crossing as ExactCrossing
+from atlas.motions.nutation.certified_swing import Swing as Exact
+
+Numbers: TypeAlias = NDArray[Any]
+"""Numbers of the type."""
+
+NEGLIGIBLE, ACCURATE = 2.0**-60, 2.0**-60
+"""Part of the first term below which a term is left out, and of itself to which a term is known before rounding."""
+
+MERGED = 2.0**-500
+"""Part of kappa, a frequency like sqrt(|A|), below which that is so small that the function `at` is its argument."""
+
+FAR = 18.0
+"""From there on exp(2 x) + 1 is exp(2 x)."""
+
+
+HALF_TURN = 4 * np.arctan(np.longdouble(1))
+"""pi in extended precision."""
+
+LARGE, STEEP = 2.0, 16.0
+"""Angle, and change of it by a radian of the phase, from which on a double is too coarse, and extended precision is
+taken where the processor has it."""
+
+ALLOWED = 2.0**-54
+"""Last digit of half the turn, in radians, beyond which that is too coarse as well, and balls are taken."""
+
+
+class Swing:
+    """Half of the periodic part, in radians, as a function of the time in a period; in numbers of `type`.
+
+    `twist` is what is proportional to that time, in radians by half turns of v, if there is a period.
+    """
+
+    def __init__(self, exact: Exact) -> None:
+        lattice, size = exact.lattice, abs(exact.A).sqrt()
+        largest, steepest = exact.largest, exact.steepest
+        self.type = np.longdouble if not (largest < LARGE and steepest < STEEP) else np.float64
+        self.form, self.reach = lattice.form, lattice.reach
+        merged = not size > MERGED * abs(exact.kappa)
+        self.sign = 0 if merged else 1 if exact.A > 0 else -1
+        self.factor = self._number(exact.kappa if merged else exact.kappa / size)
+        if not infinite(lattice.half):
+            self.twist = self._number(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
+            steepest += abs(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
+        self.is_coarse = self.is_large and not (steepest + largest) * float(np.finfo(self.type).eps) < ALLOWED
+        odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
+        odd = odd if merged else [x * size for x in odd]
+        count = max(self._needed(odd), self._needed(even))
+        odd, even = odd[:count], even[:count]
+        known = all(_is_known(x, max(abs(y).mid() for y in weights)) for weights in (odd, even) for x in weights)
+        self.is_known = known and bool(largest.is_finite())
+        self.odd, self.even = (np.array([self._number(x) for x in weights], dtype=self.type) for weights in (odd, even))
+        self.depth = self._number(exact.depth)
+        self.fall = self._number(-2 * self.reach)
+
+    @property
+    def is_large(self) -> bool:
+        """Whether extended precision is taken."""
+        return self.type is np.longdouble
+
+    def _number(self, x: arb | int) -> Any:
+        """Return the middle of a ball as a number of the type."""
+        middle = arb(x).mid()
+        head = float(middle)
+        return self.type(head) + self.type(float(middle - head))
+
+    def _needed(self, weights: list[arb]) -> int:
+        """Return how many terms matter."""
+        grown = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
+        largest = max(grown, key=lambda x: float(x.mid()))
+        return max((n + 1 for n, x in enumerate(grown) if not x < NEGLIGIBLE * largest), default=1)
+
+    def half_at(self, multiple: int, half: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return it from half phases and what rounding left out of them, 2v being a multiple, rounded once."""
+        v = multiple * self._sum(half, rest)
+        return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
+
+    def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return half of the whole turn where there is no period: `half` is that of its rate, x + rest = rate s."""
+        return half + self._rounded(self.of_line(self._sum(x, rest)))
+
+    def half_on_line(self, x: FloatArray, rest: FloatArray, v: FloatArray, left: FloatArray) -> FloatArray:
+        """Return it from x + rest = rate s and, within a period, v + left, half a phase; rounded once."""
+        return self._rounded(self.of_line(self._sum(x, rest)) + self.twist * self._sum(v, left))
+
+    def _sum(self, x: FloatArray, rest: FloatArray) -> Numbers:
+        """Return the sum of two doubles as a number of the type."""
+        return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(rest, dtype=self.type))
+
+    def _rounded(self, angle: Numbers) -> FloatArray:
+        """Return an angle as doubles; a large one less whole turns."""
+        if self.is_large:
+            angle = np.remainder(angle + HALF_TURN, 2 * HALF_TURN) - HALF_TURN
+        return np.asarray(angle, dtype=np.float64)
+
+    def of_circle(self, cos: Numbers, sin: Numbers) -> Numbers:
+        """Return it from cos 2v and sin 2v, v = rate s: trigonometric sums of multiples of 2v (Clenshaw)."""
+        twice = cos + cos
+        even, last_even, odd, last_odd = (np.zeros_like(cos) for _ in range(4))
+        for a, b in zip(self.even[:0:-1], self.odd[:0:-1], strict=True):
+            even, last_even = a + twice * even - last_even, even
+            odd, last_odd = b + twice * odd - last_odd, odd
+        return self._at(odd * sin, self.even[0] + cos * even - last_even)
+
+    def of_line(self, x: Numbers) -> Numbers:
+        """Return it from x = rate s, where the sums are hyperbolic or linear."""
+        if self.form == "linear":
+            return self._at(self.odd[0] * x, np.full_like(x, self.even[0]))
+        size = np.abs(x)
+        if self.sign > 0:
+            return np.asarray(self.factor * np.copysign(self._between(size), x * self.odd[0]))
+        odd, even = np.zeros_like(x), np.zeros_like(x)
+        for n, (a, b) in enumerate(zip(self.odd, self.even, strict=True)):
+            up, down = np.exp(2 * n * size), np.expm1(-2 * (2 * n + 1) * size)
+            odd -= a * up * down
+            even += b * up * (2.0 + down)
+        return self._at(np.copysign(1.0, x) * odd, even)
+
+    def _between(self, x: Numbers) -> Numbers:
+        """Return its size for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
+        d, nearer = self.depth, np.minimum(x, self.depth)
+        odd, rest = np.zeros_like(x), np.zeros_like(x)
+        for n in range(self.odd.size):
+            k, fallen = 2 * n + 1, n * (n + 1) * self.fall
+            odd += np.exp(2 * n * (x + d) + fallen) * np.expm1(-2 * k * x) * np.expm1(-2 * k * d)
+            rest += np.exp(2 * n * x - (k + 1) * d + fallen + 2 * nearer)
+            rest += np.exp(2 * n * d - (k + 1) * x + fallen + 2 * nearer)
+        ratio = odd / rest
+        near = np.log1p(ratio * np.exp(2 * np.minimum(nearer, FAR)))
+        with np.errstate(divide="ignore"):
+            far = np.log(ratio) + 2 * nearer
+        return np.asarray(np.where(nearer < FAR, near, far) / 2)
+
+    def _at(self, odd: Numbers, even: Numbers) -> Numbers:
+        """Return the turn of O and E."""
+        if self.sign < 0:
+            return np.asarray(self.factor * np.arctan2(odd, even))
+        return np.asarray(self.factor * (np.arctanh(odd / even) if self.sign else odd / even))
+
+
+class Crossing:
+    """Half of the turn on the separatrix between n and -n: its rate changes sign where x = slope s/2 does."""
+
+    is_known, is_large = True, False
+
+    def __init__(self, exact: ExactCrossing) -> None:
+        self.sense, self.factor = exact.sense, float((exact.kappa / (2 * exact.slope)).mid())
+        self.is_coarse = not abs(self.factor) < LARGE
+
+    def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""
+        s = x + rest
+        logarithm = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
+        return np.asarray(self.sense * (np.where(s < 0, -half, half) + logarithm))
+
+
+def _is_known(x: arb, largest: arb) -> bool:
+    """Whether a weight is known to itself, or too small to matter."""
+    return bool(x.rad() <= ACCURATE * abs(x.mid()) or x.rad() <= ACCURATE**2 * largest)

@@ -1,0 +1,146 @@
+"""The hyperbola of steady precessions of a symmetric top, theorem-top-hyperbola, and their stability."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.dimensions import ENERGY, RATE
+from atlas.arithmetic.double_double import over
+from atlas.arithmetic.inputs import FloatArray, number, plain, positive, real, whole
+from atlas.arithmetic.numbers import nearest, rounded
+from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
+from atlas.display import Shown
+from atlas.errors import DomainError
+from atlas.motions.nutation.kernel_top import TopMotion
+from atlas.surfaces import formula_top as top
+from atlas.surfaces.certified_top import TopHyperbola as Exact
+from atlas.surfaces.kernel import TopQuadric
+
+Branch = tuple[FloatArray, FloatArray]
+"""Points (omega2, omega3) of one branch."""
+
+
+def halves(points: Any) -> tuple[int, int]:
+    """Split a number of points between two branches."""
+    count = whole(points, "The number of points of two branches", 2)
+    return count - count // 2, count // 2
+
+
+BITS = 64
+"""Digits of the ends of a band, before they are rounded once."""
+
+
+class TopHyperbola(Shown):
+    """The curve omega1 = 0 of `TopQuadric`: n3 w^2 - I n2 w v + n2^2 n3 D = 0, each point a steady precession.
+
+    The inputs are those of `TopMotion` without omega, of one top with n2 not zero; w, v and D as in `TopQuadric`. The
+    motion at omega2 is R(t) = R_n(k t) R_z(phi t), k = omega2/n2, phi = omega3 - n3 k: the paper's (85) for every top.
+    Its pole w = 0, omega2 = -n2 k3/I3, is left out. Raises DomainError for n2 = 0, AtlasError as `TopMotion` does.
+    """
+
+    made_by = "Hyperbola.of_top"
+
+    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: float, quadratic: float) -> None:
+        linear, quadratic = number(linear, "linear", ENERGY), number(quadratic, "quadratic", ENERGY)
+        self._top = [number(x, "A parameter") for x in inputs_of_top(inertia, coupling, direction, linear, quadratic)]
+        self.arguments = arguments_of(self._top)
+        I2, I3, k2, k3, n2, n3, *_ = self._top
+        self.given = (I2, I3), (k2, k3), (n2, n3), linear, quadratic
+        self.quadric = TopQuadric(*self.given)
+        self._exact = Exact(*self.given)
+
+    @property
+    def pole(self) -> float:
+        """The omega2 = -n2 k3/I3 that is left out, rounded once."""
+        return float(self.quadric.centre[1])
+
+    @property
+    def asymptotes(self) -> tuple[FloatArray, FloatArray]:
+        """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes: the pole's, and (I n2, n3)."""
+        I2, I3, _, _, n2, n3, *_ = self._top
+        along = np.array([I3 * n2, I2 * n3])
+        return np.array([0.0, 1.0]), along / np.hypot(*along)
+
+    def omega3(self, omega2: Any) -> Any:
+        """Ordinate omega3 at omega2, rounded once. DomainError at the pole; AtlasError for what is no number."""
+        return self._over(top.omega3, self._exact.omega3, omega2)
+
+    def frequencies(self, omega2: Any) -> tuple[Any, Any]:
+        """Rates k = omega2/n2 of precession about n and phi = omega3 - n3 k of the turn about the axis.
+
+        DomainError at the pole; AtlasError for what is no number.
+        """
+        k, phi = self._over(top.frequencies, self._exact.frequencies, omega2, degree=(1, 1))
+        return k, phi
+
+    def stability(self, omega2: Any) -> Any:
+        """Square of the frequency of small nutations, in 1/time^2, theorem-top-nutation; unstable where negative.
+
+        Where it is zero see `stable`. DomainError at the pole; AtlasError for what is no number.
+        """
+        return self._over(top.stability, self._exact.stability, omega2)
+
+    def stable(self, omega2: Any) -> Any:
+        """Whether the motion at omega2 is stable against nutation, decided exactly: True, or an array of booleans.
+
+        DomainError at the pole; AtlasError for what is no number.
+        """
+        values = real(omega2, "omega2", RATE)
+        stable = np.array([self._exact.stable(float(x)) for x in values.flat], dtype=bool).reshape(values.shape)
+        return stable if stable.ndim else bool(stable)
+
+    @property
+    def unstable_bands(self) -> list[tuple[float, float]]:
+        """Intervals of omega2 in which the motions are unstable, none to two; the ends belong to them, rounded once.
+
+        They are real roots of a quartic whose coefficients are exact; `atlas.surfaces.certified_top` has them as balls.
+        """
+        ends = enclosed(lambda: self._exact.unstable_bands, BITS)
+        return [(nearest(low), nearest(high)) for low, high in ends]
+
+    def motion(self, omega2: float, omega1: float = 0.0) -> TopMotion:
+        """Return the motion at omega2, with `omega1` to push it; omega3 is that of the curve, rounded once.
+
+        Raises DomainError at the pole, AtlasError for what is no number.
+        """
+        inertia, coupling, direction, linear, quadratic = self.given
+        return TopMotion(inertia, coupling, direction, (omega1, omega2, self.omega3(omega2)), linear, quadratic)
+
+    def sample(self, points: int = 200, *, reach: float = 4.0) -> Branch:
+        """Points (omega2, omega3) of both branches, one after the other; see `branches`."""
+        first, second = zip(*self.branches(points, reach=reach), strict=True)
+        return np.concatenate(first), np.concatenate(second)
+
+    def branches(self, points: int = 200, *, reach: float = 4.0) -> tuple[Branch, Branch]:
+        """Branches of the curve as arrays (omega2, omega3), w > 0 first, spread evenly in the logarithm of |w|.
+
+        |w| runs from where |v| to where |w| is `reach` times b, the distance of the centre from rest or, if larger,
+        sqrt|D|. Each omega3 is that of the double omega2, rounded once. DomainError where the curve is two straight
+        lines, n3 = 0 without a linear potential, AtlasError for fewer than two points.
+        """
+        I2, I3, _, _, n2, n3, a0, _ = self._top
+        if n3 == 0 and a0 == 0:
+            raise DomainError("With n3 = 0 and no linear potential the curve is the two lines w = 0 and v = 0.")
+        across = abs(n2) / np.hypot(n2, n3)
+        D = 0.0 if n3 == 0 else abs(float(self.quadric.D))
+        push = abs(a0) / I2 * across if n3 == 0 else D * abs(n3 / n2) * across**2
+        b = max(float(np.hypot(*self.quadric.centre[1:])), D**0.5, push**0.5)
+        high = positive(reach, "reach") * (b or 1.0)
+        low = min(push * I2 / I3 / high or 1e-3 * high, high / np.e)
+        right, left = (np.geomspace(low, high, n) for n in halves(points))
+        return self._branch(1, right), self._branch(-1, left)
+
+    def _branch(self, sign: int, w: FloatArray) -> Branch:
+        """Return the points at these |w| on one side of the pole."""
+        omega2 = sign * w + self.pole
+        beside = np.nextafter(self.pole, sign * np.inf)
+        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, beside)
+        return omega2, np.asarray(self.omega3(omega2))
+
+    def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
+        """Return what a formula gives at omega2, rounded once. DomainError at the pole."""
+        values, alone = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
+        return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=alone)

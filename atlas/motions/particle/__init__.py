@@ -1,0 +1,1 @@
+"""The point charge, and the flight of a point of the body."""

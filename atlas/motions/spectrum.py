@@ -1,0 +1,294 @@
+"""Lines of a motion: what R(t), the body's axis, Omega and the field in the body are made of, as sums of exp(i f t).
+
+Every motion but a separatrix is R(t) = R_n(p t) S(M t) R_a(s t): a turn about n in the laboratory, one about an axis a
+of the body, and S of period 2 pi, of one nutation, of two phases for three moments, or none. By Rodrigues a turn has
+the frequencies -1, 0 and 1: all are m M + l p + j s, of closed form. The amplitudes are Fourier integrals of S over its
+phases; the trapezoidal rule has them to rounding, since its error falls as a power of the nome.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from flint import arb, fmpq
+from numpy.typing import NDArray
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.dimensions import TIME, bare
+from atlas.arithmetic.inputs import FloatArray, finite, number, real, scaled
+from atlas.arithmetic.numbers import nearest
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.nutation.certified_cayley_klein import infinite
+from atlas.motions.nutation.single import BITS, SingleMotion
+from atlas.motions.torus.theta import ThetaKernel
+
+OF = ("rotation", "axis", "angular_velocity", "field")
+"""What may be asked for."""
+
+LEAST = 1e-13
+"""Least amplitude that rounding does not hide."""
+
+SETTLED = 2.0**-46
+"""Amplitude beside the largest below which the outermost ones must be."""
+
+FIRST, LAST = {1: 64, 2: 16}, {1: 1 << 17, 2: 1 << 10}
+"""Points along a phase with which amplitudes are tried first, and most of them, by the number of phases."""
+
+SAME = 2.0**-44
+"""Frequencies are one where they differ by less than this part of the largest."""
+
+PART = 1 << 14
+"""Points of the torus at once."""
+
+Array = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Lines of one function of time, f(t) = sum of amplitudes exp(i frequencies t); called with t it is that sum.
+
+    `frequencies` (N,), ascending, both signs of each, in 1/time; `amplitudes` (N, ...) of the shape of the function,
+    those of opposite frequencies conjugate; `combinations` (N, k), whole numbers whose products with the `rates` (k,),
+    `names` of which say what turns, add up to the frequencies; where several do, the shortest stands. `mean_square` is
+    the mean over all times of the sum of squares, of which `power`, the squares of each line, add up to what the lines
+    that are left out leave (Parseval).
+    """
+
+    of: str
+    names: tuple[str, ...]
+    rates: FloatArray
+    frequencies: FloatArray
+    amplitudes: Array
+    combinations: NDArray[np.intp]
+    mean_square: float
+
+    @property
+    def power(self) -> FloatArray:
+        """Sum of the squared amplitudes of each line, (N,)."""
+        return _power(self.amplitudes)
+
+    def __call__(self, t: Any) -> FloatArray:
+        """Return the sum of the lines at times of any shape."""
+        times = real(bare(t, "The time", TIME), "The time")
+        phases = np.exp(1j * np.multiply.outer(times, self.frequencies))
+        return np.asarray(np.tensordot(phases, self.amplitudes, 1).real)
+
+    def __repr__(self) -> str:
+        """Return how many lines there are, and of what."""
+        return f"<Spectrum of {self.of}: {len(self.frequencies)} lines, {', '.join(self.names)}>"
+
+
+class Wheels(NamedTuple):
+    """A motion as R_n(p t) S R_a(s t): n in the laboratory and p, a in the body and s, and the rates of phases of S.
+
+    `at` gives S, and Omega or K without the turn about a, at phases (d, m).
+    """
+
+    n: FloatArray
+    p: float
+    a: FloatArray
+    s: float
+    phases: FloatArray
+    at: Callable[[str, FloatArray], FloatArray]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the rates: of the phases, of p and of s."""
+        return (
+            ("f1", "f2", "f3", "spin")
+            if len(self.phases) > 1
+            else ("nutation", "precession", "spin")[-len(self.rates) :]
+        )
+
+    @property
+    def rates(self) -> FloatArray:
+        """All rates."""
+        return np.array([*self.phases, self.p, self.s])
+
+
+def spectrum(motion: Any, of: str, least: float) -> Spectrum:
+    """Return the lines of a motion, see `Motion.spectrum`."""
+    if of not in OF:
+        raise AtlasError(f"A motion has no spectrum of {of!r}: choose from {', '.join(OF)}.")
+    if motion.shape:
+        raise AtlasError(f"A spectrum is that of one motion, not of an array of them, of shape {motion.shape}.")
+    least = number(least, "least")
+    if not LEAST <= least < 1:
+        raise AtlasError(f"least is a part of the whole from {LEAST:g} to 1, not {least:g}.")
+    if of == "field" and not hasattr(motion, "field_in_body"):
+        raise AtlasError(f"A {type(motion).__name__} has no field in the body.")
+    wheels = wheels_of(motion)
+    indices, S = coefficients(lambda x: wheels.at(of, x), len(wheels.phases))
+    left, right, moves = _turn(wheels.n, wheels.p), _turn(wheels.a, wheels.s), of in ("rotation", "axis")
+    combinations, amplitudes = [], []
+    for l in left if moves else (0,):
+        for j, after in right.items():
+            amplitudes_of_line = left[l] @ S @ after if moves else S @ after  # that of R_a(-s t) at -j
+            amplitudes.append(amplitudes_of_line[..., 2] if of == "axis" else amplitudes_of_line)
+            combinations.append(np.column_stack([indices, np.full((len(indices), 2), (l, j))]))
+    return _sorted(of, wheels, np.concatenate(combinations), np.concatenate(amplitudes), least)
+
+
+def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
+    """Return lines in the order of their frequencies, those of one frequency added."""
+    frequencies, unit = combinations @ wheels.rates, _size(amplitudes)
+    size = _power(amplitudes, unit)
+    lines = np.flatnonzero(size > (LEAST * 1e-3) ** 2 * size.max())
+    order = lines[np.lexsort((abs(combinations[lines]).sum(1), frequencies[lines]))]
+    frequencies, combinations, amplitudes = frequencies[order], combinations[order], amplitudes[order]
+    apart = np.diff(frequencies, prepend=-np.inf) > SAME * abs(frequencies).max(initial=0.0)
+    starts = np.flatnonzero(apart)
+    shortest = [i + int(np.argmin(abs(combinations[i:k]).sum(1))) for i, k in pairwise([*starts, len(frequencies)])]
+    amplitudes = np.add.reduceat(amplitudes, starts)
+    power = _power(amplitudes, unit)
+    whole = float(power.sum())
+    mean_square = whole * unit * unit
+    if whole and not np.finfo(float).tiny <= mean_square < np.inf:
+        raise DomainError(f"The mean square of the {of} is too large or too small for a float: choose other units.")
+    lines = np.flatnonzero(power >= least * least * whole)
+    combinations = combinations[shortest][lines]
+    there = np.flatnonzero(combinations.any(0))
+    names = tuple(wheels.names[i] for i in there)
+    return Spectrum(
+        of, names, wheels.rates[there], combinations[:, there] @ wheels.rates[there], amplitudes[lines],
+        combinations[:, there], mean_square,
+    )  # fmt: skip
+
+
+def _power(amplitudes: Array, unit: float = 1.0) -> FloatArray:
+    """Return the sum of squares of each line in that unit, (N,)."""
+    return np.asarray(((abs(amplitudes) / unit) ** 2).sum(axis=tuple(range(1, amplitudes.ndim))))
+
+
+def _size(amplitudes: Array) -> float:
+    """Return the power of two of the largest amplitude, over which squares are floats."""
+    return float(np.ldexp(1.0, np.frexp(abs(amplitudes).max())[1] - 1))
+
+
+def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
+    """Return the amplitudes of the turn about n, by Rodrigues: of the frequencies -1, 0 and 1, of 0 if it stands."""
+    if not rate:
+        return {0: np.eye(3, dtype=complex)}
+    along, across = np.outer(n, n), np.cross(n, np.eye(3)).T
+    parts = np.array([(np.eye(3) - along) / 2 + 0.5j * across, along, (np.eye(3) - along) / 2 - 0.5j * across])
+    return dict(zip((-1, 0, 1), parts, strict=True))
+
+
+def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
+    """Return the whole numbers (n, d) and the Fourier coefficients (n, ...) of a function of phases (d, m)."""
+    if not d:
+        return np.zeros((1, 0), dtype=int), function(np.zeros((0, 1))).astype(complex)
+    count = FIRST[d]
+    while count <= LAST[d]:
+        line = np.arange(count) * (2 * np.pi / count)
+        grid = np.stack(np.meshgrid(*[line] * d, indexing="ij")).reshape(d, -1)
+        values = np.concatenate([function(grid[:, i : i + PART]) for i in range(0, grid.shape[1], PART)])
+        amplitudes = np.fft.fftn(values.reshape(*[count] * d, *values.shape[1:]), axes=range(d), norm="forward")
+        m = np.fft.fftfreq(count, 1 / count).astype(int)
+        indices = np.stack(np.meshgrid(*[m] * d, indexing="ij"), -1).reshape(-1, d)
+        coefficients = amplitudes.reshape(len(indices), *values.shape[1:])
+        size, outer = _power(coefficients, _size(coefficients)), abs(indices).max(1) > 3 * count // 8
+        if size[outer].max() <= SETTLED**2 * size.max():
+            return indices[~outer], coefficients[~outer]
+        count *= 2
+    raise DomainError(f"The motion has more than {LAST[d] // 2} lines of each phase: it is too near to a separatrix.")
+
+
+def wheels_of(motion: Any) -> Wheels:
+    """Return the turns of one motion. Raises DomainError where it has none."""
+    single, e3 = motion._single(0), np.array([0.0, 0.0, 1.0])  # noqa: SLF001  of the same floor
+    placement = motion._placement  # noqa: SLF001
+    L, C = placement.sides if placement else (np.eye(3), np.eye(3))
+    if motion.family == "asymmetric":
+        closed = single.closed
+        if isinstance(closed, ThetaKernel):
+            return _of_torus(single, closed, L, C)
+        if single.exact.kind in ("ball", "symmetric body"):
+            state = motion.field_in_body(0.0), motion.angular_velocity(0.0)
+            moments = [nearest(x) for x in single.exact.inertia]
+            return wheels_of(import_module("atlas.motions.any_body").motion(C.T * moments @ C, *state))
+        if closed is None:
+            raise DomainError(f"The motion has no lines in closed form: it is {single.exact.kind}, {single.agreement}")
+        return _of_nutation(motion, closed.exact, L, C)
+    if isinstance(single, SingleMotion):
+        return _of_nutation(motion, single.exact, L, C)
+    n = np.array([nearest(x) for x in single.axis])
+    k, phi = (nearest(x) for x in single.frequencies)
+    turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)
+    return Wheels(
+        L @ turns[0], turns[1], turns[2] @ C, turns[3], np.empty(0), lambda of, _: _values(motion, of)(0.0)[None]
+    )
+
+
+def _values(motion: Any, of: str) -> Any:
+    """Return the function of time that is wanted, of which R stands for the axis."""
+    names = {"angular_velocity": "angular_velocity", "field": "field_in_body"}
+    return getattr(motion, names.get(of, "rotation"))
+
+
+def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheels:
+    """Return the turns of a motion in one nutation, or without."""
+    rates = enclosed(lambda: _rates(exact), BITS)
+    half, p, s = (float(x.mid()) for x in rates)
+    finite(2 * half, "The period")
+    n, third = (np.array([nearest(x) for x in v]) for v in (exact.field, exact.omega))
+    if not n.any():  # a free body precesses about its momentum
+        n = third * (1.0, 1.0, nearest(getattr(exact, "I", fmpq(1))))
+    n = L @ scaled(n)[0]
+    n /= np.linalg.norm(n) or 1.0
+    a = np.eye(3)[getattr(exact, "places", (0, 1, 2))[2]] @ C
+    if exact.is_steady:
+        return Wheels(n, p, a, s, np.empty(0), lambda of, _: _values(motion, of)(0.0)[None])
+    M = np.pi / half
+    t = np.linspace(0.0, 2 * half, 4)  # a passage through a pole counts half a turn less: then S would change its sign
+    first, later = motion.rotation(t), motion.rotation(t + 2 * half)
+    p, s = min(
+        ((p + k * M / 2, s + k * M / 2) for k in (0, 1)),
+        key=lambda x: float(abs(rodrigues(n, 2 * x[0] * half) @ first @ rodrigues(a, 2 * x[1] * half) - later).max()),
+    )
+
+    def at(of: str, x: FloatArray) -> FloatArray:
+        t = x[0] / M
+        values, back = _values(motion, of)(t), rodrigues(a, s * t)
+        if values.ndim == 2:
+            return np.asarray(np.matvec(back, values))
+        return np.asarray(rodrigues(n, -p * t) @ values @ np.swapaxes(back, -1, -2))
+
+    return Wheels(n, p, a, s, np.array([M]), at)
+
+
+def _rates(exact: Any) -> list[arb]:
+    """Return half the period of nutation, and the rates about the field and about the body's axis."""
+    solution = exact.solution
+    if exact.is_steady:
+        first, second = arb(solution.alpha.rate), arb(solution.beta.rate)
+        return [arb(1), first + second, first - second]
+    if infinite(solution.lattice.half):
+        raise DomainError("On a separatrix the axis comes to rest: the motion has no lines.")
+    T = exact.period
+    # of an elliptic motion the spin is that of the nutation
+    return [T / 2, exact.precession_rate, arb(0) if exact.swings_evenly else exact.spin_rate]
+
+
+def _of_torus(single: Any, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:
+    """Return the turns of a motion on a torus."""
+    f = np.array([float(x.mid()) for x in enclosed(lambda: single.exact.frequencies, BITS)])
+    n = L @ kernel.axis
+
+    def at(of: str, x: FloatArray) -> FloatArray:
+        R, Omega, K = kernel.on_torus(x)
+        if of == "angular_velocity":
+            return Omega @ C
+        return K @ C if of == "field" else L @ R @ C
+
+    return Wheels(n, float(f[2]), np.array([0.0, 0.0, 1.0]), 0.0, f[:2], at)
+
+
+def rodrigues(n: FloatArray, angle: Any) -> FloatArray:
+    """Return the turn about a unit vector by angles (...), shape (..., 3, 3)."""
+    angle = np.asarray(angle)[..., None, None]
+    along, across = np.outer(n, n), np.cross(n, np.eye(3)).T
+    return np.asarray(along + np.cos(angle) * (np.eye(3) - along) + np.sin(angle) * across)

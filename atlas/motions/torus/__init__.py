@@ -1,0 +1,1 @@
+"""Motions of a body with three moments of inertia, on a torus of two phases."""

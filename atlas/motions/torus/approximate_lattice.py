@@ -1,0 +1,271 @@
+"""The lattice of complex periods of a motion's torus, a symplectic basis of it, and its Riemann matrix.
+
+Periods are triples T = (T_H, T_F, T_c) of times of the flows of H and F/2 and of what the attitude turns about the
+field, -b T_c. They come from integrals between zeros of eta, see `atlas.motions.torus.approximate_periods`, and from
+relations with whole numbers that LLL finds, so nothing here is proved. The polarization E is the alternating form with
+whole values that the bilinear relation singles out; that it is of type (1,2) is the check that no period is missing:
+then
+
+    E(a1, b1) = 1,    E(a2, b2) = 2,    0 for other pairs,    tau = X^-1 (b1 | b2),    X = (a1 | a2/2),
+
+tau being symmetric with a positive imaginary part. Bases of that kind differ by moves that are Siegel's: they are made
+until no single one makes det Im tau larger, so that theta series need few terms.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
+from numpy.typing import NDArray
+
+from atlas.arithmetic.numbers import workprec
+from atlas.errors import NotCertifiedError
+from atlas.motions.torus.approximate_periods import (
+    BITS,
+    EACH,
+    FINE,
+    Curve,
+    Integrals,
+    complex_of,
+    generating,
+    matrix_of,
+    nearest,
+    sums,
+)
+
+WHOLE = 1e-9
+"""How near to whole numbers the coefficients of a conjugate period are."""
+
+MORE, FEWEST = 8, 4
+"""Paths for each zero where fewer do not give all periods, and the fewest that may."""
+
+PARTS = 100
+"""Parts of all paths from which on no more paths are gone: it takes long, and relations stay unseen."""
+
+AREAS, SLIGHT = 160, 8
+"""Bits of areas in the search for the polarization, and of an integer there: near symmetry its values are large."""
+
+TURNS = 60
+"""Rounds of Siegel's reduction at most."""
+
+Whole = NDArray[np.int64]
+PAIRS = tuple(combinations(range(4), 2))
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Periods (T_H, T_F, T_c): two that generate the real ones, two more, and a symplectic basis (a1, a2, b1, b2)."""
+
+    real: tuple[list[acb], list[acb]]
+    others: tuple[list[acb], list[acb]]
+    a: tuple[list[acb], list[acb]]
+    b: tuple[list[acb], list[acb]]
+    paths: tuple[tuple[acb, acb, acb], ...] = ()
+    """Ends of the paths whose integrals the periods are sums of, each with its T_H, which tells its sign; and the whole
+    weights of a1, a2, b1 and b2."""
+    weights: tuple[tuple[int, ...], ...] = ()
+
+    @property
+    def X(self) -> acb_mat:
+        """(a1 | a2/2) of the times of both flows."""
+        (p, q, _), (r, s, _) = self.a
+        return acb_mat([[p, r / 2], [q, s / 2]])
+
+    @property
+    def tau(self) -> acb_mat:
+        """Riemann matrix X^-1 (b1 | b2), made symmetric."""
+        (p, q, _), (r, s, _) = self.b
+        tau = self.X.solve(acb_mat([[p, r], [q, s]]))
+        across = (tau[0, 1] + tau[1, 0]) / 2
+        return acb_mat([[tau[0, 0], across], [across, tau[1, 1]]])
+
+
+def lattice(motion: Integrals) -> Lattice:
+    """Return the periods of a motion's torus; NotCertifiedError where they cannot be told."""
+    with workprec(BITS):
+        curve = Curve(motion)
+        try:
+            return _of_paths(curve, EACH)
+        except NotCertifiedError:
+            if sum(len(list(curve.parts(*path))) for path in curve.paths(EACH)) > PARTS:
+                raise
+            return _of_paths(curve, MORE)
+
+
+def _of_paths(curve: Curve, each: int) -> Lattice:
+    """Return the periods that integrals along some paths make, the best first, no more than are needed."""
+    ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(each)
+    for path in paths:
+        ways.append(list(curve.along(*path)))
+        if len(ways) >= FEWEST:
+            try:
+                gone = zip(paths, ways, strict=False)
+                return replace(_of_ways(ways), paths=tuple((*ends, way[0]) for ends, way in gone))
+            except NotCertifiedError as reason:
+                why = str(reason).removeprefix("not certified: ")
+    raise NotCertifiedError(f"not certified: {why}")
+
+
+def _of_ways(ways: list[list[acb]]) -> Lattice:
+    """Return the periods that some integrals generate, if there are four with a polarization of type (1,2)."""
+    weights = generating([_real(way) for way in ways])
+    periods = sums(ways, weights)
+    if len(periods) != 4:
+        raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")
+    real = _real_first(_conjugation(periods))
+    periods = sums(periods, real)
+    basis = _reduced(periods, _symplectic(_polarization(periods)))
+    of_paths = sums(sums(weights, real), basis.tolist())
+    a1, a2, b1, b2 = sums(periods, basis.tolist())
+    first, second = sums(periods[:2], _shortest(periods, basis))
+    others, whole = (periods[2], periods[3]), tuple(tuple(row) for row in of_paths)
+    return Lattice((first, second), others, (a1, a2), (b1, b2), weights=whole)
+
+
+def _real(period: Sequence[acb]) -> list[arb]:
+    """Return T_H and T_F as four real numbers."""
+    return [period[0].real, period[0].imag, period[1].real, period[1].imag]
+
+
+def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
+    """Return the whole coefficients of the conjugate periods."""
+    rows = arb_mat([_real(x) for x in periods])
+    conjugate = arb_mat([[x, -y, z, -w] for x, y, z, w in (_real(p) for p in periods)])
+    try:
+        conjugation = conjugate * rows.inv()
+    except ZeroDivisionError as error:
+        raise NotCertifiedError(
+            "not certified: the periods found for the motion's torus depend on one another."
+        ) from error
+    whole = np.array([[round(float(conjugation[i, j].mid())) for j in range(4)] for i in range(4)])
+    if not all(abs(float(conjugation[i, j].mid()) - whole[i, j]) < WHOLE for i in range(4) for j in range(4)):
+        raise NotCertifiedError(
+            "not certified: the periods found for the motion's torus are no lattice with conjugates."
+        )
+    return whole
+
+
+def _real_first(conjugation: Whole) -> list[list[int]]:
+    """Return a basis of the lattice whose first two are a basis of its real periods."""
+    rows = [
+        [*(int(x) << FINE for x in row), *(int(i == j) for j in range(4))]
+        for i, row in enumerate(conjugation - np.eye(4, dtype=int))
+    ]
+    reduced = [[int(x) for x in row] for row in fmpz_mat(rows).lll().tolist()]
+    real = [row[4:] for row in reduced if not any(row[:4])]
+    if len(real) != 2:
+        raise NotCertifiedError(f"not certified: the motion's torus has {len(real)} real periods, not two.")
+    return real + [row[4:] for row in reduced if any(row[:4])]
+
+
+def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]:
+    """Return Gauss's reduction of the two real periods, as whole weights: by Riemann's form zeta* (Im tau)^-1 zeta."""
+    vectors = matrix_of(acb_mat(periods))[:, :2]
+    a1, a2, _, _ = basis @ vectors
+    zeta = np.linalg.solve(np.array([a1, a2 / 2]).T, vectors[:2].T)
+    gram = (zeta.conj().T @ np.linalg.solve(_riemann(vectors, basis).imag, zeta)).real
+    rows = np.eye(2, dtype=int)
+    for _ in range(TURNS):
+        (first, both), (_, second) = rows @ gram @ rows.T
+        if second < first:
+            rows = rows[::-1]
+        elif n := round(float(both / first)):
+            rows = np.array([rows[0], rows[1] - n * rows[0]])
+        else:
+            break
+    return [[int(n) for n in row] for row in rows]
+
+
+def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
+    """Return the alternating form of the lattice, which is to be of type (1,2)."""
+    areas = [periods[i][0] * periods[j][1] - periods[i][1] * periods[j][0] for i, j in PAIRS]
+    size = max(abs(complex_of(x)) for x in areas)
+    rows = [
+        [*(nearest(y / size * arb(2) ** AREAS) for y in (x.real, x.imag)), *(int(i == j) << SLIGHT for j in range(6))]
+        for i, x in enumerate(areas)
+    ]
+    for row in fmpz_mat(rows).lll().tolist():
+        whole = [int(x) >> SLIGHT for x in row[2:]]
+        n = dict(zip(PAIRS, whole, strict=True))
+        pfaffian = n[0, 1] * n[2, 3] - n[0, 2] * n[1, 3] + n[0, 3] * n[1, 2]
+        if max(abs(int(x)) for x in row[:2]) > 1 << AREAS // 2 or abs(pfaffian) != 2:
+            continue
+        form = np.zeros((4, 4), dtype=int)
+        for (i, j), sign in zip(PAIRS, (1, -1, 1, 1, -1, 1), strict=True):
+            other = [k for k in range(4) if k not in (i, j)]
+            form[i, j] = sign * n[other[0], other[1]]
+        return np.array(form - form.T)
+    raise NotCertifiedError(
+        "not certified: the periods found for the motion's torus have no polarization of type (1,2)."
+    )
+
+
+def _symplectic(form: Whole) -> Whole:
+    """Return rows (a1, a2, b1, b2) in which an alternating form is that of type (1,2) (Frobenius)."""
+    rows, chosen = np.eye(4, dtype=int), list[tuple[Whole, Whole]]()
+    while len(rows):
+        E = rows @ form @ rows.T
+        places = [(abs(int(E[i, j])), i, j) for i, j in combinations(range(len(rows)), 2) if E[i, j]]
+        size, i, j = min(places)
+        first, second = (rows[i], rows[j]) if E[i, j] > 0 else (rows[j], rows[i])
+        rest = [row for k, row in enumerate(rows) if k not in (i, j)]
+        # what the others have beyond multiples of the smallest value is smaller, and taken next
+        less = [row - (row @ form @ second) // size * first + (row @ form @ first) // size * second for row in rest]
+        if any((row @ form @ second) % size or (row @ form @ first) % size for row in rest):
+            rows = np.array([first, second, *less])
+            continue
+        chosen.append((first, second))
+        rows = np.array(less).reshape(-1, 4)
+    if chosen[0][0] @ form @ chosen[0][1] == 2:
+        chosen.reverse()
+    (a1, b1), (a2, b2) = chosen
+    return np.array([a1, a2, b1, b2])
+
+
+def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
+    """Return a symplectic basis for which no single move makes det Im tau larger."""
+    vectors = matrix_of(acb_mat(periods))[:, :2]
+    if _riemann(vectors, basis)[0, 0].imag < 0:
+        basis = basis * np.array([[1], [1], [-1], [-1]])
+    for _ in range(TURNS):
+        basis = _shifted(vectors, _minkowski(vectors, basis))
+        tau = _riemann(vectors, basis)
+        sizes = abs(tau[0, 0]), abs(tau[1, 1]) / 2
+        k = int(np.argmin(sizes))
+        if not sizes[k] < 1 - 2.0**-20:
+            break
+        basis = basis.copy()
+        basis[k], basis[k + 2] = basis[k + 2].copy(), -basis[k]
+    return basis
+
+
+def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.complex128]:
+    """Return tau of a basis."""
+    a1, a2, b1, b2 = basis @ vectors
+    return np.asarray(np.linalg.solve(np.array([a1, a2 / 2]).T, np.array([b1, b2]).T))
+
+
+def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
+    """Turn the basis so that Im tau has small entries beside its diagonal."""
+    for _ in range(TURNS):
+        Y = _riemann(vectors, basis).imag
+        a1, a2, b1, b2 = basis
+        # b1 -> b1 - k b2 goes with a2 -> a2 + 2 k a1, and b2 -> b2 - 2 k b1 with a1 -> a1 + k a2
+        k, m = round(Y[0, 1] / Y[1, 1]), round(Y[0, 1] / (2 * Y[0, 0]))
+        if m:
+            basis = np.array([a1 + m * a2, a2, b1, b2 - 2 * m * b1])
+        elif k:
+            basis = np.array([a1, a2 + 2 * k * a1, b1 - k * b2, b2])
+        else:
+            break
+    return basis
+
+
+def _shifted(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
+    """Shift the basis so that Re tau is small."""
+    tau = _riemann(vectors, basis).real
+    a1, a2, b1, b2 = basis
+    x, y, z = round(tau[0, 0]), round(tau[0, 1] / 2), round(tau[1, 1] / 2)
+    return np.array([a1, a2, b1 - x * a1 - y * a2, b2 - 2 * y * a1 - z * a2])

@@ -1,0 +1,110 @@
+"""Where theta functions of Clebsch's motion are fitted: states at which M_i = K_i = 0, and Taylor series round them.
+
+They are algebraic: roots of a quartic in K_j^2 for each i, whose coefficients are those of H, F and the Casimirs.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from operator import mul
+
+import numpy as np
+from flint import acb, acb_poly, arb, fmpq, fmpq_poly
+
+from atlas.motions.torus.approximate_periods import Integrals, centre, complex_of, value
+from atlas.motions.torus.approximate_theta_sums import Array
+
+POINTS, TERMS = 7, 64
+"""Points of a fit, and terms of Taylor's series there."""
+
+NEAR = 9
+"""They lie on a circle that is so many times smaller than that of convergence."""
+
+Vector = list[acb]
+
+
+@dataclass(frozen=True)
+class State:
+    """M and K, and N where it is asked for, as a point of the complex torus."""
+
+    M: Vector
+    K: Vector
+    N: Vector
+
+    @property
+    def all(self) -> Vector:
+        """The components in a row."""
+        return [*self.M, *self.K, *self.N]
+
+
+def origins(motion: Integrals) -> list[tuple[int, State]]:
+    """Return the states with the integrals of a motion at which M_i = K_i = 0, with i: one of each four by symmetry."""
+    states = list[tuple[int, State]]()
+    I, D, b2, c = motion.moments, motion.D, motion.square, motion.c
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        # with A = K_j^2 and s = K_j M_k - K_k M_j, F gives s^2 and H gives the product s K_j K_k
+        A, rest = fmpq_poly([0, 1]), fmpq_poly([b2, -1])
+        s2 = b2 * (motion.F + D / I[k] * b2) - c * c + b2 * (D / I[j] - D / I[k]) * A
+        less = (c * c * A + s2 * rest) / I[j] + (c * c * rest + s2 * A) / I[k]
+        less = less + b2 * b2 * (I[j] * A + I[k] * rest - 2 * motion.H)
+        across = c * (1 / I[j] - 1 / I[k])
+        quartic = less * less - 4 * across * across * s2 * A * rest if c else less
+        for root, _ in quartic.complex_roots():
+            a, d, s = (centre(value(x, root)).sqrt() for x in (A, rest, s2))
+            if abs(complex_of(2 * across * s * a * d - value(less, root))) > abs(
+                complex_of(2 * across * s * a * d + value(less, root))
+            ):
+                s = -s
+            K, M = [acb(0)] * 3, [acb(0)] * 3
+            K[j], K[k] = a, d
+            M[j], M[k] = (c * a - s * d) / b2, (c * d + s * a) / b2
+            states.append((i, State([centre(x) for x in M], [centre(x) for x in K], [])))
+    return sorted(states, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].all))
+
+
+def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
+    """Return Taylor coefficients of M, K and N along the flow of H, nine or six rows."""
+    rows = [[x] for x in start.all]
+    A = [1 / I for I in moments]
+    for n in range(TERMS):
+        back = [row[::-1] for row in rows]
+        new = list[acb]()
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            new.append(
+                _product(rows, back, j, k) * (A[k] - A[j])
+                + _product(rows, back, 3 + j, 3 + k) * (moments[k] - moments[j])
+            )
+        for first in range(3, len(rows), 3):
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                new.append(_product(rows, back, first + j, k) * A[k] - _product(rows, back, first + k, j) * A[j])
+        for row, x in zip(rows, new, strict=True):
+            row.append(centre(x / (n + 1)))
+    return rows
+
+
+def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
+    """Return a coefficient of the product of two rows."""
+    return sum(map(mul, rows[x], back[y]), acb(0))
+
+
+def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
+    """Return times on a circle about zero and the states at them along the flow of H."""
+    rows = series(moments, start)
+    growth = max(abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TERMS, TERMS - 1, TERMS - 2))
+    states = list[tuple[acb, State]]()
+    for k in range(POINTS):
+        t = centre((acb(0, 2 * arb.pi() * k / POINTS)).exp() / arb(growth) / NEAR)
+        values = [centre(acb_poly(row)(t)) for row in rows]
+        states.append((t, State(values[:3], values[3:6], values[6:])))
+    return states
+
+
+def fields(moments: Sequence[fmpq], state: Array) -> Array:
+    """Return the rates of M and K (..., 6) along the flows of H and of F/2, (..., 6, 2)."""
+    I = np.array([int(x.p) / int(x.q) for x in moments])
+    M, K = state[..., :3], state[..., 3:]
+    J = -I.prod() / I
+    first = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)], -1)
+    return np.stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)], -1)], -1)

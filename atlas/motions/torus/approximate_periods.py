@@ -1,0 +1,370 @@
+"""Periods of a motion's torus under the flows of H and F/2: approximate, by integrals between branch points.
+
+Over the curve v^2 = P(z) = prod(z + D/I_i), z = wp(u) - (I1 I2 + I1 I3 + I2 I3)/3, v = wp'(u)/2, let
+
+    eta^2 = Psi = b^2 z^2 + (F + e2 b^2) z + 2 D H + 2 c v,     c = (M, K),
+
+with zeros at four u modulo the periods of wp. For any two of them, -2i times the integral of (D, z) du/eta from one to
+the other is a pair of complex times (T_H, T_F) after which M and K are back, so twice its real part is one of real
+times. What is found here is a start for `atlas.motions.torus.certified`, which proves that it is one, and nothing
+else.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+from math import ceil, log
+from typing import Any, Self
+
+import numpy as np
+from flint import acb, acb_mat, acb_poly, arb, fmpq, fmpq_poly, fmpz_mat
+from numpy.typing import NDArray
+
+from atlas.arithmetic.numbers import workprec
+from atlas.bodies.formula_integrals import clebsch
+from atlas.errors import NotCertifiedError
+
+BITS = 240
+"""Precision of the integrals: of zeros that are closer than 2^-50, as a disk has them, half is lost."""
+
+LOST = 8
+"""Fewest bits of an integrand that are known; there are fewer where zeros are next to the pole of z."""
+
+APART = 200
+"""Largest difference, in bits, between coefficients of the polynomial of the zeros: that of a spin 2^50 times the
+field, or of a field 2^100 times the spin. Isolating the zeros takes hours for the largest."""
+
+NODES, ROOM = 64, 1.1
+"""Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
+is left out is 2^-200, exp(-2 NODES ROOM)."""
+
+BESIDE = 1e-10
+"""Sine of the angle with a path, as seen from its nearer end, from which on a place is not on the path."""
+
+SHORTEST = fmpq(1, 2**100)
+"""Shortest part of a path, in units of half a turn."""
+
+SAME = 2.0**-200
+"""Distance, in units of a period, up to which the end of a path is a zero, found with other digits."""
+
+NEAR, FAR = 2, 4
+"""Cells along each period of wp to which paths go, and those whose zeros are taken into account."""
+
+EACH = 3
+"""Paths that are gone for each of the four zeros, the best of each pair first."""
+
+FINE, ONE = 90, 46
+"""Bits of the periods in a search for integer relations, and of an integer there: a relation is one to their half."""
+
+Pair = tuple[arb, arb]
+Array = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Integrals:
+    """The exact integrals of a motion, and the moments."""
+
+    moments: tuple[fmpq, ...]
+    H: fmpq
+    F: fmpq
+    c: fmpq
+    square: fmpq
+
+    @classmethod
+    def of(cls, moments: tuple[fmpq, ...], Omega: Sequence[fmpq], K: Sequence[fmpq]) -> Self:
+        """Return the integrals of a state, theorem-clebsch."""
+        J = [moments[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
+        H, F, c, square, _ = clebsch(*J, *Omega, *K)
+        return cls(moments, H / 2, F, c, square)
+
+    @property
+    def D(self) -> fmpq:
+        """Product of the moments."""
+        x, y, z = self.moments
+        return x * y * z
+
+    @property
+    def e2(self) -> fmpq:
+        """Sum of D/I_i."""
+        return sum((self.D / I for I in self.moments), fmpq(0))
+
+    @property
+    def g(self) -> fmpq_poly:
+        """Psi but for 2 c v, a polynomial in z."""
+        return fmpq_poly([2 * self.D * self.H, self.F + self.e2 * self.square, self.square])
+
+    @property
+    def P(self) -> fmpq_poly:
+        """The cubic of the body's curve."""
+        first, second, third = (fmpq_poly([self.D / I, 1]) for I in self.moments)
+        return first * second * third
+
+    @property
+    def quartic(self) -> fmpq_poly:
+        """g^2 - 4 c^2 P, whose roots are the z of the zeros of Psi; g itself, where c = 0."""
+        return self.g * self.g - 4 * self.c * self.c * self.P if self.c else self.g
+
+    def double_points(self) -> fmpq_poly:
+        """Return the polynomial whose roots are the z at which zeros of Psi fall together: a number if they do not."""
+        twice = self.quartic.gcd(self.quartic.derivative())
+        return twice if self.c else twice * self.g.gcd(self.P)
+
+    def zeros(self) -> list[tuple[acb, acb]]:
+        """Return (z, v) of the four zeros of Psi."""
+        roots = [z for z, _ in self.quartic.complex_roots()]
+        if self.c:
+            return [(z, -value(self.g, z) / (2 * self.c)) for z in roots]
+        return [(z, sign * value(self.P, z).sqrt()) for z in roots for sign in (1, -1)]
+
+
+def real_periods(motion: Integrals) -> list[Pair]:
+    """Return two approximate pairs of real times, as short as can be; fewer where the paths are too long."""
+    with workprec(BITS):
+        curve = Curve(motion)
+        periods = [curve.along(*path) for path in curve.paths()]
+        pairs = [[2 * x.real, 2 * y.real] for x, y, _ in periods]
+        return [(x.mid(), y.mid()) for x, y in sums(pairs, generating(pairs))]
+
+
+class Curve:
+    """The zeros of Psi on the torus of u, and integrals between them.
+
+    What is `proven` keeps the radii of its balls, which grow; else only their centres are taken on.
+    """
+
+    def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
+        _check_sizes(motion.quartic)
+        self.motion, self.g, self.proven = motion, motion.g, proven
+        self.third = arb(motion.e2) / 3
+        low, middle, high = sorted(motion.e2 / 3 - motion.D / I for I in motion.moments)
+        m, size = arb((middle - low) / (high - low)), arb(high - low).sqrt()
+        self.real = 2 * acb(m).elliptic_k().real / size
+        self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
+        self.tau = self._held(self.imaginary / self.real)
+        _, second, third, fourth = acb(0).modular_theta(self.tau)
+        self.scale, self.foot = arb.pi() / self.real * third * fourth, motion.D / max(motion.moments)
+        self.slope = -arb.pi() / self.real * second * second * self.scale * self.scale
+        self.zeros = [self._place(z, v) for z, v in motion.zeros()]
+
+    def _periods(self, cells: int) -> list[tuple[acb, acb]]:
+        """Return periods of wp, in two parts, up to so many cells along each."""
+        line = range(-cells, cells + 1)
+        return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
+
+    def at(self, u: acb) -> tuple[acb, acb]:
+        """Return z and v at u: z + D/I = (pi theta3 theta4 theta2(u)/theta1(u))^2 for the largest moment I.
+
+        There theta3 and theta4 stand for their values at zero; v is half the derivative of z.
+        """
+        below, *above = (self.in_cell(u) / self.real).modular_theta(self.tau)
+        x, y, w = (a / below for a in above)
+        return (self.scale * x) ** 2 - self.foot, self.slope * x * y * w
+
+    def _place(self, z: acb, v: acb) -> acb:
+        """Return the u of a point of the curve, in the cell about zero."""
+        u = self._held(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
+        _, place = self.at(u)
+        if _far(place - v) > _far(place + v):
+            u = -u
+        return self._held(self.in_cell(u))
+
+    def in_cell(self, u: acb) -> acb:
+        """Return what u is modulo the periods of wp, in the cell about zero."""
+        u -= round(float(u.imag.mid()) / float(self.imaginary.imag.mid())) * self.imaginary
+        return u - round(float(u.real.mid()) / float(self.real.mid())) * self.real
+
+    def _held(self, x: acb) -> acb:
+        return x if self.proven else centre(x)
+
+    def paths(self, each: int = EACH) -> list[tuple[acb, acb]]:
+        """Return straight paths between zeros, so many for each of four, those farthest from others first."""
+        found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
+        starts = [(zero, self.distances(zero)) for zero in self.zeros]
+        for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(NEAR)):
+            stop = zero + x + y
+            from_stop = self.distances(stop)
+            for i, (start, from_start) in enumerate(starts[: j + 1]):
+                way = complex_of(stop - start)
+                if way == 0:
+                    continue
+                w = _elliptic(*_fractions(from_start, from_stop, way))
+                if (w.real > BESIDE * abs(w)).all():
+                    found.setdefault((i, j), []).append((w.real.min(), start, stop))
+        rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
+        chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
+        return [(start, stop) for _, start, stop in chosen[: 4 * each]]
+
+    def distances(self, end: acb) -> Array:
+        """Return the places of zeros and of the pole from the end of a path, (5, cells), each to a double's digits."""
+        sizes = float(self.real.mid()), float(self.imaginary.imag.mid())
+        cells = np.arange(-FAR, FAR + 1)
+        rows = []
+        for zero in (*self.zeros, acb(0)):
+            near = self.in_cell(zero - end)
+            shift = complex_of(zero - end - near)
+            m, n = (round(x / size) for x, size in zip((shift.real, shift.imag), sizes, strict=True))
+            least = 0j if abs(complex_of(near)) < SAME * min(sizes) else complex_of(near)
+            rows.append(least + np.add.outer((cells + m) * sizes[0], 1j * (cells + n) * sizes[1]).ravel())
+        return np.array(rows)
+
+    def _beside(self, start: acb, stop: acb) -> tuple[Array, Array]:
+        """Return the other places in units of a path, from its start, and from its stop backwards."""
+        return _fractions(self.distances(start), self.distances(stop), complex_of(stop - start))
+
+    def parts(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
+        """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
+        first, last = (np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._beside(start, stop))
+        near = _elliptic(first, last).real < ROOM
+        return _parts(first[near], last[near])
+
+    def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
+        """Yield places s on a path, u = start + (stop - start)(1 - cos s)/2, and the weights of a rule in s.
+
+        As sin s/eta is even and periodic in s, the rule of midpoints leaves out exp(-2 count rate), 2^-BITS. Where
+        another zero, or the pole of z, is so near that this takes more places, it is Gauss's on shorter parts: as many
+        as the distance has digits.
+        """
+        parts = list(self.parts(start, stop))
+        count = ceil(BITS * log(2) / (2 * _elliptic(*self._beside(start, stop)).real.min()))
+        if count <= NODES * len(parts):
+            for k in range(count):
+                yield arb.pi() * fmpq(2 * k + 1, 2 * count), arb.pi() / count
+            return
+        for low, high in parts:
+            half = arb.pi() * (high - low) / 2
+            for x, weight in rule(NODES, BITS):
+                yield arb.pi() * low + half * (1 + x), half * weight
+
+    def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
+        """Return -2i times the integral of (D, z, v) du/eta along a path."""
+        way, g = stop - start, acb_poly(self.g)
+        first, second, third, before = acb(0), acb(0), acb(0), None
+        for s, weight in self.nodes(start, stop):
+            sin, cos = s.sin_cos()
+            z, v = self.at(start + way * (1 - cos) / 2)
+            square = (g(z) + 2 * self.motion.c * v) / sin**2
+            if square.rel_accuracy_bits() < LOST:
+                raise NotCertifiedError("not certified: integrals between zeros of the motion's torus lose all digits.")
+            root = centre(square).sqrt()
+            if before is not None and _far(root - before) > _far(root + before):
+                root = -root
+            before, term = root, weight / root
+            first += term
+            second += z * term
+            third += v * term
+        factor = acb(0, -1) * way
+        return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
+
+
+def _check_sizes(polynomial: fmpq_poly) -> None:
+    """Raise NotCertifiedError where coefficients are too far apart for its roots."""
+    sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
+    if max(sizes) - min(sizes) > APART:
+        raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
+
+
+@lru_cache(maxsize=4)
+def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
+    """Return nodes and weights of Gauss's rule on (-1, 1), from the left, in balls."""
+    with workprec(bits):
+        return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
+
+
+def _parts(first: Array, last: Array) -> Iterator[tuple[arb, arb]]:
+    """Yield parts of (0, 1), in order, whose ellipses leave places out, seen from 0, and from 1 backwards.
+
+    NotCertifiedError where one is too near the path to be told from a place on it.
+    """
+    if not first.size:
+        yield arb(0), arb(1)
+        return
+    for low, high in _halved(first):
+        yield arb(low), arb(high)
+    for low, high in reversed(list(_halved(last))):
+        yield arb(1 - high), arb(1 - low)
+
+
+def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
+    """Yield parts of (0, 1/2), in order, whose ellipses leave places out."""
+    left = [(fmpq(0), fmpq(1, 2))]
+    while left:
+        low, high = left.pop()
+        if high - low < SHORTEST:
+            raise NotCertifiedError("not certified: zeros of the motion's torus are too close to one another.")
+        a, b = (int(x.p) / int(x.q) for x in (low, high))
+        if (_elliptic((places - a) / (b - a), (b - places) / (b - a)).real >= ROOM).all():
+            yield low, high
+        else:
+            middle = (low + high) / 2
+            left += [(middle, high), (low, middle)]
+
+
+def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
+    """Return the weights of sums that generate all sums of some real vectors, by integer relations that LLL finds."""
+    width = len(vectors[0]) if vectors else 0
+    sizes = [max(abs(float(x[k].mid())) for x in vectors) for k in range(width)]
+    if not (sizes and all(sizes)):
+        return []
+    count = len(vectors)
+    rows = [
+        [
+            *(nearest(x / size * arb(2) ** FINE) for x, size in zip(row, sizes, strict=True)),
+            *(int(i == j) << ONE for j in range(count)),
+        ]
+        for i, row in enumerate(vectors)
+    ]
+    reduced = fmpz_mat(rows).lll().tolist()
+    large = [row for row in reduced if max(abs(int(x)) for x in row[:width]) > 1 << FINE // 2]
+    return [[int(x) >> ONE for x in row[width:]] for row in large]
+
+
+def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:
+    """Return sums of vectors with whole weights."""
+    return [
+        [
+            sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0])
+            for column in zip(*vectors, strict=True)
+        ]
+        for row in weights
+    ]
+
+
+def nearest(x: arb) -> int:
+    """Return the whole number nearest to the middle of a ball."""
+    return int((x.mid() + 0.5).floor().unique_fmpz())
+
+
+def value(polynomial: fmpq_poly, z: acb) -> acb:
+    """Return the value of a polynomial with rational coefficients."""
+    return acb_poly(polynomial)(z)
+
+
+def _fractions(from_start: Array, from_stop: Array, way: complex) -> tuple[Array, Array]:
+    """Return places but the ends of a path in units of it, from its start, and from its stop backwards."""
+    others = (from_start != 0) & (from_stop != 0)
+    return from_start[others] / way, -from_stop[others] / way
+
+
+def _elliptic(x: Array, y: Array) -> Array:
+    """Return elliptic coordinates of places x = 1 - y about the foci 0 and 1; the real part is 0 between them."""
+    return np.asarray(2 * np.arcsinh(np.sqrt(-np.where(abs(x) < abs(y), x, y))))
+
+
+def centre(x: acb) -> acb:
+    """Return the middle of a complex ball, as a ball without radius."""
+    return acb(x.real.mid(), x.imag.mid())
+
+
+def complex_of(x: acb) -> complex:
+    """Return the middle of a complex ball in doubles."""
+    return complex(float(x.real.mid()), float(x.imag.mid()))
+
+
+def matrix_of(x: acb_mat) -> Array:
+    """Return the middle of a matrix in doubles."""
+    return np.array([[complex_of(y) for y in row] for row in x.tolist()])
+
+
+def _far(x: acb) -> float:
+    return abs(complex_of(x))

@@ -1,0 +1,382 @@
+"""Any motion of a charged body with three moments of inertia, as balls, at any time (not in the paper).
+
+Seen from the frame that turns with -B' the body moves as Clebsch's case of Kirchhoff's equations, theorem-clebsch, on a
+torus on which two flows commute. Times are reduced modulo the periods of both, `atlas.motions.torus.certified_torus`,
+and what is left goes by Taylor series, `atlas.motions.torus.certified_flow`:
+
+    R(t) = R_B(-b t + n1 theta1 + n2 theta2) S(s),    (t, 0) = n1 r1 + n2 r2 + s.
+
+Nothing is taken from the theory of theta functions but where to look for the periods, which are then proved.
+"""
+
+from itertools import chain
+from operator import mul
+from typing import Any
+
+from flint import arb, arb_poly, ctx, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, rationals
+from atlas.arithmetic.certified_rotation import AXES, identity, product, turn
+from atlas.arithmetic.numbers import dot, workprec
+from atlas.arithmetic.numbers import nearest as nearest_float
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.motions.nutation.certified_cayley_klein import matrix
+from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop, check_moments
+from atlas.motions.nutation.certified_general import Symmetric
+from atlas.motions.torus.approximate_periods import Integrals, nearest
+from atlas.motions.torus.certified_flow import Arrival, GrowthError
+from atlas.motions.torus.certified_torus import Torus, frequencies, turned
+
+NEAR = fmpq(1, 1 << 16)
+"""Times up to so many are gone in one series about t = 0, whose numbers have their digits however small they are."""
+
+DIRECT = 16
+"""Times up to so many units of 1/rate are gone at once, without periods."""
+
+FARTHEST = 128
+"""Times up to so many are gone where there are no periods."""
+
+NEARLY = fmpq(1, 1 << 40)
+"""Difference of two moments, beside the largest, that may come from rounding."""
+
+KEPT = 256
+"""States that are kept, for what else is asked at the same times."""
+
+MANY = 600
+"""Bits from which on growing errors get no more."""
+
+GUARD = 48
+"""Bits by which a way is gone more precisely than the matrix is wanted: so many are lost on it as a rule."""
+
+
+class OnTorus:
+    """A motion that goes on for ever on its torus, or on what the torus shrinks to."""
+
+    def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
+        unit, self.rate = _power(max(moments)), _power(max(map(abs, (*Omega, *K))))
+        self.moments = tuple(I / unit for I in moments)
+        self.field = tuple(k / self.rate for k in K)
+        W = tuple(w / self.rate + k for w, k in zip(Omega, self.field, strict=True))
+        self.torus = Torus(self.moments, W, self.field)
+        self.pendulum = next((i for i in range(3) if not any((K[i], W[i - 1], W[i - 2]))), None)
+        """The axis about which the body swings in Larmor's frame, in the plane of the field, where it does."""
+        self._arrived: dict[tuple[fmpq, int], tuple[Arrival, arb]] = {}
+
+    @property
+    def b(self) -> arb:
+        """Length of the field."""
+        return arb(dot(self.field, self.field)).sqrt()
+
+    @property
+    def is_regular(self) -> bool:
+        """Whether both flows are independent on it, and H, F and the Casimirs are no critical values."""
+        return bool(self.torus.integrals.double_points().degree() == 0)
+
+    @property
+    def frequencies(self) -> list[arb]:
+        """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
+        periods = self.torus.periods(ctx.prec + GUARD)
+        with workprec(ctx.prec + GUARD):
+            return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
+
+    def elliptic(self) -> EllipticMotion | None:
+        """Return the elliptic motion that it is, if it is one whose z is rational."""
+        z_polynomial, (W, K) = self.torus.integrals.double_points(), (self.torus.W, self.field)
+        M = [I * w for I, w in zip(self.moments, W, strict=True)]
+        D = self.moments[0] * self.moments[1] * self.moments[2]
+        for z, _ in z_polynomial.roots():
+            w = [z + D / I for I in self.moments]
+            v = next((-m * x / k for m, k, x in zip(M, K, w, strict=True) if k != 0), fmpq(0))
+            if v * v == w[0] * w[1] * w[2] != 0 and all(m * x == -v * k for m, k, x in zip(M, K, w, strict=True)):
+                return EllipticMotion(self.moments, [k * self.rate for k in K], z, 1 if v > 0 else -1)
+        return None
+
+    def state(self, t: Any) -> tuple[Arrival, arb]:
+        """Return W, K and the quaternion of S at time t, and the angle about the field that comes before S."""
+        t = rational(t, "the time") * self.rate
+        key = t, ctx.prec
+        arrived = self._arrived.get(key)
+        if arrived is None:
+            if len(self._arrived) >= KEPT:
+                self._arrived.clear()
+            arrived = self._arrived[key] = self._state(t)
+        return arrived
+
+    def _state(self, t: fmpq) -> tuple[Arrival, arb]:
+        bits, more = ctx.prec + GUARD, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
+        with workprec(bits + more):
+            turn = -t * self.b
+        if abs(t) <= DIRECT:
+            return self.torus.flow.go(t, fmpq(0), bits), turn
+        if not self.is_regular:
+            return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
+        if abs(t) <= FARTHEST and self.torus.spin is not None and self.torus.pushed is None:
+            return self._directly(t, "the motion is next to an unstable spin"), turn
+        try:
+            first, second = self.torus.periods(ctx.prec + more)
+        except NotCertifiedError as reason:
+            return self._directly(t, str(reason).removeprefix("not certified: ").removesuffix(".")), turn
+        with workprec(bits + more):
+            area = first.H * second.F - first.F * second.H
+            n, m = (nearest(x) for x in (t * second.F / area, -t * first.F / area))
+            H, F = t - n * first.H - m * second.H, -n * first.F - m * second.F
+            left = [x.mid() for x in (H, F)]
+            arrival = self.torus.flow.go(left[0].fmpq(), left[1].fmpq(), bits)
+            arrival = self._moved(arrival, H - left[0], F - left[1])
+            return arrival, n * first.angle + m * second.angle + turn
+
+    @property
+    def _remedy(self) -> str:
+        """Sentence that names the symmetric body where two moments are nearly equal."""
+        least, middle, most = sorted(self.moments)
+        near = min(middle - least, most - middle) / most
+        if near > NEARLY:
+            return ""
+        return (
+            f" Two moments differ by {nearest_float(near):.1g} of the largest: a body for which they are equal is "
+            "atlas.SymmetricBody(I2, I3, axes), with any times."
+        )
+
+    def _directly(self, t: fmpq, why: str) -> Arrival:
+        """Go the whole way, if it is not too long."""
+        if abs(t) > FARTHEST:
+            raise NotCertifiedError(
+                f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
+                f"{nearest_float(FARTHEST / self.rate):.6g}.{self._remedy}"
+            )
+        bits = ctx.prec + 2 * GUARD
+        while True:
+            try:
+                return self.torus.flow.go(t, fmpq(0), bits)
+            except GrowthError:  # next to an unstable spin
+                if bits > MANY:
+                    raise
+                bits *= 2
+
+    def _moved(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
+        """Return a state after the flows of H and F/2 have gone for the tiny times H and F."""
+        wide = [x + arb(0, 2.0**-16) for x in (*arrival.W, *arrival.K)]
+        X, Y = self.torus.fields(wide[:3], wide[3:])
+        ways = [H * x + F * y for x, y in zip(X, Y, strict=True)]
+        if not all(arb(0, 2.0**-16).contains(x) for x in ways):
+            raise NotCertifiedError("not certified: the periods are not known well enough for so long a time.")
+        V = [(H + F * I) * w for I, w in zip(self.moments, wide, strict=False)]
+        state = [x + y for x, y in zip((*arrival.W, *arrival.K), ways, strict=True)]
+        return Arrival(state[:3], state[3:], turned(arrival.q, V))
+
+    def _near(self, t: Any) -> list[list[arb]] | None:
+        """Return Omega, K and the rows of R by the series about t = 0, for a time so near; else None.
+
+        With W = Omega + K, W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k), and x' = [x, Omega] of K and of each row of R.
+        Since I_j - I_k < I_i, with s the largest |W_i| or |K_i|, |W_n|, |K_n| <= s (2s)^n and |R_n| <= (n+1) (2s)^n.
+        """
+        t = rational(t, "the time") * self.rate
+        if not abs(t) <= NEAR:
+            return None
+        I = self.moments
+        W, K = [[arb(w)] for w in self.torus.W], [[arb(k)] for k in self.field]
+        Omega = [[arb(w - k)] for w, k in zip(self.torus.W, self.field, strict=True)]
+        R = [[[arb(i == j)] for j in range(3)] for i in range(3)]
+
+        def times(a: list[arb], b: list[arb]) -> arb:
+            return sum(map(mul, a, b[::-1]), arb(0))
+
+        count = ctx.prec // 12 + 4
+        for n in range(1, count):
+            rates = [
+                (I[i - 2] - I[i - 1]) / I[i] * (times(W[i - 2], W[i - 1]) - times(K[i - 2], K[i - 1])) for i in range(3)
+            ]
+            turned = [
+                [times(x[i - 2], Omega[i - 1]) - times(x[i - 1], Omega[i - 2]) for i in range(3)] for x in (K, *R)
+            ]
+            for row, rate in zip((*W, *K, *chain(*R)), (*rates, *chain(*turned)), strict=True):
+                row.append(rate / n)
+            for row, w, k in zip(Omega, W, K, strict=True):
+                row.append(w[n] - k[n])
+        most = max(abs(x) for x in (*self.torus.W, *self.field))
+        falls = arb(2 * most * abs(t))
+        left = (1 + most) * (count + 1) * falls**count / (1 - falls) ** 2
+        return [[arb_poly(x)(arb(t)) + arb(0, left.upper()) for x in rows] for rows in (Omega, K, *R)]
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        near = self._near(t)
+        if near:
+            return near[2:]
+        arrival, angle = self.state(t)
+        w, *q = arrival.q
+        i = self.pendulum
+        if i is None:
+            swing: list[list[Real]] = matrix(arrival.q)
+        else:
+            swing = turn(AXES[i], w * w - q[i] * q[i], 2 * w * q[i])
+        return product(turn(self.field, angle.cos(), angle.sin()), swing)
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B'."""
+        near = self._near(t)
+        return [k * self.rate for k in (near[1] if near else self.state(t)[0].K)]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) = W - K."""
+        near = self._near(t)
+        if near:
+            return [w * self.rate for w in near[0]]
+        arrival, _ = self.state(t)
+        return [(w - k) * self.rate for w, k in zip(arrival.W, arrival.K, strict=True)]
+
+
+class AsymmetricMotion:
+    """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3), from omega.
+
+    `kind` says which case it is, decided on the exact inputs. Values are computed anew at the precision of the moment,
+    see `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for what cannot be enclosed.
+    """
+
+    def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
+        self.inertia = rationals(inertia, "inertia (I1, I2, I3)", 3)
+        self.field = rationals(field, "field (B1, B2, B3)", 3)
+        self.omega = rationals(omega, "omega", 3)
+        check_moments(self.inertia)
+        self.kind, self._motion = self._case()
+
+    def _case(self) -> tuple[str, Symmetric | EllipticMotion | OnTorus]:
+        J, K, Omega = self.inertia, self.field, self.omega
+        if not any(Omega):
+            return "at rest", EulerTop(J, Omega)
+        if sum(any(pair) for pair in zip(Omega, K, strict=True)) == 1:
+            return "spin about an axis", EulerTop(J, Omega)  # the field stays
+        if len(set(J)) < 3:
+            return "ball" if len(set(J)) == 1 else "symmetric body", Symmetric(J, Omega, K)
+        if not any(K):
+            return "Euler's top", EulerTop(J, Omega)
+        motion = OnTorus(J, Omega, K)
+        if motion.is_regular:
+            return "on a torus", motion
+        elliptic = motion.elliptic()
+        return ("elliptic motion", elliptic) if elliptic else ("on the discriminant", motion)
+
+    @property
+    def on_torus(self) -> OnTorus | None:
+        """What a motion "on a torus" is made of, in units in which its numbers are near one; None for other kinds."""
+        return self._motion if isinstance(self._motion, OnTorus) and self._motion.is_regular else None
+
+    @property
+    def elliptic(self) -> EllipticMotion | None:
+        """The motion in Jacobi's functions that has its attitude, None where there is none.
+
+        That of a free body, and of a spin about a principal axis, is Euler's top: angular momentum in place of a field.
+        """
+        if isinstance(self._motion, EllipticMotion):
+            return self._motion
+        return None if any(self.field) else EulerTop(self.inertia, self.omega)
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        if rational(t, "the time") == 0:
+            return identity()
+        return self._motion.rotation(t)
+
+    def column(self, j: int, t: Any) -> list[Real]:
+        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        return [row[j - 1] for row in self.rotation(t)]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', the field in the body."""
+        if rational(t, "the time") == 0 or isinstance(self._motion, EulerTop):
+            return list(self.field)
+        return self._motion.field_in_body(t)
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame."""
+        if rational(t, "the time") == 0:
+            return list(self.omega)
+        return self._motion.angular_velocity(t)
+
+    @property
+    def _nutating(self) -> EllipticMotion:
+        """The free body or the elliptic motion that has a period. Raises DomainError for another."""
+        motion = self.elliptic
+        if motion is None or (isinstance(motion, EulerTop) and any(self.field)):
+            frequencies = ", but the three frequencies f1, f2, f3" if self.on_torus else ""
+            raise DomainError(f"The motion, {self.kind}, has no one period and no mean rates{frequencies}.")
+        return motion
+
+    @property
+    def period(self) -> arb:
+        """Period of Omega of a free body, of Omega and K of an elliptic motion; infinite where they are constant."""
+        return self._nutating.period
+
+    @property
+    def precession_rate(self) -> Real:
+        """Mean rate, about the momentum or B, of the axis that the momentum of a free body, or K, goes round."""
+        return self._nutating.precession_rate
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about that axis."""
+        return self._nutating.spin_rate
+
+    @property
+    def mode(self) -> str:
+        """Axis that the momentum of a free body goes round, see `EulerTop.mode`. DomainError in a field."""
+        motion = self._nutating
+        if not isinstance(motion, EulerTop):
+            raise DomainError("A mode, long axis or short axis, is that of a free body: this one is in a field.")
+        return motion.mode
+
+    @property
+    def frequencies(self) -> list[Real]:
+        """Angular frequencies (f1, f2, f3) of a motion on a torus, of a free body or of an elliptic motion.
+
+        M and K turn with f1 and f2, and R with f3 about B besides. On a torus it is a convention which basis f1, f2
+        are, and f3 is one but for integer multiples of them: in a period the body turns by at most half a turn about B
+        beside -B'. Without a torus f1 = |spin_rate|, f2 = 0 and f3 = precession_rate, about the momentum of a free
+        body. Raises DomainError where there are none, and where no periods are proved.
+        """
+        if self.on_torus is None:
+            try:
+                motion = self._nutating
+            except DomainError as reason:
+                raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.") from reason
+            return [arb(abs(motion.spin_rate)), arb(0), arb(motion.precession_rate)]
+        try:
+            return list(self.on_torus.frequencies)
+        except NotCertifiedError as reason:
+            raise DomainError(f"The frequencies are {reason}") from reason
+
+    @property
+    def invariants(self) -> Integrals:
+        """The integrals H, F, (M, K) and K^2, exactly, theorem-clebsch."""
+        return Integrals.of(self.inertia, self.omega, self.field)
+
+    @property
+    def H(self) -> fmpq:
+        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K)."""
+        return self.invariants.H
+
+    @property
+    def F(self) -> fmpq:
+        """Clebsch's F = M^2 - D (K, II^-1 K)."""
+        return self.invariants.F
+
+    @property
+    def MK(self) -> fmpq:
+        """The Casimir (M, K)."""
+        return self.invariants.c
+
+    @property
+    def energy(self) -> fmpq:
+        """Kinetic energy (Omega, II Omega)/2 = H - (M, K)."""
+        return self.H - self.MK
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m = R II Omega in the laboratory frame."""
+        m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
+        return [dot(row, m) for row in self.rotation(t)]
+
+
+def _power(x: fmpq) -> fmpq:
+    """Return the power of two next to a positive number."""
+    exponent = int(x.p).bit_length() - int(x.q).bit_length()
+    return fmpq(2) ** exponent if exponent >= 0 else fmpq(1, 2**-exponent)

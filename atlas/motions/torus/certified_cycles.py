@@ -1,0 +1,185 @@
+"""Integrals over cycles of a motion's curve in balls: its periods, Riemann matrix and actions, with proven radii.
+
+A path from a zero to a zero is u = start + way (1 - cos s)/2, as in `atlas.motions.torus.approximate_periods`, and
+
+    (D, z, v) du/eta = way (D, z, v) ds/(2 r),    eta du = way r sin(s)^2 ds/2,    r^2 = Psi(u)/sin(s)^2,
+
+are analytic on it. Gauss's rule with n + 1 nodes is off by 64/15 M rho^-2n/(1 - rho^-2) at most on a part of length 2
+(L. N. Trefethen, Approximation Theory and Approximation Practice, theorem 19.3), where M bounds the integrand on the
+ellipse rho with its foci in the ends: that is enclosed by balls on the ellipse. No other zero and no pole is in it, by
+a margin. The root r is continued from node to node: between two of them r^2 over its value at the first has a positive
+real part. What sums of paths make a basis of type (1,2) is taken from `atlas.motions.torus.approximate_lattice`, where
+integer relations tell it.
+
+The derivatives of eta by H, F/2 and c are D/eta, z/eta and v/eta, so that with S the integral of eta du over a cycle
+
+    dS = T_H dH + T_F d(F/2) + T_c dc,
+
+which a cycle of the torus has for 2 pi times its action; both vanish with the cycle.
+"""
+
+from collections.abc import Callable
+from math import ceil, log
+from typing import TypeAlias
+
+import numpy as np
+from flint import acb, acb_mat, arb, ctx, fmpq
+
+from atlas.arithmetic.numbers import workprec
+from atlas.errors import NotCertifiedError
+from atlas.motions.torus.approximate_lattice import Lattice
+from atlas.motions.torus.approximate_periods import Curve, Integrals, centre, complex_of, rule, sums, value
+from atlas.motions.torus.certified_torus import Period
+
+RATE = 1.0
+"""Logarithm of the ellipse on which integrands are bounded: smaller than that which is free of other zeros."""
+
+GUARD = 96
+"""Bits more than are wanted: next to a zero Psi and sin(s)^2 lose some."""
+
+HALVINGS = 12
+"""Halvings, at most, of the way between two nodes along which a root is continued."""
+
+Forms: TypeAlias = Callable[[acb], tuple[list[acb], acb]]
+"""The forms but for way ds/(2 r), and r^2, as functions of s."""
+
+WHOLE = 1e-9
+"""How near to whole numbers the coefficients of a period of the torus in those of a basis are."""
+
+THIN = 40
+"""Bits of s from which on what a ball about it makes of eta is narrow."""
+
+SHORTEST = 2.0**-10
+"""Least part of a path that is gone at once."""
+
+AROUND, FINEST = 64, 2.0**-12
+"""Balls on an ellipse at first, and the least part of a turn that one covers."""
+
+
+def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
+    """Return (T_H, T_F, T_c, S) of a1, a2, b1 and b2, at the precision of the moment.
+
+    NotCertifiedError where an integral is not proved.
+    """
+    with workprec(int(ctx.prec) + GUARD):
+        curve, near = Curve(motion, proven=True), Curve(motion)
+        ways = [
+            _integrals(curve, near, *path) if any(row[k] for row in lattice.weights) else [acb(0)] * 4
+            for k, path in enumerate(lattice.paths)
+        ]
+        return sums(ways, lattice.weights)
+
+
+def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
+    """Return tau of a basis of cycles; NotCertifiedError where their periods are known to too few digits."""
+    (p, q, *_), (r, s, *_), (x, y, *_), (z, w, *_) = basis
+    try:
+        return acb_mat([[p, r / 2], [q, s / 2]]).solve(acb_mat([[x, z], [y, w]]))
+    except ZeroDivisionError as error:
+        raise NotCertifiedError("not certified: the motion's torus has periods nearly along one another.") from error
+
+
+def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
+    """Return the action of a cycle of the torus, a real period whose angle about a field of length b is given.
+
+    Cycles that go otherwise round the pole of eta du, where its residue is c/b, turn by whole turns more about the
+    field, and have so many times c/b more: T_c tells which it is. NotCertifiedError where that is not certain.
+    """
+    places = np.array([[f(complex_of(x)) for x in row[:2] for f in (np.real, np.imag)] for row in basis])
+    along = np.array([float(period.H.mid()), 0.0, float(period.F.mid()), 0.0])
+    weights = np.linalg.solve(places.T, along)
+    whole = [[round(x) for x in weights.tolist()]]
+    ((T_H, T_F, T_c, S),) = sums(basis, whole)
+    turn = 2 * arb.pi()
+    turns = ((-b * T_c.real - period.angle) / turn).unique_fmpz()
+    same = abs(weights - whole[0]).max() < WHOLE and T_H.real.overlaps(period.H) and T_F.real.overlaps(period.F)
+    if turns is None or not same:
+        raise NotCertifiedError("not certified: it is not certain which cycle of the curve a period of the torus is.")
+    return S.real / turn + turns * arb(c) / b
+
+
+def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> list[acb]:
+    """Return -2i times the integrals of (D, z, v) du/eta and eta du between the zeros next to two places.
+
+    The first of them is near a known one, not near its negative.
+    """
+    first, last, D, c = _zero_at(curve, start), _zero_at(curve, stop), curve.motion.D, curve.motion.c
+    g, dg, dP = curve.g, curve.g.derivative(), curve.motion.P.derivative()
+    way, totals = last - first, [acb(0)] * 4
+
+    def values(s: acb) -> tuple[acb, acb, acb]:
+        early = complex_of(s).real < 1.6  # a place next to either end is known relative to its distance from that
+        z, v = curve.at(first + way * (s / 2).sin() ** 2 if early else last - way * (s / 2).cos() ** 2)
+        return z, v, value(g, z) + 2 * c * v
+
+    def forms(s: acb) -> tuple[list[acb], acb]:
+        z, v, eta = values(s)
+        if not s.rel_accuracy_bits() > THIN:  # by the mean value: z and v are of one u
+            middle = centre(s)
+            eta = values(middle)[2] + 2 * (v * value(dg, z) + c * value(dP, z)) * way * (
+                ((s + middle) / 2).sin() * ((s - middle) / 2).sin()
+            )
+        return [acb(D), z, v, eta], eta / s.sin() ** 2
+
+    root, place, parts = acb(0), acb(0), list(near.parts(start, stop))[::-1]
+    nodes = rule(ceil(ctx.prec * log(2) / (2 * RATE)) + 4, int(ctx.prec))
+    while parts:
+        low, high = parts.pop()
+        middle, half = arb.pi() * (low + high) / 2, arb.pi() * (high - low) / 2
+        largest = _largest(forms, middle, half)
+        if largest is None:
+            if high - low < SHORTEST:
+                raise NotCertifiedError("not certified: an integrand on the motion's torus has no bound.")
+            parts += [((low + high) / 2, high), (low, (low + high) / 2)]
+            continue
+        terms = [acb(0)] * 4
+        for x, weight in nodes:
+            s = acb(middle + half * x)
+            numerators, r2 = forms(s)
+            root, place = _root(r2) if root == 0 else _continued(forms, root, place, s), s
+            terms = [total + weight * form / root for total, form in zip(terms, numerators, strict=True)]
+        for k, most in enumerate(largest):
+            left = arb(64) / 15 * most * arb(-2 * RATE * (len(nodes) - 1)).exp() / (1 - arb(-2 * RATE).exp())
+            totals[k] += half * (terms[k] + acb(arb(0, left.upper()), arb(0, left.upper())))
+    totals = [x * acb(0, -1) * way for x in totals]
+    return totals if abs(complex_of(totals[0] - like)) < abs(complex_of(totals[0] + like)) else [-x for x in totals]
+
+
+def _root(square: acb) -> acb:
+    """Return a root, of a negative number too, where that of the library has its cut."""
+    return square.sqrt() if square.real > 0 else acb(0, 1) * (-square).sqrt()
+
+
+def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = HALVINGS) -> acb:
+    """Return the root of r^2 at a place, continued from another one on the path."""
+    here = forms(place)[1]
+    if (forms(place.union(to))[1] / here).real > 0:
+        return root * (forms(to)[1] / here).sqrt()
+    if not halvings:
+        raise NotCertifiedError("not certified: a root on a path of the motion's torus changes too fast.")
+    middle = (place + to) / 2
+    return _continued(forms, _continued(forms, root, place, middle, halvings - 1), middle, to, halvings - 1)
+
+
+def _zero_at(curve: Curve, place: acb) -> acb:
+    """Return the zero of Psi, in a ball, that is next to a place."""
+    places = [zero + away - curve.in_cell(away) for zero in curve.zeros for away in (centre(place) - zero,)]
+    return min(places, key=lambda u: abs(complex_of(u - place)))
+
+
+def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
+    """Return what the forms over r are at most on the ellipse about a part of a path, None where that is not found."""
+    most, left = [arb(0)] * 4, [(k / AROUND, 1 / AROUND) for k in range(AROUND)]
+    long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
+    while left:
+        place, width = left.pop()
+        angle = 2 * arb.pi() * arb(place + width / 2, width / 2)
+        numerators, r2 = forms(acb(middle + half * long * angle.cos(), half * short * angle.sin()))
+        size = abs(r2)
+        if not (size > 0 and numerators[1].is_finite() and float(size.rad()) < float(size.mid()) / 2):
+            if width < FINEST:
+                return None
+            left += [(place, width / 2), (place + width / 2, width / 2)]
+            continue
+        most = [max(x, (abs(form) / size.sqrt()).upper()) for x, form in zip(most, numerators, strict=True)]
+    return most

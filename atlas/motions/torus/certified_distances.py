@@ -1,0 +1,379 @@
+"""Proof that theta functions are a motion: how far from it they are at most, anywhere on its torus.
+
+The forms of `atlas.motions.torus.approximate_theta` are entire functions, whatever their constants are. Those of K, M
+and N over that of D, the denominator, put into the equations of the flows of H and of F/2, leave defects such as
+
+    D^2 (K' - K x W) = n' D - n D' - n x II^-1 m,     K = n/D,  M = m/D,  W = II^-1 M.
+
+With S the sum of the places of two forms, the Fourier coefficients of a defect obey c_(S+4j)/c_S = g_(S+4j)/g_S,
+
+    g_S = exp(i pi (S hat S/8 + S (origin - shift/2))),
+
+for whole j, so that the sixteen of a square, in balls, bound it everywhere: all terms of a defect change by one sign
+with j, because the characteristics of D and of the three axes are all different and those of N are those of the axes
+plus one, which is asserted. Terms left out are those far from all peaks of the cell; their own sum has a bound, which
+is added. If the equations hold but for rates delta and the start but for epsilon, then on a straight way through a cell
+of the periods M, K and N go away from the motion by at most exp(growth) (epsilon + delta); to growth a term such as
+e x W, which turns an error e, adds nothing. Beyond the cell the periods tell all, which are proved in
+`atlas.motions.torus.certified_torus`. Nothing is taken from the theory of the torus, and it does not matter how the
+constants were found.
+
+The weights are balls; sums of exponentials of them are taken in doubles. A product of few factors, an exponential of an
+argument below `ARGUMENT` and a sum of fewer than `ARGUMENT` terms are off by less than 4 `ARGUMENT` 2^-53 < `FLOATS`
+beside the sum of sizes, so that a sum of positive terms is off by a factor below `WIDER` with ease; where arguments or
+sums are larger there is no bound.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import cache, partial
+from itertools import product
+
+import numpy as np
+from flint import acb, acb_mat, arb
+from numpy.typing import NDArray
+
+from atlas.arithmetic.numbers import dot, rational, workprec
+from atlas.errors import NotCertifiedError
+from atlas.motions.nutation.certified_cayley_klein import matrix
+from atlas.motions.torus.approximate_periods import BITS, centre, complex_of, matrix_of, nearest
+from atlas.motions.torus.approximate_theta import ThetaMotion
+from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS, HALF, Array, near, weights_at
+from atlas.motions.torus.certified_torus import Period, Torus
+
+SPARE = 40
+"""Bits beyond those of the constants."""
+
+LEFT_OUT = 240.0
+"""Logarithm of what products of terms that are left out are smaller by than the largest one."""
+
+FAINT = 90.0
+"""Logarithm of what terms of D that are left out, and those of a defect that are bounded alike in the whole cell, are
+smaller by than the largest one."""
+
+ARGUMENT, FLOATS = 2000, 1e-12
+"""Bounds on arguments and numbers of exponentials in a sum in doubles, and on its rounding errors beside the sum of
+their sizes."""
+
+WIDER = 2.0
+"""By how much bounds in doubles are widened: far more than their rounding can matter."""
+
+SMALL, ENOUGH = 1e-6, 1e-17
+"""Distance from the motion up to which growth is bounded, and the bound on it that is wanted."""
+
+PARTS = (1, 2, 3, 5)
+"""Into so many parts each period is divided, the first number that does."""
+
+CELLS, HALVINGS, MOST = 24, 8, 1 << 15
+"""Parts of each period in which |D| is bounded from below, how often one is halved if need be, and how many squares of
+them are looked at together at most: where D is no larger than its rounding errors, halving helps none."""
+
+TURNS = 2.0**48
+"""More turns than there are in a phase of 2^50."""
+
+D, K, M, N = 0, (1, 2, 3), (4, 5, 6), (7, 8, 9)
+"""Places of the forms in a row."""
+
+Floats = NDArray[np.float64]
+Place = tuple[int, int]
+
+
+def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
+    """Return proven bounds on how far M, K and N of the forms are from the motion in a cell of the periods, (3,).
+
+    The cell reaches from -HALF to HALF of both, from the start. Where errors might grow too much on the way from there,
+    the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes. Raises
+    NotCertifiedError where there is no bound.
+    """
+    _check_characteristics(theta)
+    with workprec(BITS + SPARE), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        cell = Cell(theta, periods)
+        H, F = HALF * abs(cell.times).sum(axis=1)
+        rates, sizes = cell.rates() * np.array([[H], [F]]), _sizes(theta)
+        spread = HALF * np.sum([_growth(theta, sizes, *times) for times in cell.times.T], axis=0)
+        widths = [max(float(x.rad()) for x in way) for way in zip(*((p.H, p.F, p.angle) for p in periods), strict=True)]
+        moved = _growth(theta, sizes, widths[0], 0.0) + _growth(theta, sizes, 0.0, widths[1])
+        off = moved @ sizes + np.array([0, 0, widths[2] * sizes[2]])
+        for parts in PARTS:
+            growth = _exponential(spread / parts)
+            if np.max(growth @ rates.sum(axis=0)) < ENOUGH:
+                places = 2 * HALF * ((np.arange(parts) + 0.5) / parts - 0.5)
+                apart = [_apart(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
+                distance = WIDER * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
+                if np.max(distance) < SMALL:
+                    return np.asarray(distance)
+    raise NotCertifiedError("not certified: what theta functions miss might grow too much over the motion's torus.")
+
+
+def drifts(theta: ThetaMotion, periods: Sequence[Period], taken: Sequence[Period]) -> Floats:
+    """Return proven bounds on how far M, K and N go astray in all turns where other periods are taken than the proved.
+
+    Raises NotCertifiedError where they go too far for a bound.
+    """
+    with workprec(BITS + SPARE):
+        far, turn = np.zeros(3), 2 * arb.pi()
+        for p, q in zip(periods, taken, strict=True):
+            turns = (p.angle - q.angle) / turn
+            far += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
+    sizes = _sizes(theta)
+    growth = TURNS * _growth(theta, sizes, far[0], far[1])
+    if not growth.sum() < SMALL:
+        raise NotCertifiedError("not certified: the periods are not known well enough for long times.")
+    return np.asarray(WIDER * (growth @ sizes + [0, 0, TURNS * far[2] * sizes[2]]))
+
+
+class Cell:
+    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF, and what they leave there."""
+
+    def __init__(self, theta: ThetaMotion, periods: Sequence[Period]) -> None:
+        self.theta, inverse = theta, theta.X.inv()
+        self.origin = centre(2 * theta.start[0]), centre(theta.start[1])
+        self.shift = centre(2 * theta.w[0]), centre(theta.w[1])
+        self.hat = acb_mat([[centre(theta.hat[i, j]) for j in range(2)] for i in range(2)])
+        self.flows = [(centre(2 * inverse[0, k]), centre(inverse[1, k])) for k in range(2)]
+        self.lines = [centre(theta.l[0] * inverse[0, k] + theta.l[1] * inverse[1, k]) for k in range(2)]
+        self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
+        self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
+        self.Y = matrix_of(self.hat).imag
+        self.corners = self.into @ (HALF * np.array(list(product((-1, 1), repeat=2))).T)
+        self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
+        self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT / np.pi)
+        turns = np.array([complex_of(x) for x in self.lines]) @ self.times
+        self.narrow = float(np.linalg.eigvalsh(self.Y)[0])
+        self.away = np.linalg.solve(self.Y, np.array([complex_of(s).imag for s in self.shift]))
+        self.forms = [theta.denominator, *theta.K, *theta.M, *(replace(x, shift=self.shift) for x in theta.N)]
+        self._terms: Callable[[Place], list[acb]] = cache(partial(weights_at, self.forms, self.hat, self.origin))
+        sizes = [*theta.motion.moments, *(1 / I for I in theta.motion.moments), *self.lines, theta.motion.D, 1]
+        weights = max(abs(complex_of(x)) for form in self.forms for x in form.weights)
+        self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
+        """Bound on the sum of factors of the products in a defect."""
+        self.largest_factor = float(np.exp(HALF * np.abs(turns.imag).sum()))
+        """That of N, exp(i l (zeta - start))."""
+
+    def rates(self) -> Floats:
+        """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
+        S, size, beyond = self._defects()
+        most = size + HALF * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
+        top = most.max()
+        if not np.isfinite(top):
+            return np.full((2, 3), np.inf)
+        matters = most.max(axis=1) > top - FAINT
+        faint = np.exp(most[~matters] - top).sum(axis=0) + np.exp(beyond - top)
+        S, size = S[matters], np.exp(size[matters] - top)
+        weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
+        ways, twice = (self.places - self.middle) @ self.into, ((S - 2 * self.middle) @ self.into).imag
+        weight = max(abs(complex_of(x)) for x in self.theta.denominator.weights)
+        spare = weight * np.exp(self._highest(0.0) - top / 2) * _beyond(FAINT, np.pi / 4 * self.narrow)
+        if max(2 * HALF * max(abs(ways).max(), abs(twice).max()), len(ways), len(S)) > ARGUMENT:
+            return np.full((2, 3), np.inf)
+        half, worst = HALF / CELLS, np.zeros(6)
+        line = np.arange(-CELLS + 1, CELLS, 2) * half
+        x = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+        for _ in range(HALVINGS):
+            terms = weights * np.exp(1j * x @ ways.T)
+            value, slopes, far = abs(terms.sum(axis=1)), abs(terms @ ways).sum(axis=1), half * abs(ways).sum(axis=1)
+            below = value - half * slopes - abs(terms) @ (far**2 / 2 * np.exp(far) + FLOATS) - spare
+            good = below > value / 2
+            above = np.exp(-x[good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
+            worst = np.maximum(worst, (above / below[good, None] ** 2).max(axis=0, initial=0.0))
+            if good.all():
+                return np.asarray(WIDER * worst.reshape(2, 3) * [1, 1, self.largest_factor])
+            half /= 2
+            x = np.concatenate([x[~good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
+            if len(x) > MOST:
+                break
+        return np.full((2, 3), np.inf)
+
+    def _defects(self) -> tuple[Floats, Floats, Floats]:
+        """Return places S (n, 2) and logarithms of bounds on coefficients there, (n, 6): of M, K, N by each flow.
+
+        The third are logarithms of bounds, (6,), on the sums of all others, anywhere in the cell.
+        """
+        low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
+        found, beyond, parts = [], [], np.array([0.0, 0.0, 0.5] * 2)
+        peaks = {height: 2 * self._peaks(height) for height in (0.0, 0.5)}  # where coefficients are largest
+        highest = np.array([2 * self._highest(height) for height in parts])
+        others = np.log(_beyond(LEFT_OUT, 2 * np.pi * self.narrow))
+        for S in product(*(range(int(s), int(s) + 4) for s in low)):
+            place: Floats = np.array(S)
+            ways = [near_hull(self.Y, (peak - place) / 4, LEFT_OUT / (2 * np.pi)) for peak in peaks.values()]
+            shifts = 4 * np.unique(np.concatenate(ways), axis=0)
+            less = [self._left_out(place, height) for height in parts]
+            defects = [
+                np.linalg.norm([float(abs(c).upper()) + spare for c in components])
+                for components, spare in zip(self._coefficients(S), less, strict=True)
+            ]
+            sizes = np.array([self._size(place, height) for height in parts])
+            more = np.column_stack([self._size(place + shifts, height) for height in parts]) - sizes
+            found.append((place + shifts, more + np.log(defects)))
+            beyond.append(np.log(defects) - sizes + highest + others)
+        all_beyond = np.logaddexp.reduce(beyond, axis=0)
+        return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found]), all_beyond
+
+    def _peaks(self, height: float) -> Floats:
+        """Return the places (4, 2), not whole, of the largest term of a form at the corners of the cell."""
+        return np.asarray(-2 * np.linalg.solve(self.Y, self._heights(height)).T)
+
+    def _heights(self, height: float) -> Floats:
+        """Return Im v (2, 4) at the corners, less that part of the shift."""
+        return np.asarray(self._imaginary(height)[:, None] + self.corners.imag / np.pi)
+
+    def _highest(self, height: float) -> float:
+        """Return the logarithm of the largest that exp(i pi (n hat n/4 + n v)) is for any real n in the cell.
+
+        It is pi (y, Y^-1 y), y = Im v, but for the power of the middle, which is taken out: convex, so largest in a
+        corner.
+        """
+        y = self._heights(height)
+        quadratic = np.pi * np.einsum("ik,ik->k", y, np.linalg.solve(self.Y, y))
+        return float(np.max(quadratic + self.middle @ self.corners.imag))
+
+    def _imaginary(self, height: float) -> Floats:
+        """Return the imaginary part of the origin less that part of the shift."""
+        return np.array([complex_of(v - height * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
+
+    def _size(self, S: Floats, height: float) -> Floats:
+        """Return log |g_S|."""
+        square = np.einsum("...i,ij,...j->...", S, self.Y, S)
+        return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(height)))
+
+    def _coefficients(self, S: tuple[int, ...]) -> Iterator[list[acb]]:
+        """Yield the coefficients at S of the defects of M, K and N along the flow of H, and of F/2."""
+        motion = self.theta.motion
+        I = motion.moments
+        A, J, unit = [1 / x for x in I], [-motion.D / x for x in I], [1, 1, 1]
+        B, *slopes = self._products(S)
+
+        def turned(left: Sequence[int], right: Sequence[int], by: Sequence[object]) -> list[acb]:
+            return [B[left[j], right[k]] * by[k] - B[left[k], right[j]] * by[j] for j, k in ((1, 2), (2, 0), (0, 1))]
+
+        terms = (
+            [[turned(M, M, A), turned(K, K, I)], [turned(K, M, A)], [turned(N, M, A)]],
+            [[turned(K, K, J)], [turned(K, M, unit)], [turned(N, M, unit)]],
+        )
+        for slope, line, rates in zip(slopes, self.lines, terms, strict=True):
+            for rows, parts in zip((M, K, N), rates, strict=True):
+                more = acb(0, 1) * line if rows is N else acb(0)
+                changes = [slope[i, D] + more * B[i, D] for i in rows]
+                yield [x - sum(less, acb(0)) for x, *less in zip(changes, *parts, strict=True)]
+
+    def _products(self, S: tuple[int, ...]) -> list[acb_mat]:
+        """Return the coefficients at S of all products f g, and of f' g - f g' along each flow."""
+        places = self._places(np.array(S) / 2)
+        left = list(zip(*(self._terms(place) for place in places), strict=True))
+        right = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])
+        products = [acb_mat(left) * right]
+        for u, v in self.flows:
+            rates = [acb(0, 1) * arb.pi() * ((2 * P - S[0]) * u + (2 * Q - S[1]) * v) for P, Q in places]
+            products.append(acb_mat([[x * rate for x, rate in zip(row, rates, strict=True)] for row in left]) * right)
+        return products
+
+    def _places(self, middle: Floats) -> list[Place]:
+        """Return the places of the terms that matter, round the middle and round the middle plus a shift."""
+        near_places = near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
+        return [(int(P), int(Q)) for P, Q in near_places]
+
+    def _left_out(self, S: Floats, height: float) -> float:
+        """Return a bound on what the terms that are left out add to a coefficient at S.
+
+        Beyond LEFT_OUT a sum of exp(-q), q = pi/2 (p, Y p), is one of exp(-q/10) times exp(-9/10 LEFT_OUT); a tenth of
+        that goes for the factor p of a rate.
+        """
+        sums = np.exp(-0.8 * LEFT_OUT) * (2 + np.sqrt(20 / self.narrow)) ** 2
+        rate = max(abs(complex_of(x)) for flow in self.flows for x in flow)
+        slopes = 8 * np.pi * rate * (abs(self.away).max() + 2 / np.sqrt(self.narrow))
+        peak = np.pi / 2 * self.away @ self.Y @ self.away if height else 0.0
+        return float(self.weight * sums * (1 + slopes) * np.exp(self._size(S, height) + peak))
+
+
+def _check_characteristics(theta: ThetaMotion) -> None:
+    """Raise NotCertifiedError unless all products in a component of a defect have one law of coefficients.
+
+    From S to S + 4j the product of forms of characteristics d and d' takes the sign (-1)^(j_2 (d + d')), besides g.
+    """
+    axes = [form.place for form in theta.K]
+    turned = {form.place ^ place for form, place in zip(theta.N, axes, strict=True)}
+    different = len({theta.denominator.place, *axes}) == len(CHARACTERISTICS)
+    alike = [form.place for form in theta.M] == axes and len(turned) == 1
+    if not (different and alike) or any(
+        abs(complex_of(x)) for form in (theta.denominator, *theta.K, *theta.M, *theta.N) for x in form.shift
+    ):
+        raise NotCertifiedError("not certified: the characteristics of the theta functions are not one for each axis.")
+
+
+def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
+    """Return at least the whole places n with (n - p, Y (n - p)) below `most` for a p of a parallelogram.
+
+    Its corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). They are the places near a net of points of it,
+    from one of which no other point is farther than half the diagonal of a mesh.
+    """
+    sides = corners[2] - corners[0], corners[1] - corners[0]
+    lengths = [float(np.sqrt(side @ Y @ side)) for side in sides]
+    steps = [int(np.ceil(min(length, 30.0))) + 1 for length in lengths]
+    far = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
+    s, t = np.meshgrid(*(np.linspace(0, 1, count) for count in steps))
+    points = corners[0] + s.reshape(-1, 1) * sides[0] + t.reshape(-1, 1) * sides[1]
+    return near(Y, points, (np.sqrt(most) + far) ** 2 * (1 + 1e-9))
+
+
+def _beyond(distance: float, narrow: float) -> float:
+    """Return a bound on the sum of exp(-q(n - p)) over whole n of the plane with q >= distance, for any p.
+
+    With q(n) >= narrow n^2 it is exp(-9/10 distance) times the sum of exp(-q/10), a square of a sum over a line, which
+    is below its largest term and the integral.
+    """
+    return float(np.exp(-0.9 * distance) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
+
+
+def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
+    """Return bounds on the distances of M, K and N of the forms from the motion after some times (H, F)."""
+    H, F = map(rational, times.tolist())
+    way = theta.zeta([acb(H), acb(F)])
+    zeta = [x + y for x, y in zip(way, theta.start, strict=True)]
+    pairs, shifted = theta.pairs(zeta), theta.pairs([x - y for x, y in zip(zeta, theta.w, strict=True)])
+    below, factor = theta.denominator.of(pairs), (acb(0, 1) * dot(theta.l, way)).exp()
+    state = torus.flow.go(H, F, BITS)
+    S = matrix(state.q)
+    wanted = [
+        [I * w for I, w in zip(torus.moments, state.W, strict=True)],
+        state.K,
+        [sum((S[i][j] * x for i, x in enumerate(theta.at_start.N)), acb(0)) for j in range(3)],
+    ]
+    found = [
+        [form.of(pairs) / below for form in theta.M],
+        [form.of(pairs) / below for form in theta.K],
+        [factor * form.of(shifted) / below for form in theta.N],
+    ]
+    both = zip(found, wanted, strict=True)
+    return np.array([sum(float(abs(x - y).upper()) for x, y in zip(*pair, strict=True)) for pair in both])
+
+
+def _sizes(theta: ThetaMotion) -> Floats:
+    """Return bounds on |M|, |K| and |N|: |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment."""
+    motion = theta.motion
+    K, most = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
+    M = np.sqrt(float(arb(motion.F).upper()) + most * K * K)
+    return np.array([1e-9 + SMALL + (1 + 1e-9) * x for x in (M, K, 2**0.5)])
+
+
+def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
+    """Return how fast errors of M, K and N grow by one another, at most, on a way that takes the times H and F.
+
+    A multiple of 1 may be taken from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K.
+    """
+    I = np.array([float(arb(x).mid()) for x in theta.motion.moments])
+    M, K, N = sizes
+    turn = abs(H / I + F).max()
+    return np.array(
+        [[abs(H) * M * np.ptp(1 / I) / 2, K * np.ptp(H * I - F * I.prod() / I), 0], [K * turn, 0, 0], [N * turn, 0, 0]]
+    )
+
+
+def _exponential(growth: Floats) -> Floats:
+    """Return the exponential of a matrix without negative elements."""
+    halvings = max(0, int(np.ceil(np.log2(growth.sum())))) if growth.any() else 0
+    term = total = np.eye(3)
+    for n in range(1, 30):
+        term = term @ growth / 2.0**halvings / n
+        total = total + term
+    return np.asarray(np.linalg.matrix_power(total, 2**halvings))

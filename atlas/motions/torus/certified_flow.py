@@ -1,0 +1,363 @@
+"""The flow of a H + g F/2 on W = II^-1 M and K with the attitude it turns, by Taylor series, with a proven error.
+
+    W_i' = -(I_j - I_k) [(a/I_i + g) K_j K_k - (a/I_i) W_j W_k],    V_i = (a + g I_i) W_i,
+    K' = [K, V],    q' = q V/2 (a quaternion, scalar first; S' = S V^)
+
+with (i, j, k) cyclic; for a = 1, g = 0 this is the motion as seen from Larmor's frame.
+Numbers are integers in units of 2^-bits, and a step is any polynomial p(x), x from 0 to 1: what it is wrong by follows
+from its defect p' - h f(p), which is computed exactly. How errors of W and K grow from step to step follows from a
+fundamental matrix, which floats give well enough: with e = X w,
+
+    w(n+1) = w(n) + X(n+1)^-1 [(J X(n) - X(n+1)) w(n) + what the step adds],
+
+J the derivative of the step's flow, known to some ten digits, so that w hardly grows at all; each component of w has a
+bound of its own, and X begins anew with orthogonal columns where they become nearly dependent. q, of length 1, takes up
+half the errors of V, and its own.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from math import exp, inf, isfinite, sqrt
+from operator import mul
+
+import numpy as np
+from flint import arb, fmpq, fmpz, fmpz_poly
+from numpy.typing import NDArray
+
+from atlas.arithmetic.numbers import workprec
+from atlas.errors import NotCertifiedError
+
+Matrix = NDArray[np.float64]
+Series = list[list[int]]
+Rates = tuple[list[fmpq], list[fmpq], list[fmpq]]
+
+ORDER = 0.27
+"""Terms of a series for each bit: a step is what makes the last one less than a unit."""
+
+PARTS = 1 << 20
+"""The whole way is cut into steps that are multiples of this part."""
+
+TERMS = 40
+"""Terms of the derivative of a step, in floats."""
+
+ROUNDING = 1e-12
+"""Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
+
+PRECISE, LARGE = 4000, 400
+"""Binary digits beyond which a step takes too long, and those from which flint's integers are faster than Python's."""
+
+PARTS = 1 << 20
+"""The whole way is cut into steps that are multiples of this part."""
+
+TERMS = 40
+"""Terms of the derivative of a step, in floats."""
+
+ROUNDING = 1e-12
+"""Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
+
+PRECISE, MANY, LARGE = 4000, 600, 400
+"""Binary digits beyond which a step takes too long, those from which on growing errors get no more, and those
+from which flint's integers are faster than Python's."""
+
+MOST = 4000
+"""Steps of a way; a longer one is not gone."""
+
+SMALL = 8
+"""Binary digits of a coefficient above which rounding does not matter to its size."""
+
+STIFF = 8.0
+"""Largest Lipschitz constant of the right-hand side times a step: TERMS give its derivative, and errors little room."""
+
+SKEW, FLAT = 1e8, 1e-4
+"""Largest condition number of a matrix of errors, and the shortest edge of a box of errors beside its longest."""
+
+BLOCK = 16
+"""Coefficients of a block that are summed one by one."""
+
+CYCLE = ((1, 2), (2, 0), (0, 1))
+
+PRODUCTS = (
+    *((j, k) for j, k in CYCLE),  # W_j W_k
+    *((3 + j, 3 + k) for j, k in CYCLE),  # K_j K_k
+    *((3 + j, 10 + k) for j, k in CYCLE),  # K_j U_k, U = V
+    *((3 + k, 10 + j) for j, k in CYCLE),
+    *((7 + i, 10 + i) for i in range(3)),  # q_i U_i
+    *((6, 10 + i) for i in range(3)),  # q_0 U_i
+    *((7 + j, 10 + k) for j, k in CYCLE),
+    *((7 + k, 10 + j) for j, k in CYCLE),
+)
+"""Products of which the right-hand sides consist: rows are W, K, q and U, (i, j, k) cyclic."""
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """W, K and q at the end of a way, as balls."""
+
+    W: list[arb]
+    K: list[arb]
+    q: list[arb]
+
+
+class GrowthError(NotCertifiedError):
+    """Errors of Taylor's series grow beyond their bounds, which are wider for more bits."""
+
+
+class Flow:
+    """The flow from a state (W, K) with rational components, of a body with rational moments."""
+
+    def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
+        self.moments = list(moments)
+        self.start = [*W, *K]
+
+    def rates(self, a: fmpq, g: fmpq) -> Rates:
+        """Return V_i/W_i, and what stands before W_j W_k and K_j K_k in the rates of W."""
+        I = self.moments
+        across = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
+        return (
+            [a + g * x for x in I],
+            [a * x for x in across],
+            [-(a + g * x) * y for x, y in zip(I, across, strict=True)],
+        )
+
+    def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
+        """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
+
+        Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
+        """
+        if bits > PRECISE:
+            raise NotCertifiedError(
+                f"not certified: so many digits would take more than {PRECISE} binary ones; of three moments some 1000 "
+                "decimal ones can be had, fewer of numbers near zero."
+            )
+        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, proven=proven)
+        while way.left:
+            way.step()
+        with workprec(2 * bits):
+            return way.arrival()
+
+
+class _Way:
+    """The state of a flow under way, and the bound on its error."""
+
+    def __init__(self, rates: Rates, start: list[int], bits: int, *, proven: bool) -> None:
+        self.rates, self.bits, self.proven = rates, bits, proven
+        self.state = [*start, 1 << bits, 0, 0, 0]
+        self.left, self.steps = PARTS, 0
+        size = _float(sum(abs(x) for x in start), bits) + 1e-300
+        rate = float(max(abs(x) for row in rates for x in row)) * size
+        self.guess = max(1, min(PARTS, int(PARTS / max(rate, 1e-9))))
+        self.order = max(12, int(ORDER * bits))
+        self.X: Matrix = np.eye(6)
+        self.w: Matrix = np.ones(6)  # the start is rounded
+        self.q_error = 1.0
+
+    def step(self) -> None:
+        """Go one step, as long as the series allows."""
+        self.steps += 1
+        if self.steps > MOST:
+            raise NotCertifiedError(f"not certified: more than {MOST} steps of Taylor's series would be needed.")
+        h = fmpq(self.guess, PARTS)
+        rows = self._series(h)
+        sizes = [max(abs(row[n]) for row in rows).bit_length() for n in range(self.order + 1)]
+        last = max((n for n, size in enumerate(sizes) if size > SMALL), default=0)
+        falls = (sizes[0] - sizes[last]) / last if last else 2.0 * sizes[0]
+        scale = 2.0 ** min(1.0, falls - sizes[0] / self.order)  # the last terms become a unit
+        parts = max(1, min(self.left, int(self.guess * min(1.0, scale))))  # larger ones would swell the roundings
+        factor = fmpq(parts, self.guess)
+        rows = [_scaled(row, factor) for row in rows]
+        if self.proven and (lipschitz := self._sizes(rows, fmpq(parts, PARTS))[3]) > STIFF:
+            factor = fmpq(max(1, int(parts * STIFF / lipschitz)), parts)
+            parts, rows = int(parts * factor), [_scaled(row, factor) for row in rows]
+        if self.proven:
+            self._account(rows, fmpq(parts, PARTS))
+        self.state = [sum(row) for row in rows]
+        self.left -= parts
+        self.guess = max(1, min(PARTS, int(self.guess * scale)))
+
+    def _scaled_rates(self, h: fmpq) -> tuple[list[int], ...]:
+        """Return the rates times h, in units."""
+        return tuple([_units(h * x, self.bits) for x in row] for row in self.rates)
+
+    def _series(self, h: fmpq) -> Series:
+        """Return Taylor coefficients of W, K and q over a step h, in units."""
+        b = self.bits
+        V, first, second = self._scaled_rates(h)
+        rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
+        for n, c in enumerate(_products(rows, self.order, BLOCK if b >= LARGE else self.order)):
+            for i in range(3):
+                rows[i].append((first[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
+                rows[3 + i].append((c[6 + i] - c[9 + i]) // ((n + 1) << b))
+                rows[7 + i].append((c[15 + i] + c[18 + i] - c[21 + i]) // ((n + 1) << b + 1))
+                rows[10 + i].append(V[i] * rows[i][-1] >> b)
+            rows[6].append(-(c[12] + c[13] + c[14]) // ((n + 1) << b + 1))
+        return rows[:10]
+
+    def _account(self, rows: Series, h: fmpq) -> None:
+        """Take the step's errors into the bounds."""
+        W, K, size_V, lipschitz = self._sizes(rows, h)
+        if not lipschitz < 2 * STIFF:
+            raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
+        state, turn = self._defect(rows, h, W, K)
+        spread = exp(lipschitz)
+        J, eta = self._derivative(rows, h, spread)
+        before = float(np.linalg.norm(abs(self.X) @ self.w))
+        if not (isfinite(before) and before < 2.0 ** (self.bits / 4)):
+            raise GrowthError("not certified: the errors of Taylor's series grow beyond their bounds.")
+        added = (
+            state * spread + len(rows[0]) * 6 + 1
+        )  # the 1 is for terms of second order in errors below 2^(-3/4 bits)
+        if not np.linalg.cond(J @ self.X) < SKEW:
+            self._straighten()
+        following: Matrix = J @ self.X
+        self.w = self.w + _inverse_rows(following) * ((eta + ROUNDING * np.linalg.norm(J)) * before + added)
+        self.X = following
+        self.q_error += turn + len(rows[0]) * 4 + size_V * (before + added) * spread
+
+    def _straighten(self) -> None:
+        """Enclose the box X w of the errors by one with orthogonal edges, the longest first (Lohner).
+
+        So X stays invertible in floats where errors grow in one direction and shrink in another.
+        """
+        longest_first = np.argsort(-np.linalg.norm(self.X, axis=0) * self.w)
+        Q, R = np.linalg.qr(self.X[:, longest_first])
+        edges = abs(R) @ self.w[longest_first]
+        self.X, self.w = Q, 1.01 * edges + ROUNDING * edges.max()
+
+    def _sizes(self, rows: Series, h: fmpq) -> tuple[float, float, float, float]:
+        """Return bounds on |W| and |K| in the step, on h max|V_i/W_i|, and on the Lipschitz constant times h."""
+        size = [_float(sum(map(abs, row)), self.bits) for row in rows[:6]]
+        W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
+        most, first, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
+        return W, K, most, 2 * first * W + 2 * second * K + most * (W + K)
+
+    def _defect(self, rows: Series, h: fmpq, W: float, K: float) -> tuple[float, float]:
+        """Return bounds in units on p' - h f(p) over the step, of (W, K) together and of q."""
+        b = self.bits
+        V, first, second = self._scaled_rates(h)
+        p = [fmpz_poly(row) for row in rows]
+        p += [v * x for v, x in zip(V, p, strict=False)]  # U in units of 2^-2b
+        c = [p[x] * p[y] for x, y in PRODUCTS]
+        unit = 1 << 2 * b
+        defects = [_size(p[i].derivative() * unit - first[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
+        defects += [_size(p[3 + i].derivative() * unit - c[6 + i] + c[9 + i], 2 * b) for i in range(3)]
+        turn = [_size(p[6].derivative() * (2 * unit) + c[12] + c[13] + c[14], 2 * b + 1)]
+        turn += [
+            _size(p[7 + i].derivative() * (2 * unit) - c[15 + i] - c[18 + i] + c[21 + i], 2 * b + 1) for i in range(3)
+        ]
+        rounded = 4 * (W + K) * (W + K) + 4  # the rates are rounded to a unit
+        return 1.01 * (sqrt(sum(x * x for x in defects)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
+
+    def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
+        """Return the derivative of the step's flow of (W, K), and a bound on its error."""
+        floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
+        changes = jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
+        terms = min(TERMS, len(changes))
+        X = np.zeros((terms, 6, 6))
+        X[0] = np.eye(6)
+        for n in range(terms - 1):
+            X[n + 1] = np.einsum("nij,njk->ik", changes[: n + 1], X[n::-1]) / (n + 1)
+        sizes_J, sizes_X = np.linalg.norm(changes, axis=(1, 2)), np.linalg.norm(X, axis=(1, 2))
+        product = np.convolve(sizes_J, sizes_X)
+        defect = float(product[terms - 1 :].sum()) + 10 * ROUNDING * float(product.sum())
+        return X.sum(axis=0), 1.01 * defect * spread + ROUNDING * float(sizes_X.sum())
+
+    def arrival(self) -> Arrival:
+        """Return the state as balls."""
+        error = abs(self.X) @ self.w * 1.01
+        errors = [*(error * self.proven).tolist()] + [self.q_error * 1.01 * self.proven] * 4
+        balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
+        return Arrival(balls[:3], balls[3:6], balls[6:])
+
+
+def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
+    """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, each of which may ask for the last ones of the rows.
+
+    What coefficients in the first half of a block add to those in its second half is one product of polynomials, of
+    blocks longer than ``least``.
+    """
+    size = least
+    while size < count:
+        size *= 2
+    sums = [[0] * size for _ in PRODUCTS]
+
+    def block(first: int, last: int) -> Iterator[list[int]]:
+        if last - first <= least:
+            for n in range(first, last):
+                back = [row[n - first :: -1] for row in rows]
+                for total, (x, y) in zip(sums, PRODUCTS, strict=True):
+                    total[n] += sum(map(mul, rows[x][first:], back[y]))
+                    if first:
+                        total[n] += sum(map(mul, rows[y][first:], back[x]))
+                yield [total[n] for total in sums]
+            return
+        middle = (first + last) // 2
+        yield from block(first, middle)
+        factors = [fmpz_poly(row[first:middle]) for row in rows]
+        other = [fmpz_poly(row[: last - first]) for row in rows] if first else factors
+        for total, (x, y) in zip(sums, PRODUCTS, strict=True):
+            product = factors[x] * other[y] + (factors[y] * other[x] if first else 0)
+            for n in range(middle, last):
+                total[n] += product[n - first]
+        yield from block(middle, last)
+
+    yield from islice(block(0, size), count)
+
+
+def jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:
+    """Return the coefficients (terms, 6, 6) of the derivative of the right-hand side along a series (6, terms)."""
+    W, K = state[:3], state[3:]
+    J = np.zeros((state.shape[1], 6, 6))
+    for i, (j, k) in enumerate(CYCLE):
+        J[:, i, j], J[:, i, k] = first[i] * W[k], first[i] * W[j]
+        J[:, i, 3 + j], J[:, i, 3 + k] = second[i] * K[k], second[i] * K[j]
+        J[:, 3 + i, 3 + j], J[:, 3 + i, 3 + k] = V[k] * W[k], -V[j] * W[j]
+        J[:, 3 + i, k], J[:, 3 + i, j] = V[k] * K[j], -V[j] * K[k]
+    return J
+
+
+def _inverse_rows(X: Matrix) -> Matrix:
+    """Return bounds on the norms of the rows of X^-1."""
+    try:
+        Y = np.linalg.inv(X)
+    except np.linalg.LinAlgError as error:
+        raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.") from error
+    left = float(np.linalg.norm(np.eye(6) - Y @ X)) + ROUNDING * float(np.linalg.norm(X) * np.linalg.norm(Y))
+    if not left < 0.5:
+        raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.")
+    rows = np.linalg.norm(Y, axis=1)
+    return np.asarray(1.01 * (rows + left / (1 - left) * rows.max() * 6))
+
+
+def _units(x: fmpq, bits: int) -> int:
+    units = (int(x.p) << bits) // int(x.q)
+    return units if bits < LARGE else fmpz(units)
+
+
+def _scaled(row: list[int], factor: fmpq) -> list[int]:
+    """Return coefficients for an argument that is so many times larger."""
+    if factor == 1:
+        return row
+    p, q, powers, up, down = int(factor.p), int(factor.q), [], 1, 1
+    for x in row:
+        powers.append(x * up // down)
+        up, down = up * p, down * q
+    return powers
+
+
+def _float(x: int, bits: int) -> float:
+    """Return a number of units of 2^-bits in doubles, infinity beyond all of them."""
+    try:
+        return x / (1 << bits) if bits < LARGE else float(fmpq(x, 1 << bits))
+    except OverflowError:
+        return inf
+
+
+def _size(polynomial: fmpz_poly, bits: int) -> float:
+    """Return the sum of the sizes of the coefficients in units of 2^bits, rounded up."""
+    return float((sum(abs(int(x)) for x in polynomial) >> bits) + 1)
+
+
+def _ball(value: int, error: float, bits: int) -> arb:
+    unit = arb(2) ** -bits
+    return arb(value) * unit + arb(0, error) * unit

@@ -1,0 +1,246 @@
+"""The torus of a body with three moments: pairs of times after which its motion repeats, enclosed by Newton's method.
+
+The flows of H and F/2 commute, theorem-involution, and so do their attitudes. After a pair of times r = (T_H, T_F)
+M and K are back, and S = R_B(bt) R has turned about the field by an angle theta; so S(n r + s) = R_B(n theta) S(s) for
+whole n. That a pair r is one is proved by Newton's method in balls: with y where the flow of a start r~ arrives, there
+is exactly one d in a box after which two components of the state are those of the start x, where
+
+    N = -(X_H, X_F)^-1 (y - x)
+
+over the box lies in the box: the derivative of the flow by its times is the field X itself at its end. The other four
+components are then those of the start, since H, F and both Casimirs are, and they tell such states apart.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from flint import arb, arb_mat, fmpq
+
+from atlas.arithmetic.numbers import Vector, cross, dot, workprec
+from atlas.errors import NotCertifiedError
+from atlas.lazy import cached_property
+from atlas.motions.torus.approximate_lattice import Lattice, lattice
+from atlas.motions.torus.approximate_periods import Integrals, nearest, real_periods
+from atlas.motions.torus.certified_flow import CYCLE, Arrival, Flow, jacobian
+
+GOOD, FIRST = 320, 200
+"""Bits to which periods are proved at once from where they start, and those of a first flow that improves them."""
+
+GUARD = 40
+"""Bits by which a flow is computed more precisely than its arrival must be known."""
+
+ROUGH = 1e-20
+"""Largest error, in units of time, of a period that is improved."""
+
+NEXT = fmpq(1, 2**40)
+"""Components across a principal axis, beside those along it, up to which a motion is next to a spin."""
+
+STABLE, APART = 1e-6, 1e-6
+"""Largest growth of a small push beside its frequencies, and the least determinant of two pairs of these."""
+
+ROUNDS = 4
+"""Rounds of Newton's method from the periods of small pushes."""
+
+
+@dataclass(frozen=True)
+class Period:
+    """Times (T_H, T_F) after which M and K are back, and the angle by which S has turned about the field then."""
+
+    H: arb
+    F: arb
+    angle: arb
+
+    def least(self) -> "Period":
+        """Return it with the angle that is at most half a turn."""
+        turn = 2 * arb.pi()
+        return replace(self, angle=self.angle - turn * nearest(self.angle / turn))
+
+
+class Torus:
+    """The motions with the integrals of a state (W, K), W = Omega + K, of a body; all is rational."""
+
+    def __init__(self, moments: tuple[fmpq, ...], W: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
+        self.moments, self.W, self.K = moments, W, K
+        self.flow = Flow(moments, W, K)
+        self._starts: list[tuple[fmpq, fmpq]] | None = None
+        self._known: dict[int, tuple[Period, Period]] = {}
+        self._lost, self._no_lattice = (0, ""), ""
+
+    @property
+    def integrals(self) -> Integrals:
+        """H, F and the Casimirs, exactly."""
+        Omega = [w - k for w, k in zip(self.W, self.K, strict=True)]
+        return Integrals.of(self.moments, Omega, self.K)
+
+    def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
+        """Return the rates of (W, K) along the flows of H and of F/2."""
+        I, cycle = self.moments, ((1, 2), (2, 0), (0, 1))
+        M = [x * w for x, w in zip(I, W, strict=True)]
+        first = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
+        second = [(I[k] - I[j]) * (K[j] * K[k]) for j, k in cycle]
+        return [*first, *cross(K, W)], [*second, *cross(K, M)]
+
+    def periods(self, bits: int) -> tuple[Period, Period]:
+        """Return two periods with so many bits; NotCertifiedError where none are found."""
+        bits = min((known for known in tuple(self._known) if known >= bits), default=-(-bits // 32) * 32)
+        if bits not in self._known:
+            lost, reason = self._lost
+            if bits <= lost:  # a long way, which no fewer bits go
+                raise NotCertifiedError(reason)
+            try:
+                first, second = (self._enclosed(start, bits) for start in self._approximate())
+            except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
+                if bits >= GOOD:
+                    self._lost = bits, str(why)
+                    raise
+                first, second = self.periods(GOOD)
+            self._known[bits] = first, second
+        return self._known[bits]
+
+    @cached_property
+    def spin(self) -> int | None:
+        """Axis about which the body spins along the field, but for pushes as small as rounding; None elsewhere."""
+        sizes = [max(abs(w), abs(k)) for w, k in zip(self.W, self.K, strict=True)]
+        axis = sizes.index(max(sizes))
+        return axis if all(x <= NEXT * sizes[axis] for i, x in enumerate(sizes) if i != axis) else None
+
+    @cached_property
+    def pushed(self) -> list[tuple[float, float]] | None:
+        """Times (T_H, T_F) of the two small oscillations next to a stable spin; None elsewhere."""
+        if self.spin is None:
+            return None
+        state = np.array([[float(x) if i % 3 == self.spin else 0.0] for i, x in enumerate((*self.W, *self.K))])
+        across = [*CYCLE[self.spin], *(3 + i for i in CYCLE[self.spin])]
+        H, F = (
+            jacobian(state, *(np.array([float(x) for x in row]) for row in self.flow.rates(*way)))[0]
+            for way in ((fmpq(1), fmpq(0)), (fmpq(0), fmpq(1)))
+        )
+        H, F = (x[np.ix_(across, across)] for x in (H, F))
+        size = np.linalg.norm(H), np.linalg.norm(F)
+        values, vectors = np.linalg.eig(H / size[0] + F / (2 * size[1]))
+        waves = vectors[:, values.imag > 0].T
+        if abs(values.real).max() > STABLE * abs(values).max() or len(waves) != 2:
+            return None
+        rates = np.array([[(w.conj() @ x @ w).imag / (w.conj() @ w).real for x in (H, F)] for w in waves])
+        if abs(np.linalg.det(rates / size)) < APART:
+            return None
+        first, second = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
+        return [tuple(first), tuple(second)]
+
+    def _approximate(self) -> list[tuple[fmpq, fmpq]]:
+        if self._starts is None and self.pushed is not None:
+            starts = []
+            for T_H, T_F in self.pushed:
+                r, step = (arb(T_H).fmpq(), arb(T_F).fmpq()), np.inf
+                for _ in range(ROUNDS):
+                    r, step = self._improved(r, FIRST)
+                if not step < ROUGH:
+                    break
+                starts.append(r)
+            else:
+                self._starts = starts
+        if self._starts is None:
+            try:
+                rows = [(x.real, y.real) for x, y, _ in self.lattice.real]
+            except NotCertifiedError:  # fewer will do here
+                rows = real_periods(self.integrals)
+            if len(rows) != 2:
+                raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
+            self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in rows]
+        return self._starts
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """All periods, approximate; NotCertifiedError where they are not found, which is tried once."""
+        if self._no_lattice:
+            raise NotCertifiedError(self._no_lattice)
+        try:
+            return lattice(self.integrals)
+        except NotCertifiedError as why:
+            self._no_lattice = str(why)
+            raise
+
+    def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
+        """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""
+        r, precision = start, bits if bits <= GOOD else FIRST
+        while precision < bits:
+            r, size = self._improved(r, precision)
+            if not size < ROUGH:
+                raise NotCertifiedError("not certified: Newton's method does not find a period of the torus.")
+            precision = 2 * precision - GUARD
+        return self._proven(r, bits, self._coordinates())
+
+    def _improved(self, r: tuple[fmpq, fmpq], precision: int) -> tuple[tuple[fmpq, fmpq], float]:
+        """Return a period after a step of Newton's method, and the size of the step."""
+        with workprec(precision + GUARD):
+            step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, self._coordinates())
+            H, F = (x.mid() for x in step)
+            return (r[0] + H.fmpq(), r[1] + F.fmpq()), max(float(abs(H)), float(abs(F)))
+
+    def _coordinates(self) -> tuple[int, int]:
+        """Return the two components of the state by which its place on the torus is told best."""
+        X, Y = ([float(arb(x).mid()) for x in row] for row in self.fields(self.W, self.K))
+        return max(combinations(range(6), 2), key=lambda p: abs(X[p[0]] * Y[p[1]] - X[p[1]] * Y[p[0]]))
+
+    def _newton(self, arrival: Arrival, W: Vector, K: Vector, chosen: tuple[int, int]) -> tuple[arb, arb]:
+        """Return -(X_H, X_F)^-1 (y - x), the fields at (W, K)."""
+        X, Y = self.fields(W, K)
+        i, j = chosen
+        state, start = [*arrival.W, *arrival.K], [*self.W, *self.K]
+        f, g = (state[n] - start[n] for n in chosen)
+        determinant = X[i] * Y[j] - X[j] * Y[i]
+        return (g * Y[i] - f * Y[j]) / determinant, (f * X[j] - g * X[i]) / determinant
+
+    def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
+        with workprec(bits + 2 * GUARD):
+            arrival = self.flow.go(*r, bits + GUARD)
+            first = self._newton(arrival, self.W, self.K, chosen)
+            reach = 4 * max((abs(x).upper() for x in first), key=float)
+            box = arb(0, reach)
+            X, Y = self.fields(arrival.W, arrival.K)
+            y = [*arrival.W, *arrival.K]
+            wide = [p + 2 * box * (abs(a) + abs(b)) + box for p, a, b in zip(y, X, Y, strict=True)]
+            X, Y = self.fields(wide[:3], wide[3:])
+            inside = all(w.contains_interior(p + box * a + box * b) for w, p, a, b in zip(wide, y, X, Y, strict=True))
+            step = self._newton(arrival, wide[:3], wide[3:], chosen)
+            if not (inside and all(box.contains_interior(x) for x in step) and self._told_apart(wide, chosen)):
+                raise NotCertifiedError("not certified: that the motion's torus has this period could not be proved.")
+            V = [(step[0] + step[1] * I) * w for w, I in zip(wide[:3], self.moments, strict=True)]
+            q = turned(arrival.q, V)
+            b = arb(dot(self.K, self.K)).sqrt()
+            along = dot(q[1:], [k / b for k in self.K])
+            angle = 2 * arb.atan2(along, q[0])
+            return Period(r[0] + step[0], r[1] + step[1], angle)
+
+    def _told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
+        """Whether states near the start with its integrals differ in the chosen components, if at all."""
+        near = [arb(x).union(w) for x, w in zip((*self.W, *self.K), wide, strict=True)]
+        W, K, J = near[:3], near[3:], self.moments
+        D = J[0] * J[1] * J[2]
+        M = [I * w for I, w in zip(J, W, strict=True)]
+        gradients = [
+            [*M, *(I * k for k, I in zip(K, J, strict=True))],
+            [*(I * m for I, m in zip(J, M, strict=True)), *(-D * k / I for k, I in zip(K, J, strict=True))],
+            [*(I * k for k, I in zip(K, J, strict=True)), *M],
+            [arb(0)] * 3 + K,
+        ]
+        others = [n for n in range(6) if n not in chosen]
+        return not arb_mat([[row[n] for n in others] for row in gradients]).det().contains(0)
+
+
+def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
+    """Return f1, f2 of M and K, and f3 about a field of length b, of which the angles of the periods are part."""
+    (first, second), turn = periods, 2 * arb.pi()
+    area = first.H * second.F - first.F * second.H
+    along = second.F / area, -first.F / area
+    return [turn * along[0], turn * along[1], first.angle * along[0] + second.angle * along[1] - b]
+
+
+def turned(q: list[arb], V: list[arb]) -> list[arb]:
+    """Return a unit quaternion after a small turn at a rate in the balls V for a unit of time."""
+    most = arb(0, sum((abs(x) for x in V), arb(0)).upper())
+    w, *vector = (x + most for x in q)  # wherever it is on the way
+    turned = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]
+    return [x + y / 2 for x, y in zip(q, turned, strict=True)]

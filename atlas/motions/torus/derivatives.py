@@ -1,0 +1,215 @@
+"""Derivatives of the motion of a body with three moments in its inputs, by theta functions, at any time.
+
+N, K, W and their denominator are sums of exponentials exp(i (P v_1 + Q v_2)), v = ways x/2, at phases x of the torus,
+see `atlas.motions.torus.theta`. So derivatives need those of the weights, of the ways and of the frequencies f:
+
+    dv = (d ways) x/2 + ways (t df)/2,       d sum = sum of (d weight + i (P dv_1 + Q dv_2) weight) exp(...).
+
+They are differences of constants that are known to some forty digits, over steps of 2^-56 of the inputs. Where one
+changes by more than the step explains, the functions were found in another form, and the derivative is refused.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.motions.torus.approximate_lattice import Lattice
+from atlas.motions.torus.approximate_periods import BITS, complex_of
+from atlas.motions.torus.approximate_theta import ThetaMotion
+from atlas.motions.torus.approximate_theta_sums import Array, weights_at
+from atlas.motions.torus.certified_torus import Torus
+from atlas.motions.torus.theta import Constants, ThetaKernel
+
+STEP, WEAK = 56, 28
+"""Binary digits behind the point that a step leaves alone, and how many more in a weak field.
+
+Moments and rates are near 1 in the units of the torus.
+"""
+
+NEAR = 2.0**-20
+"""Largest change of a constant, beside the largest of its kind, that a step explains."""
+
+WHOLE = 1e-3
+"""How near to whole numbers are those by which a basis goes into another."""
+
+PART = 512
+"""Times at once."""
+
+ROUNDING, BOUND = 2.0**-52, 1e-9
+"""Error of a term of v, in parts of it, and that of v, in parts of 1 + |v|, up to which it is given."""
+
+
+class TorusVaried:
+    """Derivatives of one motion on a torus in some inputs, by their places among moments, field and omega."""
+
+    def __init__(self, exact: Any, kernel: ThetaKernel, places: Sequence[int]) -> None:
+        motion, sums = exact.on_torus, kernel.sums
+        self.kernel, low = kernel, sums.centre
+        box = [(int(P + low[0]), int(Q + low[1])) for P in sums.P for Q in sums.Q]
+        peak = int(np.argmax(abs(sums.table[3]).ravel()))
+        with workprec(BITS):
+            here = _tables(kernel.constants, box, peak)
+            values = [*motion.torus.moments, *motion.torus.K]
+            values += [w - k for w, k in zip(motion.torus.W, motion.torus.K, strict=True)]
+            unit = float(arb(exact.inertia[0] / motion.torus.moments[0]).mid())
+            weights, ways, frequencies, frame = (np.array([complex_of(x) for x in kind]) for kind in here)
+            derivatives, groups = dict[int, list[Array]](), ((0, 1, 2), (3, 4, 5, 6, 7, 8))
+            # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
+            left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
+            b = max(abs(float(arb(x).mid())) for x in values[3:6])
+            weak = min(max(round(-2 * np.log2(b)), 0), WEAK)  # constants bend on the scale of a weak field
+            for place in set(places) - left:
+                step = STEP + weak * (place in (3, 4, 5))
+                moved = _moved(values, place, step, motion.rate, kernel.made_of[0])
+                derivatives[place] = _slopes(here, _tables(moved, box, peak), step)
+            by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
+            by_rates.append(-frame * np.repeat([0, 1], [6, 3]))
+            for place in left:
+                group, whole = groups[place > 2], by_rates if place > 2 else [0 * x for x in by_rates]
+                others = {i: float(arb(values[i]).mid()) for i in group if i != place}
+                derivatives[place] = [
+                    (x - sum(size * derivatives[i][n] for i, size in others.items())) / float(arb(values[place]).mid())
+                    for n, x in enumerate(whole)
+                ]
+        slopes = [[x / (kernel.rate if place > 2 else unit) for x in derivatives[place]] for place in places]
+        self.weights = weights.reshape(10, -1)
+        self.d_weights = np.array([x[0].reshape(10, -1) for x in slopes]).reshape(len(places), 10, -1)
+        tables = np.concatenate([self.weights[None], self.d_weights])
+        matters = (tables != 0).any((0, 1))
+        self.P, self.Q = (np.array([x[i] - low[i] for x in box])[matters] for i in (0, 1))
+        self.ways, self.frame = ways.reshape(3, 2), frame.real.reshape(3, 3)
+        self.weights, self.d_weights = self.weights[:, matters], self.d_weights[:, :, matters]
+        self.d_ways = np.array([x[1].reshape(3, 2) for x in slopes]).reshape(len(places), 3, 2)
+        self.d_frequencies = np.array([x[2].real for x in slopes]).reshape(len(places), 3)
+        self.d_frame = np.array([x[3].real.reshape(3, 3) for x in slopes]).reshape(len(places), 3, 3)
+
+    @property
+    def of_frequencies(self) -> FloatArray:
+        """Derivatives of f1, f2 and f3, (inputs, 3), of f3 that of the least angles."""
+        turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
+        return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
+
+    def weighted(self, *_: Any) -> None:
+        """Return what is kept for combinations of inputs: nothing."""
+
+    def vectors(
+        self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, *_: Any
+    ) -> list[FloatArray]:
+        """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
+        out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
+        for i in range(0, t.size, PART):
+            for block, values in zip(out, self._block(t[i : i + PART], slopes), strict=True):
+                block[i : i + PART] = np.einsum("np,pmk->mnk", names, values) @ left.T
+        out[0] += turns
+        return out
+
+    def _block(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
+        half, rest, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
+        half = half + rest
+        x = self.ways @ half[:2]
+        grown = self.d_frequencies[:, :, None] * t / 2
+        dx = self.d_ways @ half[:2] + self.ways @ grown[:, :2]
+        turn = np.exp(1j * (x[2].real + 2 * half[2]) - x[2].imag)
+        d_turn = 1j * (dx[:, 2] + 2 * grown[:, 2])
+        waves = self._waves(self.P, x[0]) * self._waves(self.Q, x[1])
+        inputs, forms = len(self.d_ways), 10 if slopes else 7
+        table = [self.weights, 1j * self.P * self.weights, 1j * self.Q * self.weights, *self.d_weights]
+        sums = np.concatenate([x[:forms] for x in table]) @ waves
+        S, by_P, by_Q, *own = sums.reshape(3 + inputs, forms, -1)
+        D = S[3]
+        changed = np.array(own).reshape(inputs, forms, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
+        values = S / D
+        sizes = (abs(changed) + abs(values * changed[:, 3:4])) / abs(D)
+        sizes = np.stack([sizes[:, :3].max(1), sizes[:, 4:7].max(1)], 1)
+        changed = (changed - values * changed[:, 3:4]) / D
+        N, K = values[:3] * turn, values[4:7].real
+        dN = changed[:, :3] * turn + N * d_turn[:, None]
+        dK = changed[:, 4:7].real
+        rows, d_rows = np.array([N.real, N.imag, K]), np.stack([dN.real, dN.imag, dK], 1)
+        R = np.einsum("ka,kbm->mab", self.frame, rows)
+        dR = np.einsum("pka,kbm->pmab", self.d_frame, rows) + np.einsum("ka,pkbm->pmab", self.frame, d_rows)
+        turned = dR @ R.swapaxes(-1, -2)
+        v = np.stack([turned[..., 2, 1], turned[..., 0, 2], turned[..., 1, 0]], -1)
+        terms = abs(self.d_frame).max(2) @ abs(rows).max(1)
+        terms += np.tensordot(sizes[:, [0, 0, 1]], abs(self.frame).max(1), (1, 0))
+        if not (ROUNDING * terms <= BOUND * (1 + abs(v).max(2))).all():
+            raise DomainError("The field is too weak beside the angular velocity for derivatives in it in floats.")
+        if not slopes:
+            return [v]
+        return [v, np.matvec(R, (changed[:, 7:].real - dK).swapaxes(1, 2)) * self.kernel.rate]
+
+    @staticmethod
+    def _waves(orders: FloatArray, x: Array) -> Array:
+        """Return exp(i n x) of some orders, of which most come more than once, (orders, m)."""
+        least = int(orders.min())
+        powers = np.exp(1j * np.arange(least, int(orders.max()) + 1)[:, None] * x)
+        return np.asarray(powers[orders - least])
+
+
+def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
+    """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
+    moved = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
+    K, omega = moved[3:6], moved[6:]
+    torus = Torus(tuple(moved[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
+    try:
+        with workprec(BITS):
+            lattice = _followed(torus.lattice, here.lattice)
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, lattice, here)
+    except NotCertifiedError as reason:
+        raise DomainError(f"A neighbour of the motion has no theta functions: {reason}") from reason
+    return Constants(theta, torus, rate)
+
+
+def _followed(lattice: Lattice, like: Lattice) -> Lattice:
+    """Return a lattice in the basis that is next to another one's."""
+    periods = [*lattice.real, *lattice.others]
+
+    def reals(rows: Sequence[Sequence[acb]]) -> FloatArray:
+        return np.array([[complex_of(x) for x in row[:2]] for row in rows]).view(float)
+
+    def next_to(rows: tuple[list[acb], list[acb]]) -> tuple[list[acb], list[acb]]:
+        whole = np.linalg.solve(reals(periods).T, reals(rows).T).T
+        if not abs(whole - np.rint(whole)).max() < WHOLE:
+            raise _other_form()
+        first, second = (
+            [sum((round(n) * period[k] for n, period in zip(row, periods, strict=True)), acb(0)) for k in range(3)]
+            for row in whole.tolist()
+        )
+        return first, second
+
+    return Lattice(next_to(like.real), next_to(like.others), next_to(like.a), next_to(like.b))
+
+
+def _tables(constants: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
+    """Return weights beside the largest of the denominator, ways, frequencies and frame, each in a row."""
+    places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in box]
+    unit = places[peak][3]
+    if unit == 0:
+        raise _other_form()
+    weights = [x / unit for row in zip(*places, strict=True) for x in row]
+    return [
+        weights,
+        *([x for row in kind for x in row] for kind in (constants.ways, [constants.frequencies], constants.frame)),
+    ]
+
+
+def _slopes(here: list[list[Any]], there: list[list[Any]], step: int) -> list[Array]:
+    """Return the derivatives of constants, whose changes are small beside the largest of their kind."""
+    slopes: list[Array] = []
+    for first, second in zip(here, there, strict=True):
+        change = np.array([complex_of(acb(y - x)) for x, y in zip(first, second, strict=True)], dtype=complex)
+        if not abs(change).max() <= NEAR * max(abs(complex_of(acb(x))) for x in first):
+            raise _other_form()
+        slopes.append(np.asarray(change * 2.0**step, dtype=np.complex128))
+    return slopes
+
+
+def _other_form() -> DomainError:
+    return DomainError(
+        "The theta functions of a neighbour have another form: there is no derivative in closed form here."
+    )

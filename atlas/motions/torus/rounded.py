@@ -1,0 +1,133 @@
+"""Matrices and vectors of one motion from balls: each value is proved, and rounded once."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.arithmetic.certified_digits import numbers
+from atlas.arithmetic.certified_inputs import rational
+from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.quaternions import of_matrix, product
+from atlas.arithmetic.rotation import target
+from atlas.arithmetic.words import floats
+from atlas.errors import AtlasError, NotCertifiedError
+from atlas.motions.euler_poisson import angular_acceleration, field_rate
+from atlas.motions.torus.certified import AsymmetricMotion
+
+FIRST = 80
+"""Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
+
+REACH = 2.0**50
+"""Largest phase: that of the last time that a float tells from its neighbours."""
+
+NARROW = 2.0**-58
+"""Radius of a ball that is rounded, beside 1 or beside the largest rate."""
+
+FOLLOWED, STEP = 1000.0, 0.05
+"""Largest phase up to which a motion is followed by steps, and the phase of one."""
+
+
+class Certified:
+    """Matrices and vectors of one motion from balls, each rounded once."""
+
+    def __init__(self, exact: AsymmetricMotion, size: float) -> None:
+        self.exact, self.size = exact, size
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return self._filled(self.exact.rotation, t, (3, 3), 1.0, out)
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return self._filled(lambda t: self.exact.column(j, t), t, (3,), 1.0, out)
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t: its sign is that of an integration, (..., 4).
+
+        Raises NotCertifiedError for times beyond its reach.
+        """
+        times = real(t, "The time")
+        if times.size and not np.abs(times).max() * self.size <= FOLLOWED:
+            raise NotCertifiedError(
+                f"not certified: without a closed form the sign of a quaternion is known up to |t| = "
+                f"{FOLLOWED / self.size:.6g}."
+            )
+        quaternions, out = of_matrix(self.rotation(times)), target(out, (*times.shape, 4))
+        near = self._followed(times.ravel()).reshape(quaternions.shape)
+        out[...] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
+        return out
+
+    def _followed(self, times: FloatArray) -> FloatArray:
+        """Return quaternions (m, 4) at times (m,) by Runge and Kutta's steps from t = 0, good to some digits."""
+        inertia, K, Omega = map(floats, (self.exact.inertia, self.exact.field, self.exact.omega))
+        quaternions = np.empty((times.size, 4))
+        for side in (times >= 0, times < 0):
+            y, now = np.concatenate([K, Omega, [0.0, 0.0, 0.0, 1.0]]), 0.0
+            for i in np.flatnonzero(side)[np.argsort(abs(times[side]))].tolist():
+                count = int(np.ceil(abs(times[i] - now) * self.size / STEP))
+                for _ in range(count):
+                    y = _stepped(np.diag(inertia), y, (times[i] - now) / count)
+                quaternions[i], now = y[6:], times[i]
+        return quaternions
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t), shape (..., 3)."""
+        return self._filled(self.exact.angular_velocity, t, (3,), self.size, out)
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return self._filled(self.exact.field_in_body, t, (3,), self.size, out)
+
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
+        first, further = rational(start, "The start"), rational(step, "The step")
+        for i, matrix in enumerate(out):
+            matrix[...] = rounded(lambda i=i: self.exact.rotation(first + i * further), 1.0).reshape(3, 3)  # type: ignore[misc]
+
+    def _filled(
+        self, function: Callable[[Any], Any], t: Any, shape: tuple[int, ...], size: float, out: FloatArray | None
+    ) -> FloatArray:
+        """Return the values of a function at times of any shape."""
+        times = real(t, "The time")
+        if times.size and not np.abs(times).max() * self.size <= REACH:
+            raise AtlasError(
+                f"A time is {np.abs(times).max()}, but |t| may be {REACH / self.size:.6g} at most, where a phase "
+                "reaches 2^50 and is lost."
+            )
+        out = target(out, times.shape + shape)
+        rows = out.reshape(times.size, *shape)
+        for row, time in zip(rows, times.flat, strict=True):
+            row[...] = rounded(lambda time=time: function(float(time)), size).reshape(shape)  # type: ignore[misc]
+        return out
+
+
+def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
+    """Return K, Omega and the quaternion, (10,), a step later."""
+
+    def rate(y: FloatArray) -> FloatArray:
+        K, Omega, q = y[:3], y[3:6], y[6:]
+        turn = product(q, np.append(Omega / 2, 0.0))
+        return np.concatenate([field_rate(K, Omega), angular_acceleration(inertia, K, Omega), turn])
+
+    a = rate(y)
+    b = rate(y + h / 2 * a)
+    c = rate(y + h / 2 * b)
+    return np.asarray(y + h / 6 * (a + 2 * b + 2 * c + rate(y + h * c)))
+
+
+def rounded(function: Callable[[], Any], size: float) -> FloatArray:
+    """Return the floats nearest to balls that are made ever more precisely until they are narrow beside a size."""
+    precision = FIRST
+    while True:
+        try:
+            with workprec(precision):
+                values = [arb(x) for x in numbers(function())]
+                if all(x.is_finite() and float(x.rad()) <= NARROW * size for x in values):
+                    return np.array([float(x.mid()) for x in values])
+        except NotCertifiedError:  # with so few digits
+            if precision > FIRST:
+                raise
+        precision *= 2

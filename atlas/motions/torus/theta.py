@@ -1,0 +1,330 @@
+"""The motion of a body with three moments by theta functions, at many times.
+
+Times go to two phases of the torus and one about the field, each reduced to less than a turn without loss; on the torus
+M, K and N = S^T (e_x + i e_y) are quotients of sums of exponentials, see `atlas.motions.torus.approximate_theta_sums`.
+With x the phases in turns, n the whole ones that are left out of f t, and theta_k the angles of the periods,
+
+    R^T (e_x + i e_y) = exp(i alpha) exp(-i theta x) N(x),    alpha = (theta f - b) t.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from flint import acb, arb, fmpq
+
+from atlas.arithmetic.circle import signs
+from atlas.arithmetic.grid import check_grid
+from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.numbers import workprec
+from atlas.arithmetic.phase import EVEN, Phases, room
+from atlas.arithmetic.quaternions import of_matrix, product
+from atlas.arithmetic.rotation import BLOCK, combined, evaluate
+from atlas.arithmetic.words import TURN, middle
+from atlas.errors import NotCertifiedError
+from atlas.lazy import cached_property
+from atlas.motions.nutation.grid import moments
+from atlas.motions.torus.approximate_periods import BITS, complex_of, matrix_of
+from atlas.motions.torus.approximate_theta import ThetaMotion, frame
+from atlas.motions.torus.approximate_theta_sums import HALF, Array, Sums
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.certified_torus import Period, Torus, frequencies
+from atlas.motions.torus.theta_rounding import Rounding
+
+PART = 768
+"""Times whose sums are made at once, so that they stay in the second-level cache."""
+
+UPPER = 24
+"""Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
+
+CUT = np.array(1.5 * 2.0 ** (52 - UPPER))
+"""Adding and subtracting it rounds to 2^-24."""
+
+PERIODS = 160
+"""Bits to which the real periods are proved."""
+
+FITS = 1e-36
+"""Largest misfit of theta functions that are taken before they are proved or held against the certified twin."""
+
+PROVED = 2.0**-54
+"""Largest bound on errors of the formulas that is a proof of them."""
+
+NOTHING = 1e-35
+"""Parts of the Riemann matrix below it are shown as zero: they are known to some forty digits."""
+
+LOST = 2e-13
+"""Largest bound on rounding errors: those that are seen are some twenty times smaller."""
+
+
+SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
+"""Cells along a side of a table of quaternions, and the largest squared distance of two that are neighbours."""
+
+
+class Constants:
+    """What a motion is made of, to some forty digits: `forms` of N, D, K and W, `ways` (3, 2), `frequencies`, `frame`.
+
+    Half the phases go by `ways` to the arguments of the forms and the angle by which N turns; `frame` are e_x, e_y and
+    B'/b^2, of which R consists with the real and the imaginary part of N, and with K.
+    """
+
+    def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq) -> None:
+        with workprec(BITS):
+            motion, X = theta.motion, theta.X.inv()
+            self.b = arb(motion.square).sqrt()
+            periods = [Period(H.real, F.real, -self.b * along.real) for H, F, along in theta.lattice.real]
+            if not theta.misfit < FITS:
+                periods = [Period(p.H.mid(), p.F.mid(), p.angle.mid()) for p in torus.periods(PERIODS)]
+            into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
+            lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
+            # the angles of the periods are known but for whole turns
+            angles = [
+                p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid()))
+                for p, x in zip(periods, lines, strict=True)
+            ]  # those nearest to what N turns by
+            self.periods = [replace(p, angle=angle) for p, angle in zip(periods, angles, strict=True)]
+            self.frequencies = [x * rate for x in frequencies(self.periods, self.b)]
+            turning = [(x - a) / arb.pi() for x, a in zip(lines, angles, strict=True)]
+            self.ways = [[2 * x for x in into[0]], into[1], turning]
+            self.hat, self.start = theta.hat, (2 * theta.start[0], theta.start[1])
+            *forms, M1, M2, M3 = theta.forms
+            self.forms = [*forms, *(x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True))]
+            self.frame = [*frame(theta.field), [x / arb(motion.square) for x in theta.field]]
+
+
+class ThetaKernel:
+    """R, K and W = II^-1 M of one motion at many times; `rate` is the unit 1/time, `size` the largest rate in it.
+
+    `accuracy` bounds rounding errors, `proved` what the formulas, without rounding, are wrong by at any time: None
+    where there is no proof. Both are found when they are asked for.
+    """
+
+    def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
+        self.made_of = theta, torus
+        self.constants = Constants(theta, torus, rate)
+        with workprec(BITS):
+            self.periods, self.frequencies, ways = (
+                self.constants.periods, self.constants.frequencies, self.constants.ways,
+            )  # fmt: skip
+            self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
+            rounded: Array = np.array([[complex_of(x) for x in row] for row in ways])
+            unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER)
+            self.upper: Array = np.round(rounded / unit) * unit
+            lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
+            self.lower: Array = np.reshape(lower, (3, 2))
+            line = np.linspace(-HALF * np.pi, HALF * np.pi, 13)
+            region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
+            self.sums = Sums(self.constants.hat, self.constants.forms, self.constants.start, rounded[:2] @ region)
+            ex, ey, n = ([float(arb(x).mid()) for x in e] for e in self.constants.frame)
+            b = float(self.constants.b.mid())
+        self.rate, self.axis = int(rate.p) / int(rate.q), np.array(n) * b
+        self.size = size / self.rate
+        self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
+        self.rounding = Rounding(self.sums, rounded[:2], rounded[2], b, self.size)
+        tau = matrix_of(theta.tau)
+        self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
+            abs(tau.imag) < NOTHING, 0, tau.imag
+        )
+
+    @property
+    def fits(self) -> bool:
+        """Whether the integrals that it is made of are as precise as they should be."""
+        return self.made_of[0].misfit < FITS
+
+    @cached_property
+    def accuracy(self) -> float:
+        """Bound on errors by rounding: of R, and of K and Omega beside the largest rate, at all phases."""
+        return self.rounding.accuracy()
+
+    @cached_property
+    def proved(self) -> float | None:
+        """Bound on what the formulas are wrong by at any time up to phases of 2^50; None where it is not proved."""
+        from atlas.motions.torus.certified_distances import distances, drifts
+
+        theta, torus = self.made_of
+        try:
+            periods = torus.periods(PERIODS)
+            M, K, N = distances(theta, torus, periods) + drifts(theta, periods, self.periods)
+        except NotCertifiedError:
+            return None
+        error = max(N + K / float(self.constants.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
+        return error if error <= PROVED else None
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return evaluate(real(t, "The time"), (3, 3), out, lambda _: self._attitude(self.entries))
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return evaluate(real(t, "The time"), (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t) = W - K, shape (..., 3)."""
+        weights = np.concatenate([-np.eye(3), np.eye(3)])
+        return evaluate(real(t, "The time"), (3,), out, lambda _: self._vectors(slice(3, 10), weights))
+
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
+        count, rows = len(out), out.reshape(-1, 9)
+        check_grid(start, step, count, self.phases.reach)
+        fill = self._attitude(self.entries)
+        for i in range(0, count, BLOCK):
+            index = np.arange(float(i), float(min(i + BLOCK, count)))
+            t, low = moments(self.phases, start, step, index)
+            fill(t, rows[i : i + BLOCK], low)
+
+    def on_torus(self, phases: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return S, Omega and K at phases (2, m) of the torus, R(t) = R_B(f3 t) S(f1 t, f2 t).
+
+        Of all f3, which differ by multiples of f1 and f2, it is the one with the least angles.
+        """
+        half = np.concatenate([(phases + np.pi) % (2 * np.pi) - np.pi, np.zeros((1, phases.shape[1]))]) / 2
+        for x, period in zip(half[:2], self.periods, strict=True):
+            half[2] += x * round(float(period.angle.mid()) / (2 * np.pi))
+        R, rest = np.empty((phases.shape[1], 9)), np.zeros_like(half)
+        self._fill(half, rest, self.entries, R)
+        x, less = self._places(half, rest)
+        D, *numerators = self.sums.at(x[:2], less[:2], slice(3, 10))
+        K, W = np.split(_real(np.array(numerators), _inverse(D)).T * self.rate, 2, axis=1)
+        return R.reshape(-1, 3, 3), W - K, K
+
+    def _attitude(self, weights: FloatArray) -> Callable[..., None]:
+        """Return what fills rows with combinations of Re N, Im N and K of the motion."""
+
+        def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
+            for i in range(0, t.size, PART):
+                half, rest, _ = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
+                self._fill(half, rest, weights, rows[i : i + PART])
+
+        return fill
+
+    def _fill(self, half: FloatArray, rest: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
+        """Fill rows with combinations of Re N, Im N and K at half phases: two words, (3, m)."""
+        (*x, angle), (*less, lacking) = self._places(half, rest)
+        sums = self.sums.at(np.array(x), np.array(less), slice(0, 7))
+        inverse = _inverse(sums[3])
+        turned = np.exp(1j * angle)
+        turned += turned * (1j * lacking)
+        N = sums[:3] * (turned * inverse)
+        combined(np.concatenate([N.real, N.imag, _real(sums[4:], inverse)]), weights, rows)
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        return evaluate(real(t, "The time"), (4,), out, lambda _: self._fill_quaternions)
+
+    def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
+        """Fill rows with quaternions: that of R, of the sign which continues it over the torus."""
+        table, steps = self._lift
+        for i in range(0, t.size, PART):
+            half, rest, whole = self._phases(t[i : i + PART])
+            quaternions = self._quaternions(half, rest)
+            index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
+            near = product(self._turn(half[2]), table[index[0], index[1]])
+            rows[i : i + PART] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
+            rows[i : i + PART] *= (signs(whole) ** steps).prod(axis=0)[:, None]
+
+    def _quaternions(self, half: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return one quaternion of each R at half phases, (m, 4)."""
+        R = np.empty((half.shape[1], 9))
+        self._fill(half, rest, self.entries, R)
+        return of_matrix(R.reshape(-1, 3, 3))
+
+    def _turn(self, half: FloatArray) -> FloatArray:
+        """Return the quaternions (m, 4) of the turn about the field by twice the angles (m,)."""
+        return np.append(np.outer(np.sin(half), self.axis), np.cos(half)[:, None], axis=-1)
+
+    @cached_property
+    def _lift(self) -> tuple[FloatArray, FloatArray]:
+        """Quaternions over half the phases of the torus, without a jump, and which of three turns change the sign."""
+        for size in SIZES:
+            line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
+            half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)
+            q = np.empty((half.shape[1], 4))
+            for i in range(0, len(q), PART):
+                q[i : i + PART] = self._quaternions(half[:, i : i + PART], 0 * half[:, i : i + PART])
+            table = q.reshape(size + 1, size + 1, 4)
+            table[0] = _joined(table[0])
+            table = _joined(table)
+            if max((np.diff(table, axis=k) ** 2).sum(-1).max() for k in (0, 1)) < NEIGHBOURS:
+                break
+        else:
+            raise NotCertifiedError("not certified: the sign of a quaternion changes too fast over the torus.")
+        table *= np.sign(table[size // 2, size // 2, 3])
+        steps = [bool(table[0, 0] @ end < 0) for end in (table[-1, 0], table[0, -1])]
+        return table, np.array([*steps, True], dtype=int)[:, None]
+
+    def _vectors(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
+        """Return what fills rows with combinations of K, or of K and W."""
+
+        def fill(t: FloatArray, rows: FloatArray) -> None:
+            for i in range(0, t.size, PART):
+                half, rest, _ = self._phases(t[i : i + PART])
+                x, less = self._places(half, rest)
+                D, *numerators = self.sums.at(x[:2], less[:2], forms)
+                combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + PART])
+
+        return fill
+
+    def _places(self, half: FloatArray, rest: FloatArray) -> tuple[Array, Array]:
+        """Return the arguments of the sums, and the angle by which N turns, at half phases: two words, (3, m)."""
+        upper = half[:2] + CUT
+        upper -= CUT
+        x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
+        both = self.lower + self.upper
+        low = both @ (half[:2] - upper + rest[:2]) + self.lower @ upper
+        low[2] += 2 * rest[2]
+        x[2], more = _sum(x[2], 2 * half[2] + 0j)
+        low[2] += more
+        return _sum(x, low)
+
+    def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
+        """Return half the phases less whole turns, in radians, what rounding left out of them, and the turns."""
+        return self.phases.reduced(t, room(3, t.size), low)[:3]
+
+
+def _joined(q: FloatArray) -> FloatArray:
+    """Return quaternions (n, ..., 4) with those signs that make each row next to the one before it."""
+    signs = np.sign((q[1:] * q[:-1]).sum(-1, keepdims=True))
+    return np.concatenate([q[:1], q[1:] * np.cumprod(signs, axis=0)])
+
+
+def _sum(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return a sum and what its rounding left out, by Knuth."""
+    s = x + y
+    rounded = s - x
+    return s, (x - (s - rounded)) + (y - rounded)
+
+
+def _inverse(D: Array) -> Array:
+    """Return 1/D, by operations whose errors are counted."""
+    return D.conj() / (D.real * D.real + D.imag * D.imag)
+
+
+def _real(x: Array, y: Array) -> FloatArray:
+    """Return the real part of a product."""
+    return x.real * y.real - x.imag * y.imag
+
+
+def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
+    """Return the closed form of a motion with rates of some size; NotCertifiedError says why there is none."""
+    motion = exact.on_torus
+    if motion is None:
+        raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")
+    torus = motion.torus
+    if torus.spin is not None:
+        raise NotCertifiedError("not certified: next to a spin along the field theta functions lose their digits.")
+    try:
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
+        kernel = ThetaKernel(theta, torus, motion.rate, size)
+    except NotCertifiedError:
+        raise
+    except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
+        raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
+    if not kernel.rounding.accuracy(LOST) <= LOST:
+        raise NotCertifiedError(f"not certified: rounding would be wrong by up to {kernel.accuracy:.1e} in its sums.")
+    return kernel

@@ -1,0 +1,235 @@
+"""Any motion as a figure: the way of its third axis, with the angular velocity over time, or the body at one time."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import ceil, isfinite, pi
+from typing import Any
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray, positive
+from atlas.errors import AtlasError, DomainError
+from atlas.pictures import axis_trace
+from atlas.pictures.bodies import body_of
+from atlas.pictures.captions import plain_vector, quotient, spelt, tex_vector
+from atlas.pictures.layers import Arrow, Curve, Label, Layer, Plane, Scene, Space
+from atlas.pictures.quadric_panel import O, tolerance
+from atlas.pictures.sample import MOST as MANY
+from atlas.pictures.sample import curve, quarter_pixel
+
+MARGIN = 10.0
+
+
+def course(
+    vector: Any,
+    names: tuple[str, ...],
+    stop: float,
+    x_label: str,
+    y_label: str,
+    heading: str,
+    *,
+    size: tuple[float, float],
+    level: float | None = None,
+    level_name: str = "",
+    pieces: int = 32,
+) -> Plane:
+    """Return the panel from t = 0 to `stop`, of that size in millimetres, each line with its name.
+
+    `level` is that of a dashed line across the panel; the lines are first cut into so many `pieces`.
+    """
+    rough = vector(np.linspace(0.0, stop, 8 * pieces + 1))
+    marks = rough if level is None else np.append(rough, level)
+    low, high = float(marks.min()), float(marks.max())
+    pad = (0.14 if level is None else 0.2) * (high - low) or 0.5 * abs(high) or 1.0
+    limits = (low - pad, high + pad)
+    wide, high = (size[0] - MARGIN) / stop, (size[1] - MARGIN) / (limits[1] - limits[0])
+    scale, fine = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
+    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, fine, pieces=pieces, scale=scale)
+    layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
+    if level is not None:
+        layers.append(Curve(np.array([[0.0, level], [stop, level]]), "reference"))
+        layers.append(Label(np.array([0.3 * stop, level]), level_name, "reference", (0.0, 3.0)))
+    for i, (name, role) in enumerate(zip(names, ("main", "second", "third"), strict=True), 1):
+        line = path[:, [0, i]]
+        point = line[0.86 * stop <= line[:, 0]][0]
+        below = level is not None and 0.0 <= level - point[1] < 3.0 * pad
+        layers += [Curve(line, role), Label(point, name, role, (0.0, -4.0 if below else 4.0))]
+    return Plane(tuple(layers), x_label, y_label, (0.0, stop), limits, title=heading)
+
+
+SIZE, SQUARE = (124.0, 66.0), (90.0, 90.0)
+MOST, FEW = 60.0, 12.0
+"""Turns of the body, about any axis, for which its axis is followed at most, and for which Omega(t) is drawn."""
+SEEN = 0.02
+"""Length on the unit sphere that is seen in a figure."""
+_FINE = tolerance(3.0)
+_AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
+"""Lengths of the axis and of what stands upright, pieces of a trace at first, and a period that is taken for none."""
+
+
+@dataclass(frozen=True)
+class Upright:
+    """The vector that stands upright, in the laboratory, its letter for a formula and for plain words, its role."""
+
+    vector: Sequence[float]
+    letter: str
+    plain: str
+    role: str = "field"
+
+    @classmethod
+    def of(cls, motion: Any) -> "Upright":
+        """Return the direction of a top, else the field; without one the angular momentum; of a body at rest e3."""
+        if hasattr(motion, "direction"):
+            return cls((0.0, *motion.direction), r"\mathbf{n}", "n", "direction")
+        field = getattr(motion, "field", (abs(getattr(motion, "larmor", 0.0)),))
+        if any(field):
+            return cls((*[0.0] * (3 - len(field)), *field), r"\mathbf{B}", "B")
+        Omega = motion.angular_velocity(0.0)
+        momentum = getattr(motion, "inertia", (1.0, 1.0, quotient(getattr(motion, "ratio", 1.0)))) * Omega
+        if momentum.any():
+            return cls(momentum.tolist(), r"\mathbf{m}", "m", "momentum")
+        return cls((0.0, 0.0, 1.0), r"\mathbf{e}_3", "e3", "")
+
+
+def picture(
+    motion: Any,
+    setting: tuple[str, str],
+    period: float,
+    periods: float,
+    *,
+    upright: Upright | None = None,
+    word: str = "nutation",
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Return the figure of a motion over so many `periods` of its `period`, as far as `MOST` turns.
+
+    `setting` says whose motion it is and from where, for a caption and in plain words; `word` what has the period,
+    nothing if it is not one. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
+    `upright` is that of the motion. Where the axis would not be seen to move, it is followed for one precession.
+    """
+    upright = upright or Upright.of(motion)
+    first = turns(motion, 0.0)
+    steady = not (isfinite(period) and period > 0)
+    unit_of_time = period if not steady else 1 / first if first else 1.0
+    length = positive(periods, "periods") * unit_of_time
+    rate = turns(motion, min(length, unit_of_time))
+    length = min(length, MOST / rate) if rate else length
+    short = min(length, FEW / rate) if rate else length
+    counted = f"over {spelt(float(f'{length / unit_of_time:.3g}'))} of the {word}"
+    span = counted if word and not steady else f"up to the time {float(f'{length:.3g}'):g}"
+    axis, lasts, count = motion.third_axis, length, length * rate
+    if not steady and (turn := slow_turn(motion, length)):
+        axis, lasts, count = precessing(motion, upright.vector), turn, 1.0
+        span = (
+            f"over one turn of the precession, the time {turn:.3g}, without the nutation, of the period {period:.3g}, "
+            "and the spin, which are too small and too fast to be seen with it,"
+        )
+    panels = (
+        axis_trace.sphere(
+            "(a) third axis", upright.vector, axis, lasts, pieces(count),
+            label=f"${upright.letter}$", elevation=elevation, role=upright.role or "basis",
+        ),
+        course(
+            motion.angular_velocity, tuple(rf"$\Omega_{i}$" for i in (1, 2, 3)), short, f"$t$ ({unit})",
+            rf"$\boldsymbol{{\Omega}}$ (1/{unit})", "(b) angular velocity", size=(SIZE[0] / 2, SIZE[1]),
+            pieces=pieces(short * rate),
+        ),
+    )  # fmt: skip
+    return Scene(
+        caption=rf"(a) The way of the third axis $\mathbf{{R}}_3(t)$ {span}, ${upright.letter}$ upright, from the dot "
+        rf"on, and the parallels that it touches. (b) The angular velocity in the body. {setting[0]}.",
+        alt=f"{setting[1]}: a unit sphere with the trace of the third axis {span}, {upright.plain} upright; and "
+        "the three components of the angular velocity over time.",
+        panels=panels,
+        columns=2,
+        size=SIZE,
+    )
+
+
+def slow_turn(motion: Any, length: float) -> float:
+    """Return the time of one precession, where nothing is seen of the axis for a `length` of time; 0 elsewhere."""
+    rate = _number(motion, "precession_rate")
+    looks = motion.third_axis(np.linspace(0.0, length, 65))
+    return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < SEEN else 0.0
+
+
+def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
+    """Return the third axis over time as it is after each whole nutation: turned with the mean rate of precession."""
+    n, start = np.asarray(upright) / np.linalg.norm(upright), motion.third_axis(0.0)
+    along, rate = n * (n @ start), float(motion.precession_rate)
+
+    def axis(t: FloatArray) -> FloatArray:
+        angle = rate * np.asarray(t)[..., None]
+        return np.asarray(along + np.cos(angle) * (start - along) + np.sin(angle) * np.cross(n, start))
+
+    return axis
+
+
+def scene_at(motion: Any, t: float, length: float) -> Scene:
+    """Return a motion at the time t: the body, what its axis has drawn for the `length` of time before, the field."""
+    R, upright = np.asarray(motion.rotation(t)), Upright.of(motion)
+    layers: list[Layer] = [
+        *body_of(motion, R, _FINE),
+        Arrow(O, _AXIS * R[:, 2], "body_axis", r"$\mathbf{R}_3$"),
+    ]
+    begin = max(0.0, t - length)
+    if t > begin:
+        layers.append(Curve(curve(lambda s: _AXIS * motion.third_axis(s), begin, t, _FINE, pieces=_PIECES), "trace"))
+    if upright.role:
+        along = np.array(upright.vector) / np.abs(upright.vector).max()
+        along /= np.linalg.norm(along)
+        layers.append(Arrow(O, _UP * along, upright.role, f"${upright.letter}$"))
+    layers.append(Label(_UP * np.concatenate([np.eye(3), -np.eye(3)]), ""))  # as far as it reaches at any time
+    what = {"momentum": "angular momentum", "": ""}.get(upright.role, "field")
+    beside = f", and the direction of the {what}" if what else ""
+    return Scene(
+        title="A motion",
+        caption=rf"The body, its axis $\mathbf{{R}}_3$ with the trace of its tip{beside}.",
+        alt="A body with its axis, the line that the tip of that has drawn"
+        f"{f', and an arrow along the {what}' if what else ''}.",
+        panels=(Space(tuple(layers), azimuth=20.0, elevation=15.0, span=(2.0 * _UP, 2.0 * _UP)),),
+        size=SQUARE,
+    )
+
+
+def period(motion: Any) -> float:
+    """Return how long a motion takes to come back but for a turn: its period, of a symmetric free body 2 pi/k.
+
+    Raises AtlasError for an array of motions.
+    """
+    if motion.shape:
+        raise AtlasError(f"one motion can be drawn at a time, not an array of the shape {motion.shape}.")
+    own, first = axis_period(motion), turns(motion, 0.0)
+    return own if 0 < own < _LONG else 1 / first if first else 1.0
+
+
+def axis_period(motion: Any) -> float:
+    """Return the time after which the axis of one motion is back but for a turn, 0 where there is none."""
+    if motion.family == "free":
+        return float(2 * pi / motion.k) if motion.k else 0.0
+    return _number(motion, "period")
+
+
+def _number(motion: Any, name: str) -> float:
+    """Return a number of a motion, 0 where it has none."""
+    try:
+        return float(getattr(motion, name, 0.0))
+    except DomainError:
+        return 0.0
+
+
+def start(omega: Sequence[float]) -> tuple[str, str]:
+    """Return the initial angular velocity for a caption and in plain words."""
+    return rf"$\boldsymbol\omega={tex_vector(omega)}$", f"the angular velocity {plain_vector(omega)}"
+
+
+def turns(motion: Any, stop: float) -> float:
+    """Return how many turns in a unit of time a motion makes at most, by looks from t = 0 to `stop`."""
+    looks = motion.angular_velocity(np.linspace(0.0, stop, 65 if stop else 1))
+    return float(np.linalg.norm(looks, axis=-1).max()) / (2 * pi)
+
+
+def pieces(count: float) -> int:
+    """Return into how many pieces the way of an axis is first cut, over so many turns."""
+    return max(32, ceil(min(8 * count, 2.0 * MANY)))

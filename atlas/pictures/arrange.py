@@ -1,0 +1,181 @@
+"""A scene laid out anew: its panels in other rows and columns for a target, below one another for a narrow screen."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+from math import log
+
+import numpy as np
+
+from atlas.errors import AtlasError
+from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, seen
+from atlas.targets import TARGETS, Target
+
+_TALL, _PAPER = 2.2, 0.35
+"""A figure is at most so many times as high as it is wide, and so much larger must panels be for each time."""
+_LOW, _LARGER, _LEAST = 0.9, 1.1, 0.01
+"""Curves made narrower keep this ratio of height to width if they have room; all else grows so much at most."""
+_SMALLEST = 0.4
+"""Panels of a smaller part of their size can't be read."""
+_FITS = 0.7
+"""A figure is given a column if that is as wide as this part of it."""
+_AXES, _NAMES = (16.0, 12.0), (10.0, 14.0)
+"""Millimetres beside and below two axes for their labels, and about a drawing in space for its names."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Panels in columns of a width, rows of these heights, in millimetres of a journal, and how large beside before."""
+
+    panels: tuple[Panel, ...]
+    columns: int
+    rows: tuple[float, ...]
+    scale: float
+
+
+def arranged(scene: Scene, target: Target) -> Scene:
+    """Return a scene as wide as a target, its panels in the rows and columns that leave them largest.
+
+    Raises AtlasError for a scene that can't be read at this width.
+    """
+    width = target.width / target.zoom
+    if width < scene.narrowest:
+        wide = [name for name, one in TARGETS.items() if one.width / one.zoom >= scene.narrowest]
+        needs = target.zoom * scene.narrowest
+        larger = f" with type of {target.type:g} points" if target.zoom != 1 else ""
+        raise AtlasError(
+            f"{scene.title}: it can't be read at a width of {target.width:g} mm{larger}, for it needs {needs:.0f} mm; "
+            f"targets that are wide enough: {', '.join(wide)}."
+        )
+    height = min(target.height / target.zoom, _TALL * width)
+    best = max(
+        _arrangements(scene, width, height), key=lambda one: log(min(one.scale, 1.0)) - _PAPER * sum(one.rows) / width
+    )
+    if best.scale < _SMALLEST:
+        tall = max(one.scale for one in _arrangements(scene, width, len(scene.panels) * _TALL * width))
+        side = f"height of {target.height:g}" if tall >= _SMALLEST else f"width of {target.width:g}"
+        complaint = f"its panels would have only {best.scale:.2f} of their size"
+        raise AtlasError(f"{scene.title}: it can't be read at a {side} mm; {complaint}.")
+    size = (target.width, target.zoom * sum(best.rows))
+    return replace(scene, panels=best.panels, columns=best.columns, rows=best.rows, size=size)
+
+
+def suited(scene: Scene, targets: Sequence[Target]) -> Target:
+    """Return the first of some targets, the narrowest first, where a scene is not much smaller than by itself."""
+    for target in targets[:-1]:
+        if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):
+            return target
+    return targets[-1]
+
+
+def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrangement]:
+    """Yield the ways to lay out a scene in so much room; panels for a narrow screen are another set to choose from."""
+    count = len(scene.panels)
+    before = scene.size[0] / scene.columns, scene.size[1] / -(-count // scene.columns)
+    for columns in range(1, count + 1):
+        if count % columns == 0 or columns == scene.columns:
+            yield _fitted(_labelled(scene, columns), columns, before, (width, height))
+    if scene.narrow:
+        yield _fitted(scene.narrow, 1, (before[0] / (len(scene.narrow) - count + 1), before[1]), (width, height))
+
+
+def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
+    """Return the panels with the labels that their axes shared with a neighbour who will stand elsewhere."""
+    panels = list(scene.panels)
+    for k, one in enumerate(scene.panels):
+        if isinstance(one, Plane):
+            left = [panel.y_label for panel in scene.panels[k - k % scene.columns : k + 1] if isinstance(panel, Plane)]
+            below = [panel.x_label for panel in scene.panels[k :: scene.columns] if isinstance(panel, Plane)]
+            y_label = one.y_label if k % columns else next(filter(None, reversed(left)), "")
+            x_label = one.x_label if k + columns < len(panels) else next(filter(None, below), "")
+            panels[k] = replace(one, x_label=x_label, y_label=y_label)
+    return tuple(panels)
+
+
+def _fitted(
+    panels: Sequence[Panel], columns: int, before: tuple[float, float], room: tuple[float, float]
+) -> Arrangement:
+    """Return an arrangement in so many columns, in a room (width, height)."""
+    wide = room[0] / columns
+    rows = [
+        max(_high(panel, wide, before) for panel in panels[k : k + columns]) for k in range(0, len(panels), columns)
+    ]
+    words = [max(_words(panel)[1] for panel in panels[k : k + columns]) for k in range(0, len(panels), columns)]
+    share = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
+    rows = [word + share * (row - word) for row, word in zip(rows, words, strict=True)]
+    scale = min(_scale(panel, (wide, rows[k // columns]), before) for k, panel in enumerate(panels))
+    shown = [
+        replace(panel, legend=False) if isinstance(panel, Plane) and panel.legend == "beside" else panel
+        for panel in panels
+    ]
+    return Arrangement(tuple(panels if wide >= before[0] else shown), columns, tuple(rows), scale)
+
+
+def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
+    """Return how high a panel would be at its best; drawings in space and equal scales keep their shape."""
+    high = before[1] * wide / before[0]
+    if not isinstance(panel, Plane):
+        right, up = extent(panel)
+        beside, below = _words(panel)
+        high = min(high, (wide - beside) * float(up / right) + below) if right > 0.0 else high
+    elif not panel.equal:
+        return min(before[1], max(high, _LOW * wide))
+    return min(high, _LARGER * before[1])
+
+
+def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float]) -> float:
+    """Return how large a panel is beside before, without the room of its words."""
+    words = _AXES if isinstance(panel, Plane) else (0.0, 0.0)  # names go along with a drawing
+    sizes = zip(cell, (before[0], _high(panel, before[0], before)), words, strict=True)
+    return max(min((now - word) / (then - word) for now, then, word in sizes), _LEAST)
+
+
+def _words(panel: Panel) -> tuple[float, float]:
+    """Return the room beside and below a panel for what does not shrink with it."""
+    return _AXES if isinstance(panel, Plane) else _NAMES
+
+
+WIDTH = 90.0
+"""Millimetres: what a phone shows of a figure without making its words smaller."""
+
+
+def narrowed(scene: Scene) -> Scene | None:
+    """Return a scene with its panels in as few columns as leave them no smaller, or None if it has them already.
+
+    Wide panels of curves that stand below one another are made narrower alone: their words stay readable. A scene that
+    has panels for a narrow screen is drawn with these.
+    """
+    panels, (width, height) = len(scene.panels), scene.size
+    rows = -(-panels // scene.columns)
+    if scene.narrow:
+        high = height / rows * len(scene.narrow)
+        return replace(scene, panels=scene.narrow, columns=1, size=(WIDTH, high))
+    curves = all(isinstance(panel, Plane) and not panel.equal for panel in scene.panels)
+    if scene.columns == 1 and width > WIDTH and curves:
+        return replace(scene, size=(WIDTH, height))
+    columns = max(1, int(WIDTH * scene.columns // width))
+    if columns >= scene.columns:
+        return None
+    scale = WIDTH / width * scene.columns / columns
+    return replace(scene, columns=columns, size=(WIDTH, scale * height * -(-panels // columns) / rows))
+
+
+def stacked(
+    cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0, title: str = ""
+) -> tuple[Space, ...]:
+    """Return groups of layers that stand side by side in space as so many panels at one scale, the first with a title.
+
+    Each group has at least so much ``room`` to the right.
+    """
+    each = -(-len(cells) // rows)
+    panels = [
+        Space(tuple(chain(*cells[i : i + each])), azimuth, elevation, "" if i else title)
+        for i in range(0, len(cells), each)
+    ]
+    span = np.max([extent(panel) for panel in panels], axis=0)
+    return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
+
+
+def extent(panel: Space) -> FloatArray:
+    """Return how much of the plane of view (right, up) the layers of a panel cover."""
+    return np.asarray(np.ptp(seen(panel) @ frame(panel)[:2].T, axis=0))

@@ -1,0 +1,83 @@
+"""The words of captions: numbers, vectors and bodies as text, with TeX for captions and without it for alt texts."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from atlas.bodies.body import moments
+
+DIGITS = 6
+MINUS = "\N{MINUS SIGN}"
+
+
+def tex(value: float) -> str:
+    r"""Return a number for a formula, six digits at most: -0.5, 1.5 \times 10^{-7}."""
+    mantissa, _, exponent = f"{value + 0.0:.{DIGITS}g}".partition("e")
+    if not exponent:
+        return mantissa
+    power = f"10^{{{int(exponent)}}}"
+    return power if mantissa == "1" else rf"{mantissa} \times {power}"
+
+
+def tex_equals(value: float) -> str:
+    r"""Return '=0.5', or '\approx 0.658824' where six digits are not the whole number."""
+    return f"={tex(value)}" if float(f"{value:.{DIGITS}g}") == value else rf"\approx {tex(value)}"
+
+
+def spelt(count: float) -> str:
+    """Return how many periods as words."""
+    return "one period" if count == 1.0 else f"{plain(count)} periods"
+
+
+def plain(value: float) -> str:
+    """Return a number for a sentence without TeX, with a true minus sign."""
+    return f"{value + 0.0:.{DIGITS}g}".replace("-", MINUS)
+
+
+def tex_vector(components: Iterable[float]) -> str:
+    """Return a vector for a formula: (0, 1, -2)."""
+    return "(" + ", ".join(map(tex, components)) + ")"
+
+
+def plain_vector(components: Iterable[float]) -> str:
+    """Return a vector for a sentence without TeX."""
+    return "(" + ", ".join(map(plain, components)) + ")"
+
+
+def listed(items: Sequence[str], last: str = "and") -> str:
+    """Return 'a', 'a and b', 'a, b and c'."""
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
+
+
+def quotient(ratio: Any) -> float:
+    """Return I = I3/I2, (33), of a number or a body, for a sentence and for nothing finer."""
+    I2, I3 = moments(ratio)
+    return float(I3 / I2)
+
+
+def body_name(ratio: Any) -> str:
+    """Return what the paper calls a body with this I = I3/I2, (33); decided on I3 against I2 as given."""
+    I2, I3 = moments(ratio)
+    if I3 == 2 * I2:
+        return "loop"
+    if I3 == I2:
+        return "ball"
+    return "short solenoid" if I3 > I2 else "long solenoid"
+
+
+def body_role(ratio: Any) -> str:
+    """Return the role of what belongs to a body where several are compared: each kind has a colour of its own."""
+    return f"{body_name(ratio).partition(' ')[0]}_body"
+
+
+def tex_setting(ratio: Any, field: Sequence[float], *, first: str = "a") -> str:
+    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3).
+
+    ``first`` is its first word: 'A' where a sentence begins with it.
+    """
+    vector = tex_vector((0.0, *field))
+    return rf"{first} {body_name(ratio)} with $I={tex(quotient(ratio))}$ in the field $\mathbf{{B}}'={vector}$"
+
+
+def plain_setting(ratio: Any, field: Sequence[float]) -> str:
+    """Return "a loop with I = 2 in the field B' = (0, 1, 2)", for an alternative text."""
+    return f"a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field B' = {plain_vector((0.0, *field))}"

@@ -1,0 +1,200 @@
+"""A figure that moves: one scene after the other in one figure, all frames in one view and at one scale."""
+
+from base64 import b64encode
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from subprocess import CalledProcessError
+from tempfile import TemporaryDirectory
+from typing import Any, TypeAlias
+
+import numpy as np
+from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+
+from atlas import files
+from atlas.arithmetic.inputs import positive
+from atlas.errors import AtlasError, unknown
+from atlas.pictures import any_motion, movement, recipes
+from atlas.pictures.drawing.panels import laid_out, to_figure
+from atlas.pictures.drawing.style import context
+from atlas.pictures.drawing.view import Held, hold, named
+from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, frame, seen
+
+FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
+"""Kinds of files, and how many frames a second each can have."""
+FPS, FRAMES, MOST = 20.0, 60, 2000
+_SCREEN = 96
+Progress: TypeAlias = Callable[[int, int, str], None]
+Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
+"""What of a panel decides its view: extreme points and names of one in space, the limits of one with two axes."""
+
+
+class Frames:
+    """The frames of a moving figure, drawn into one; `make` gives the scene of each, from 0 up to `count`.
+
+    Scenes are made twice, first for the view that holds all of them, so that none stays in memory.
+    """
+
+    def __init__(self, make: Callable[[int], Scene], count: int, style: Any, progress: Progress) -> None:
+        self.make, self.count, self.style, self.progress = make, count, style, progress
+        self.extents: list[tuple[Extent, ...]] = []
+        for k in range(count):
+            scene = make(k)
+            with context(style):
+                self.extents.append(tuple(_extents(scene)))
+            if [*map(type, self.extents[k])] != [*map(type, self.extents[0])]:
+                raise AtlasError("the panels of this figure change, so that it can't be one that moves")
+            progress(k + 1, 2 * count, "view")
+        self.figure = to_figure(self._scene(0), style)
+        self._held: dict[tuple[int, tuple[float, float]], Held] = {}
+
+    def draw(self, k: int) -> None:
+        """Draw a frame."""
+        self.figure.clear()
+        to_figure(self._scene(k), self.style, figure=self.figure, held=self._hold)
+        self.progress(self.count + k + 1, 2 * self.count, "frames")
+
+    def _scene(self, k: int) -> Scene:
+        """Return the scene of a frame, its panels with two axes with the limits that hold all frames."""
+        scene = self.make(k)
+        return replace(scene, panels=tuple(self._limited(i, panel) for i, panel in enumerate(scene.panels)))
+
+    def _limited(self, i: int, panel: Panel) -> Panel:
+        if isinstance(panel, Space):
+            return panel
+        ends = np.array([extent[i] for extent in self.extents])
+        x, y = ((float(ends[:, j].min()), float(ends[:, j].max())) for j in (0, 1))
+        return replace(panel, x_limits=x, y_limits=y)
+
+    def _hold(self, i: int, window: tuple[float, float]) -> Held:
+        """Return the view of a panel in space that all frames have."""
+        if (i, window) not in self._held:
+            self._held[i, window] = hold([extent[i] for extent in self.extents], window)
+        return self._held[i, window]
+
+
+class Moving(FuncAnimation):
+    """An animation that shows itself in a notebook, as a GIF: Matplotlib's own player asks a foreign host for icons."""
+
+    fps = FPS
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """Return all frames as one picture."""
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "moving.gif"
+            save(self, path, "gif", fps=min(max(self.fps, 1.0), FASTEST["gif"]), dpi=_SCREEN)
+            return {"image/gif": b64encode(path.read_bytes()).decode(), "text/plain": repr(self)}
+
+
+def _extents(scene: Scene) -> Iterator[Extent]:
+    """Yield what decides the view of each panel; limits that the recipe leaves open are Matplotlib's."""
+    free = any(isinstance(one, Plane) and not (one.x_limits and one.y_limits) for one in scene.panels)
+    drawn = [axes for axes, _ in laid_out(scene)[1]] if free else [None] * len(scene.panels)
+    for panel, axes in zip(scene.panels, drawn, strict=True):
+        if isinstance(panel, Space):
+            yield _reduced(panel)
+        else:
+            yield (axes.get_xlim(), axes.get_ylim()) if axes else (panel.x_limits, panel.y_limits)
+
+
+def _reduced(panel: Space) -> Space:
+    """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
+    eye = frame(panel)
+    points = seen(panel)
+    along = points @ np.concatenate([np.eye(3), eye[:2]]).T
+    far = points[np.unique(np.concatenate([along.argmin(axis=0), along.argmax(axis=0)]))]
+    names = filter(None, (named(layer, eye) for layer in panel.layers))
+    labels = (Label(place, text, role, offset) for text, place, offset, role in names)
+    return replace(panel, layers=(Points(far, "origin"), *labels))
+
+
+def animation(
+    make: Callable[[int], Scene],
+    count: int,
+    *,
+    fps: float = FPS,
+    style: Any = None,
+    progress: Progress = lambda _done, _total, _what: None,
+) -> FuncAnimation:
+    """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
+    if not 2 <= count <= MOST:
+        raise AtlasError(f"an animation has from 2 to {MOST} frames, not {count}")
+    fps = positive(fps, "fps")
+    frames = Frames(make, count, style, progress)
+    more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
+    moving = Moving(frames.figure, frames.draw, frames=count, **more)
+    moving.fps = fps
+    return moving
+
+
+def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> FuncAnimation:
+    """Return a recipe's figure as an animation over the `values` of one of its parameters, or of the time t.
+
+    A figure that shows a motion has a time; without values it is the time that its motion lasts. ``style``, ``fps`` and
+    ``progress`` are as for `animation`, and what else is given are parameters of the recipe. The result is
+    Matplotlib's: ``.save("x.gif")`` writes it, and a notebook shows it. Raises AtlasError for an
+    unknown name or parameter, and for a value out of its range, and DomainError where the recipe has no picture.
+    """
+    own = {"fps", "style", "progress"}
+    parameters = {name: options.pop(name) for name in [*options] if name not in own}
+    recipe = recipes.load(name)
+    if over == "t" and "t" not in recipe.parameters:
+        scene = recipe.scene(**parameters)
+        return animation(*_in_time(scene, recipe, values), **options)
+    if values is None:
+        raise AtlasError(f"say through which values {over} goes")
+    if over in parameters:
+        raise AtlasError(f"{over} is what the animation goes over; it can't have the value {parameters[over]!r} too")
+    if over not in recipe.parameters:
+        time = ["t"] if recipe.scene(**parameters).paths else []
+        raise unknown("parameter", over, [*recipe.parameters, *time], f"in the figure {recipe.name!r}")
+
+    def make(k: int) -> Scene:
+        try:
+            return recipe.scene(**parameters, **{over: values[k]})
+        except AtlasError as error:
+            raise type(error)(f"{over} = {values[k]}: {error}") from error
+
+    return animation(make, len(values), **options)
+
+
+def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> FuncAnimation:
+    """Return a motion at these times, or over one period, as an animation; `options` are those of `animation`."""
+    length = any_motion.period(motion)
+    moments = np.linspace(0.0, length, FRAMES, endpoint=False) if times is None else times
+    return animation(lambda k: any_motion.scene_at(motion, float(moments[k]), length), len(moments), **options)
+
+
+def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
+    """Return the function that makes the frames of a scene that moves, and their number."""
+    if not scene.paths:
+        raise AtlasError(
+            f"the figure {recipe.name!r} has no time t; say which of its parameters moves, and through which values "
+            f"(at the shell, --over KEY=START:STOP:COUNT). It has {', '.join(recipe.parameters)}."
+        )
+    moments = np.linspace(0.0, scene.lasts, FRAMES, endpoint=False) if times is None else times
+    return lambda k: movement.scene_at(scene, float(moments[k])), len(moments)
+
+
+def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -> None:
+    """Write an animation as an mp4, gif or apng, whole or not at all.
+
+    Raises AtlasError where `check` does, and where the new file stands beside one that was edited, see
+    `atlas.files.keeping`; OSError where the file can't be written.
+    """
+    check(kind, fps)
+    writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
+    with files.named(path), files.keeping(path) as unfinished:
+        try:
+            moving.save(unfinished, writer=writer, dpi=dpi)
+        except CalledProcessError as error:
+            complaint = next(iter(error.stderr.splitlines()), "it does not say why")
+            raise OSError(f"ffmpeg could not write {path}: {complaint}") from error
+
+
+def check(kind: str, fps: float) -> None:
+    """Raise AtlasError for a kind of file that can't be written here, or not with so many frames a second."""
+    if not 1 <= fps <= FASTEST[kind]:
+        raise AtlasError(f"{kind} has from 1 to {FASTEST[kind]} frames a second, not {fps:g}")
+    if kind == "mp4" and not FFMpegWriter.isAvailable():
+        raise AtlasError("an mp4 is written by the program ffmpeg, which is not installed; gif and apng need nothing")

@@ -1,0 +1,195 @@
+"""A scene into files: each whole or not at all, the same bytes each time."""
+
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from atlas.errors import AtlasError
+from atlas.files import keeping, replacing
+from atlas.pictures.layers import Image, Scene, Space
+from atlas.targets import Target
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Renderer: TypeAlias = Literal["vector", "shaded"]
+_PERCENT = r"\catcode`\%=\active"
+_UNDERSCORE = r"\catcode`\_=\active\def_{\ifmmode\sb\else\_\fi}"
+"""Matplotlib lets a percent sign stand in a text for PGF; so may an underscore."""
+FORMATS = ("svg", "pdf", "png", "pgf")
+
+_FORMULAS: dict[Any, Any] = {}
+_FOR_TYPESETTERS = ("GPOS", "GSUB", "GDEF", "MATH")
+"""Tables of a font that place its glyphs, which in a PDF have their places: to read them takes a third of the time."""
+
+
+def save(
+    scene: Scene,
+    files: Mapping[Path, str],
+    renderer: str = "vector",
+    style: Any = None,
+    target: Target | None = None,
+    *,
+    kept: bool = False,
+) -> "Figure":
+    """Draw a scene once, for a target if one is given, and write it into each path in its kind: svg, pdf, png or pgf.
+
+    Return its figure.
+    ``renderer`` is "vector" or "shaded", and ``style`` as for `atlas.pictures.drawing.figure`. A PNG for a target has
+    no alpha. Where no GL library can draw, and for scenes without a panel in space, the vector renderer takes over; see
+    `choose`. Missing folders are made. Raises AtlasError for an unknown kind or renderer, for a shaded figure that is
+    not a PNG, for a map of values as PGF, for a style that cannot be used, and for a scene that can't be read at its
+    target; OSError where a file cannot be written. With ``kept`` a file that was not written here, or edited since,
+    stays, the new one is beside it, and AtlasError says so.
+    """
+    from atlas.pictures.drawing.panels import to_figure
+    from atlas.pictures.drawing.style import context
+
+    used, _ = choose(scene, renderer)
+    for path, kind in files.items():
+        if kind not in FORMATS:
+            raise AtlasError(f"cannot draw the format {kind!r} of {path.name!r}; known: {', '.join(FORMATS)}")
+        if used == "shaded" and kind != "png":
+            raise AtlasError(f"a shaded figure is a PNG; {path.name!r} asks for {kind!r}")
+        if kind == "pgf" and any(isinstance(layer, Image) for panel in scene.panels for layer in panel.layers):
+            raise AtlasError(
+                f"a map of values is no PGF, which holds no pixels; ask for a PDF instead of {path.name!r}"
+            )
+    with context(style, target), _formulas_parsed_once(), ExitStack() as stack:
+        figure = to_figure(scene, style, shaded=used == "shaded", target=target)
+        for path, kind in files.items():
+            place = stack.enter_context((keeping if kept else replacing)(path))
+            _write(figure, place, kind, scene)
+            if target and kind == "png":
+                _opaque(place)
+    return figure
+
+
+def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
+    """Return the renderer that will draw a scene when this one is asked for, and a line that says why not, if so."""
+    if renderer not in {"vector", "shaded"}:
+        raise AtlasError(f"no renderer {renderer!r}; known: vector, shaded")
+    if renderer == "vector" or not any(isinstance(panel, Space) for panel in scene.panels):
+        return "vector", ""
+    from atlas import gl
+
+    return ("vector", gl.advice()) if gl.prepare() is None else ("shaded", "")
+
+
+def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
+    """Write a figure without a date; the scene's title and description travel inside."""
+    metadata = {
+        "svg": {"Date": None, "Title": scene.title, "Description": scene.alt},
+        "pdf": {"CreationDate": None, "Title": scene.title, "Subject": scene.alt},
+        "png": {"Title": scene.title, "Description": scene.alt},
+    }
+    if kind == "pgf":
+        _write_pgf(figure, path)
+        return
+    from fontTools import subset
+
+    plain = subset.load_font
+
+    def lean(*arguments: Any, **options: Any) -> Any:
+        font = plain(*arguments, **options)
+        for name in _FOR_TYPESETTERS:
+            if name in font:
+                del font[name]
+        return font
+
+    with _replaced(subset, "load_font", lean):
+        figure.savefig(path, format=kind, metadata=metadata[kind])
+    if kind == "svg":
+        path.write_text(_short(path.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def _short(svg: str) -> str:
+    """Return an SVG whose paths are to a hundredth of a point, each point from the one before, none twice in a row.
+
+    It is a third as long; what is rounded is each place, not each step, so that roundings don't add up.
+    """
+
+    def path(matched: re.Match[str]) -> str:
+        place = begun = (0, 0)
+        last, steps = "", list[str]()
+        for letter, numbers in re.findall(r"([MLQCz])([^MLQCz]*)", matched[1]):
+            to = [round(100 * float(number)) for number in numbers.split()]
+            if letter == "L" and tuple(to) == place:
+                continue
+            step = "".join(_hundredths(n - place[k % 2]) for k, n in enumerate(to))
+            steps.append(step if letter == last else letter.lower() + step.lstrip())
+            place = (to[-2], to[-1]) if to else begun
+            begun, last = (place, "L") if letter == "M" else (begun, letter)
+        return f' d="{"".join(steps)}"'
+
+    return re.sub(r' d="([^"]+)"', path, svg)
+
+
+@lru_cache(1 << 16)
+def _hundredths(number: int) -> str:
+    """Return a number of hundredths with the sign or the space that parts it from the one before."""
+    shown = re.sub(r"^(-?)0\.", r"\1.", str(number / 100).removesuffix(".0"))
+    return shown if number < 0 else f" {shown}"
+
+
+def _opaque(path: Path) -> None:
+    """Write a PNG without its alpha again, with the words and the resolution that it has."""
+    from PIL import Image as Pictures
+    from PIL.PngImagePlugin import PngInfo
+
+    with Pictures.open(path) as picture:
+        words = PngInfo()
+        for name, word in picture.info.items():
+            if isinstance(word, str):
+                words.add_itxt(name, word)
+        picture.convert("RGB").save(path, format="png", pnginfo=words, dpi=picture.info["dpi"])
+
+
+def _write_pgf(figure: "Figure", path: Path) -> None:
+    r"""Write a figure as PGF commands, for ``\input`` in a LaTeX document; primes are TeX again.
+
+    Matplotlib would ask LaTeX for the size of each text; here it measures them itself, so that none need be installed.
+    """
+    from matplotlib.backend_bases import RendererBase
+    from matplotlib.backends.backend_pgf import RendererPgf
+
+    size = "get_text_width_height_descent"
+    with _replaced(RendererPgf, size, getattr(RendererBase, size)):
+        figure.savefig(path, format="pgf")
+    commands = path.read_text(encoding="utf-8")
+    for ours, tex in (("′", "'"), (r"\mathdefault{", "{"), (_PERCENT, _UNDERSCORE + _PERCENT)):
+        commands = commands.replace(ours, tex)
+    path.write_text(commands, encoding="utf-8")
+
+
+@contextmanager
+def _formulas_parsed_once() -> Iterator[None]:
+    """Parse a formula of one size once in a process: Matplotlib does it again for each file."""
+    import matplotlib as mpl
+    from matplotlib.mathtext import MathTextParser
+
+    plain = MathTextParser._parse_cached  # noqa: SLF001  its cache is one renderer's, and holds fifty
+    fonts = tuple(mpl.rcParams[name] for name in mpl.rcParams if name.startswith("mathtext."))
+
+    def parsed(parser: MathTextParser, *key: Any) -> Any:
+        place = (parser._output_type, fonts, *key)  # noqa: SLF001  the kind of result that its renderer takes
+        if place not in _FORMULAS:
+            _FORMULAS[place] = plain(parser, *key)
+        return _FORMULAS[place]
+
+    with _replaced(MathTextParser, "_parse_cached", parsed):
+        yield
+
+
+@contextmanager
+def _replaced(owner: Any, name: str, value: Any) -> Iterator[None]:
+    """Give an attribute of Matplotlib's or fontTools' another value for a while."""
+    before = getattr(owner, name)
+    setattr(owner, name, value)
+    try:
+        yield
+    finally:
+        setattr(owner, name, before)

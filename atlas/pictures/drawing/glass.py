@@ -1,0 +1,245 @@
+"""Translucent surfaces as triangles from back to front: sheets of tinted glass, and their wires painted on them.
+
+Pieces of quadrics are put from back to front exactly, along parallel rays.
+On the ray x + t d to the eye F = F(x) + B t + A t^2, where A = d.Q.d is one number for the whole picture and
+B = grad F . d is linear in x. Let s be the sign of A. A point has a place in front of a quadric:
+
+    0  behind both hits: s F > 0, s B < 0       1  between them: s F < 0       2  before both: s F > 0, s B > 0
+
+and on it, F = 0, one half at the hit farther from the eye (s B < 0), one and a half at the nearer. Along a ray it
+never goes down: rays that miss the quadric go from 0 to 2 at B = 0, and for A = 0, as for a plane, the other hit is
+infinitely far away. So the sum of the places in front of all quadrics goes up from hit to hit of every ray. Painted in
+the order of this sum, translucent surfaces need no depth peeling, once they are cut where a place changes: at B = 0,
+and where two of them meet.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+
+from atlas.pictures.drawing.hidden import facing, values
+from atlas.pictures.drawing.style import style_of
+from atlas.pictures.drawing.view import View
+from atlas.pictures.layers import FloatArray, Surface
+from atlas.pictures.sample import normals
+
+Field = Callable[[FloatArray], FloatArray]
+
+_ON = 1e-9
+_ALL = np.ones(3)
+"""With it the corners of triangles are added up; a sum along so short an axis takes twenty times as long."""
+
+
+def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
+    """Return the quadrics without repetition, and for each surface the number of its own."""
+    forms: list[FloatArray] = []
+    numbers = []
+    for surface in surfaces:
+        same = (k for k, form in enumerate(forms) if np.abs(form - surface.quadric).max() <= _ON)
+        number = next(same, len(forms))
+        if number == len(forms):
+            forms.append(surface.quadric)
+        numbers.append(number)
+    return forms, numbers
+
+
+def cut(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: FloatArray) -> FloatArray:
+    """Return triangles (T, 3, K) cut so that each has one place in front of every quadric.
+
+    The first three of the K numbers of a corner are a point of the quadric number ``own``; the others come along.
+    """
+    for number, form in enumerate(forms):
+        corners = _cut(corners, lambda x, form=form: facing(form, x, towards))
+        if number != own:
+            corners = _cut(corners, lambda x, form=form: values(form, x))
+    return corners
+
+
+def places(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: FloatArray) -> FloatArray:
+    """Return the sum of the places (T,) of triangles that `cut` has made."""
+    total = np.zeros(len(corners))
+    for number, form in enumerate(forms):
+        sign = 1.0 if towards @ form[:3, :3] @ towards >= 0.0 else -1.0
+        before = sign * (facing(form, corners[..., :3], towards) @ _ALL) > 0.0
+        inside = np.zeros(len(corners)) if number == own else sign * (_snapped(values(form, corners[..., :3])) @ _ALL)
+        total += np.where(inside == 0.0, before + 0.5, np.where(inside < 0.0, 1.0, 2.0 * before))
+    return total
+
+
+def _snapped(heights: FloatArray) -> FloatArray:
+    """Return the heights, zero where they are zero but for rounding; panels have the size one, and so have forms."""
+    return np.where(np.abs(heights) <= _ON, 0.0, heights)
+
+
+def _cut(corners: FloatArray, field: Field) -> FloatArray:
+    """Return triangles (T, 3, K) cut where a field of their points, at most of second order, is zero."""
+    height = _snapped(field(corners[..., :3]))
+    above, below = height > 0.0, height < 0.0
+    split = (above[:, 0] | above[:, 1] | above[:, 2]) & (below[:, 0] | below[:, 1] | below[:, 2])
+    if not split.any():
+        return corners
+    alone = np.where((above[split].sum(axis=1) == 1)[:, None], above[split], below[split])
+    turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
+    row = np.arange(len(turn))[:, None]
+    a, b, c = (corners[split][row, turn][:, k] for k in range(3))
+    u, v, w = height[split][row, turn].T
+    p, q = _between(a, b, u, v, field), _between(a, c, u, w, field)
+    parts = [np.stack(part, axis=1) for part in ((a, p, q), (p, b, c), (p, c, q))]
+    return np.concatenate([corners[~split], *parts])
+
+
+def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: Field) -> FloatArray:
+    """Return the points between a and b (N, K) where a field with the values u and v there is zero."""
+    middle = field(0.5 * (a + b)[:, :3])
+    square, slope = 2.0 * (u - 2.0 * middle + v), 4.0 * middle - 3.0 * u - v
+    with np.errstate(all="ignore"):
+        half = -0.5 * (slope + np.copysign(np.sqrt(slope * slope - 4.0 * square * u), slope))
+        first, second = half / square, u / half
+    share = np.where((first >= 0.0) & (first <= 1.0), first, second)
+    share = np.where(v == 0.0, 1.0, np.clip(share, 0.0, 1.0))
+    return a + share[:, None] * (b - a)
+
+
+Triangles: TypeAlias = tuple[FloatArray, FloatArray, NDArray[np.uint8]]
+"""Corners (3 T, 3), unit normals (3 T, 3), and red, green, blue and opacity (3 T, 4) from 0 to 255."""
+
+AMBIENT = 0.66
+"""How much of its own colour glass shows where no light shines on it."""
+UNLIT = np.array([0.0, -0.6, -0.8])
+"""A direction, to the right, up and to the eye, from which no light comes."""
+
+_GRAZE, _DENSEST = 2.2, 0.94
+_CELL = 1.0 / 24.0
+_ON_TOP = 0.25
+
+
+def glass(view: View, pixel: float) -> Triangles:
+    """Return the translucent surfaces of a panel as triangles in the order in which they are to be painted.
+
+    ``pixel`` is the size of one in the panel's unit. The side of a triangle that is seen has its corners anticlockwise.
+    """
+    forms, numbers = distinct_forms(view.surfaces)
+    parts, ranks = [], []
+    for surface, own in zip(view.surfaces, numbers, strict=True):
+        for corners, wire in _pieces(surface, view, pixel):
+            pieces = cut(corners, forms, own, view.towards)
+            parts.append(_painted(pieces, surface, view, wire=wire))
+            ranks.append(places(pieces, forms, own, view.towards) + (_ON_TOP if wire else 0.0))
+    order = np.argsort(np.concatenate(ranks), kind="stable")
+    points, normals, colours = (np.concatenate([piece[k] for piece in parts])[order] for k in range(3))
+    return points.reshape(-1, 3), normals.reshape(-1, 3), colours.reshape(-1, 4)
+
+
+def lattice(rows: int, columns: int) -> NDArray[np.int64]:
+    """Return the triangles (T, 3) of a mesh of rows x columns corners, anticlockwise from where that product points."""
+    corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    below, right, across = corner + columns, corner + 1, corner + columns + 1
+    return np.stack([corner, below, across, corner, across, right], axis=1).reshape(-1, 3)
+
+
+def distinct(points: FloatArray) -> FloatArray:
+    """Return a polyline (N, 3) without the points that repeat the one before."""
+    return points[np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])]
+
+
+def thinned(curve: FloatArray, near: float) -> FloatArray:
+    """Return a line without every second point where that is as near as that to the chord, three times over."""
+    for _ in range(3):
+        before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
+        chord = after - before
+        share = np.sum((middle - before) * chord, axis=1) / np.maximum(np.sum(chord * chord, axis=1), 1e-300)
+        off = np.linalg.norm(middle - before - np.clip(share, 0.0, 1.0)[:, None] * chord, axis=1)
+        keep = np.ones(len(curve), dtype=bool)
+        keep[1:-1:2] = off > near
+        curve = curve[keep]
+    return curve
+
+
+def _pieces(surface: Surface, view: View, pixel: float) -> Iterator[tuple[FloatArray, bool]]:
+    """Yield triangles (T, 3, 7), and whether they are of a wire: point of the surface, way from there, cover."""
+    for grid in surface.grids:
+        mesh = _refined(grid)
+        points = mesh.reshape(-1, 3)
+        plain = np.concatenate([points, np.zeros_like(points), np.ones((len(points), 1))], axis=1)
+        yield plain[lattice(*mesh.shape[:2])], False
+    for wire in surface.wires:
+        line = distinct(wire)
+        if len(line) > 1:
+            yield _ribbon(line, style_of("wire").tube / view.scale, view, pixel), True
+
+
+def _refined(grid: FloatArray) -> FloatArray:
+    """Return a mesh whose long cells are divided: what crosses it crosses it smoothly, and needles are drawn ill."""
+    for _ in range(2):
+        longest = np.linalg.norm(np.diff(grid, axis=0), axis=2).max(axis=1)
+        counts = np.maximum(1, np.ceil(longest / _CELL)).astype(int)
+        k = np.repeat(np.arange(len(counts)), counts)
+        start = np.concatenate([[0], np.cumsum(counts)[:-1]])
+        share = (np.arange(len(k)) - start[k]) / counts[k]
+        inner = grid[k] + share[:, None, None] * (grid[k + 1] - grid[k])
+        grid = np.concatenate([inner, grid[-1:]]).swapaxes(0, 1)
+    return grid
+
+
+def _ribbon(line: FloatArray, width: float, view: View, pixel: float) -> FloatArray:
+    """Return a line of this width as triangles (T, 3, 7) across the ray, its edges fading over one pixel.
+
+    One that is thinner than a pixel is drawn as wide as that, and fainter.
+    """
+    right, up = view.frame[:2]
+    step = np.diff(line @ view.frame[:2].T, axis=0)
+    step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
+    along = np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
+    along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-12)
+    side = along[:, :1] * up - along[:, 1:] * right
+    middle, fade = 0.5 * max(width, pixel), 0.5 * pixel if width > pixel else 0.0
+    reach = np.array([-middle - fade, fade - middle, middle - fade, middle + fade])
+    cover = np.array([0.0, 1.0, 1.0, 0.0]) * min(1.0, width / pixel)
+    corners = np.empty((len(line), 4, 7))
+    corners[..., :3] = line[:, None]
+    corners[..., 3:6] = reach[:, None] * side[:, None]
+    corners[..., 6] = cover
+    return corners.reshape(-1, 7)[lattice(len(line), 4)]
+
+
+def _painted(
+    corners: FloatArray, surface: Surface, view: View, *, wire: bool
+) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
+    """Return points, normals and colours at the corners (T, 3, ...).
+
+    Each side of a surface has its colour, denser where the line of sight grazes it.
+    """
+    on = corners[..., :3]
+    outer = facing(surface.quadric, on, view.towards) @ _ALL > 0.0
+    turned = normals(surface.quadric, on) * np.where(outer, 1.0, -1.0)[:, None, None]
+    if wire:  # not lit: it keeps its colour
+        turned = np.broadcast_to(UNLIT @ view.frame, on.shape)
+        tint, dense = np.tile(_rgb(style_of("wire").colour) / AMBIENT, (len(on), 1)), corners[..., 6]
+    else:
+        look = style_of(surface.role)
+        tint = np.where(outer[:, None], _rgb(look.colour), _rgb(look.back or look.colour))
+        slant = np.clip(np.abs(turned @ view.towards), 0.0, 1.0)
+        dense = look.glass + (_DENSEST - look.glass) * (1.0 - slant) ** _GRAZE
+    paint = np.empty((*dense.shape, 4))
+    paint[..., :3] = tint[:, None]
+    paint[..., 3] = 255.0 * dense
+    return _to_the_eye(on + corners[..., 3:6], turned, np.round(paint).astype(np.uint8), view)
+
+
+def _rgb(colour: str) -> FloatArray:
+    """Return red, green and blue from 0 to 255."""
+    return 255.0 * np.array(to_rgb(colour))
+
+
+def _to_the_eye(
+    points: FloatArray, turned: FloatArray, paint: NDArray[np.uint8], view: View
+) -> tuple[FloatArray, FloatArray, NDArray[np.uint8]]:
+    """Return the triangles with their corners anticlockwise as seen."""
+    flat = points @ view.frame[:2].T
+    a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    way = np.where((a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0])[:, None], np.array([2, 1, 0]), np.array([0, 1, 2]))
+    row = np.arange(len(points))[:, None]
+    return points[row, way], turned[row, way], paint[row, way]

@@ -1,0 +1,266 @@
+"""What a reader sees of lines in space: visibility behind pieces of quadrics, exactly.
+
+From a point x the ray x + t d goes to the eye, t > 0. A surface F(x) = (x, 1) Q (x, 1) = 0 meets it where
+A t^2 + B(x) t + F(x) = 0 with A = d.Q.d, B = 2 d.Q.(x, 1): the point is hidden if a root t > 0 lies in the surface's
+half spaces. Along a chord of a curve everything that can change the answer is a root of a quadratic in the chord's
+parameter; so the ends of hidden stretches are solved for, and between two of them one point answers for all.
+
+Where a ray meets a quadric twice, one point is the nearer; the plane of the silhouette divides the surface into a near
+and a far part, as areas on paper. An area is kept as its edge alone: filled by the rule of non-zero winding it is the
+whole of its image. Panels have the size one.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TypeAlias
+
+import numpy as np
+from contourpy import contour_generator
+from numpy.typing import NDArray
+
+from atlas.pictures.layers import FloatArray, Surface
+from atlas.pictures.sample import normals
+
+BoolArray = NDArray[np.bool_]
+Edge: TypeAlias = tuple[FloatArray, NDArray[np.uint8]]
+"""Points (N, 3) in space and the codes (N,) that a `matplotlib.path.Path` has for closed polygons."""
+
+_ON = 1e-9
+_NEAR = 1e-7
+_NOTHING = 1e-12
+_MARGIN = 0.02
+"""A mesh keeps to its surface within a fraction of a pixel; its image is taken so much larger."""
+
+
+def split(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[tuple[FloatArray, bool]]:
+    """Cut a polyline (N, 3) into pieces, each with whether it is visible.
+
+    ``towards`` is the unit vector to the eye; what is nearer than 1e-7 counts as touching.
+    """
+    start, step = points[:-1], np.diff(points, axis=0)
+    if len(start) == 0:
+        return []
+    surfaces = _before(points, surfaces, towards)
+    touching = [_on(surface.quadric, points) for surface in surfaces]
+    cuts = [np.zeros((len(start), 1)), np.ones((len(start), 1))]
+    cuts += [_changes(surface, start, step, towards) for surface in surfaces]
+    s = np.sort(np.clip(np.nan_to_num(np.concatenate(cuts, axis=1), nan=0.0), 0.0, 1.0), axis=1)
+    middle = start[:, None] + (0.5 * (s[:, :-1] + s[:, 1:]))[..., None] * step[:, None]
+    hidden = np.zeros(middle.shape[:-1], dtype=bool)
+    for surface, on in zip(surfaces, touching, strict=True):
+        rests = on[:-1] & on[1:]
+        hidden |= _hides(surface, middle, towards, rests[:, None])
+    row, column = np.nonzero(np.diff(s, axis=1) > _NOTHING)
+    if len(row) == 0:
+        return []
+    first = start[row] + s[row, column, None] * step[row]
+    last = start[row] + s[row, column + 1, None] * step[row]
+    answers = hidden[row, column]
+    ends = np.concatenate([np.flatnonzero(np.diff(answers)) + 1, [len(answers)]])
+    pieces, begin = [], 0
+    for end in ends:
+        pieces.append((np.concatenate([first[begin:end], last[end - 1 : end]]), not answers[begin]))
+        begin = end
+    return pieces
+
+
+def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> BoolArray:
+    """Whether each of the points (N, 3) is hidden."""
+    answer = np.zeros(len(points), dtype=bool)
+    for surface in _before(points, surfaces, towards):
+        answer |= _hides(surface, points, towards, _on(surface.quadric, points))
+    return answer
+
+
+def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[Surface]:
+    """Return the surfaces that may hide some of the points: those whose images overlap with that of the points."""
+    across = np.linalg.svd(towards[None])[2][1:]
+    flat = points @ across.T
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    boxes = [_image(surface, across.tobytes()) for surface in surfaces]
+    return [
+        s for s, (least, most) in zip(surfaces, boxes, strict=True) if (least <= high).all() and (low <= most).all()
+    ]
+
+
+@lru_cache(maxsize=4096)
+def _image(surface: Surface, across: bytes) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of a rectangle that holds the image of a surface: that of its mesh and a little more.
+
+    Without a mesh it is the whole plane.
+    """
+    if not surface.grids:
+        return np.full(2, -np.inf), np.full(2, np.inf)
+    mesh = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
+    flat = mesh @ np.frombuffer(across).reshape(2, 3).T
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    margin = _MARGIN * float(np.max(high - low))
+    return low - margin, high + margin
+
+
+def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
+    """Return the quadratic form F(x) = (x, 1) Q (x, 1) at points (..., 3)."""
+    x = _lift(points)
+    return np.einsum("...i,...i->...", (x.reshape(-1, 4) @ quadric).reshape(x.shape), x)  # in a sixth of `_form`'s time
+
+
+def _lift(x: FloatArray, last: float = 1.0) -> FloatArray:
+    """Homogeneous coordinates: (x, 1) of a point, (x, 0) of a direction."""
+    return np.concatenate([x, np.full((*x.shape[:-1], 1), last)], axis=-1)
+
+
+def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the bilinear form a.Q.b."""
+    return np.einsum("...i,ij,...j->...", a, quadric, b)
+
+
+def _weight(quadric: FloatArray, points: FloatArray) -> FloatArray:
+    """Return the size of the terms whose sum F is, against which F counts as zero."""
+    x = np.abs(_lift(points))
+    return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * 1e-3)
+
+
+def _on(quadric: FloatArray, points: FloatArray) -> BoolArray:
+    """Which of the points lie on the surface, but for rounding."""
+    return np.abs(values(quadric, points)) <= _ON * _weight(quadric, points)
+
+
+def _is_flat(quadric: FloatArray) -> bool:
+    """Whether the surface is a plane."""
+    return bool(np.abs(quadric[:3, :3]).max() <= _NOTHING * np.abs(quadric[:3, 3]).max())
+
+
+def _hides(surface: Surface, x: FloatArray, towards: FloatArray, on: BoolArray) -> BoolArray:
+    """Whether the surface hides the points x (..., 3); from a point ``on`` it one root is t = 0 and does not count."""
+    quadric, d = surface.quadric, _lift(towards, 0.0)
+    A = float(_form(quadric, d, d))
+    B = 2.0 * _form(quadric, _lift(x), d)
+    F = np.where(on, 0.0, values(quadric, x))
+    with np.errstate(all="ignore"):
+        if abs(A) <= _NOTHING * np.abs(quadric[:3, :3]).max() or _is_flat(quadric):
+            roots = [-F / B]
+        else:
+            D = B * B - 4.0 * A * F
+            q = -0.5 * (B + np.copysign(np.sqrt(D), B))
+            roots = [q / A, np.where(on, 0.0, F / q)]
+    answer = np.zeros(x.shape[:-1], dtype=bool)
+    for t in roots:
+        real = np.isfinite(t) & (t > _NEAR)
+        y = x + np.where(real, t, 0.0)[..., None] * towards
+        answer |= real & _within(surface, y)
+    return answer
+
+
+def _within(surface: Surface, x: FloatArray) -> BoolArray:
+    """Whether points (..., 3) lie in all half spaces, and inside all quadrics, that cut the surface out."""
+    inside = np.ones(x.shape[:-1], dtype=bool)
+    for *n, d in surface.clip:
+        inside &= x @ np.array(n) <= d + _ON * np.linalg.norm(n)
+    for quadric in surface.within:
+        inside &= values(quadric, x) <= _ON * _weight(quadric, x)
+    return inside
+
+
+def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: FloatArray) -> FloatArray:
+    """Where along the chords start + s step the answer may change: s (N, K), not a number where it cannot."""
+    quadric, d = surface.quadric, _lift(towards, 0.0)
+    a, b = _lift(start), _lift(step, 0.0)
+    A = float(_form(quadric, d, d))
+    B0, B1 = 2.0 * _form(quadric, a, d), 2.0 * _form(quadric, b, d)
+    F0, F1, F2 = _along(quadric, a, b)
+    cuts = [*_roots(F2, F1, F0)]
+    flat = _is_flat(quadric)
+    if not flat:
+        cuts += _roots(B1 * B1 - 4.0 * A * F2, 2.0 * B0 * B1 - 4.0 * A * F1, B0 * B0 - 4.0 * A * F0)
+        cuts.append(_ratio(-B0, B1))
+    for *normal, distance in surface.clip:
+        n = np.array(normal)
+        facing = float(n @ towards)
+        if abs(facing) <= _NOTHING * float(np.linalg.norm(n)):
+            cuts.append(_ratio(distance - start @ n, step @ n))
+            continue
+        # where the ray meets the edge of the half space, and whether that point is on the surface
+        moved = a + ((distance - start @ n) / facing)[:, None] * d
+        drift = b - ((step @ n) / facing)[:, None] * d
+        G0, G1, G2 = _along(quadric, moved, drift)
+        cuts += _roots(G2, G1, G0)
+        if not flat and A != 0.0:  # from a point on the surface the other root is t = -B / A
+            cuts.append(_ratio(distance - start @ n + B0 / A * facing, step @ n - B1 / A * facing))
+    if flat and surface.within:
+        with np.errstate(all="ignore"):
+            moved, drift = a - (F0 / B0)[:, None] * d, b - (F1 / B0)[:, None] * d
+        for other in surface.within:
+            G0, G1, G2 = _along(other, moved, drift)
+            cuts += _roots(G2, G1, G0)
+    return np.stack(cuts, axis=1)
+
+
+def _along(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Coefficients of F(a + s b) = c0 + c1 s + c2 s^2."""
+    return _form(quadric, a, a), 2.0 * _form(quadric, a, b), _form(quadric, b, b)
+
+
+def _ratio(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return a / b, not a number where there is none."""
+    with np.errstate(all="ignore"):
+        return np.where(b != 0.0, a / b, np.nan)
+
+
+def _roots(c2: FloatArray, c1: FloatArray, c0: FloatArray) -> list[FloatArray]:
+    """Both roots of c2 s^2 + c1 s + c0, without cancellation; not a number where they are not real."""
+    with np.errstate(all="ignore"):
+        q = -0.5 * (c1 + np.copysign(np.sqrt(c1 * c1 - 4.0 * c2 * c0), c1))
+    return [_ratio(q, c2), _ratio(c0, q)]
+
+
+def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> FloatArray:
+    """Return half of grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen."""
+    return np.asarray(points @ (quadric[:3, :3] @ towards) + quadric[:3, 3] @ towards)
+
+
+def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
+    """Return (near?, outer side seen?, edge) of the surface's parts, the far ones first."""
+    bend = float(towards @ surface.quadric[:3, :3] @ towards)
+    parts = []
+    for sign in (1.0, -1.0):
+        edges = [_edge(grid, sign * facing(surface.quadric, grid, towards)) for grid in surface.grids]
+        edge = _joined(edges)
+        if len(edge[0]):
+            parts.append((bend * sign >= 0.0, sign > 0.0, edge))
+    return sorted(parts, key=lambda area: area[0])
+
+
+def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: FloatArray) -> list[Edge]:
+    """Return, for each level, the edge of the near part where less than that cosine of ``light`` falls on it.
+
+    The light falls on the side that the reader sees.
+    """
+    bend = float(towards @ surface.quadric[:3, :3] @ towards)
+    bands: list[list[Edge]] = [[] for _ in levels]
+    for grid in surface.grids:
+        normal = normals(surface.quadric, grid)
+        slant = normal @ towards * (1.0 if bend >= 0.0 else -1.0)
+        lit = normal @ light * np.where(normal @ towards >= 0.0, 1.0, -1.0)
+        for band, level in zip(bands, levels, strict=True):
+            band.append(_edge(grid, np.minimum(slant, level - lit)))
+    return [_joined(band) for band in bands]
+
+
+def _edge(grid: FloatArray, height: FloatArray) -> Edge:
+    """Return the edge of the part of a mesh (M, N, 3) where the height, linear on each side of its cells, is positive.
+
+    Where the mesh closes on itself the edge runs along the seam there and back, which fills nothing.
+    """
+    (outlines,), (codes,) = contour_generator(z=height, fill_type="ChunkCombinedCode").filled(0.0, np.inf)
+    if outlines is None or codes is None:
+        return np.empty((0, 3)), np.empty(0, dtype=np.uint8)
+    place = outlines[:, ::-1]  # row and column, one of them a whole number
+    corner = np.minimum(place.astype(int), np.array(height.shape) - 2)
+    (i, j), (u, v) = corner.T, (place - corner).T[..., None]
+    rows = [(1.0 - v) * grid[k, j] + v * grid[k, j + 1] for k in (i, i + 1)]
+    return (1.0 - u) * rows[0] + u * rows[1], codes
+
+
+def _joined(edges: list[Edge]) -> Edge:
+    """Return several edges as one."""
+    return np.concatenate([points for points, _ in edges]), np.concatenate([codes for _, codes in edges])

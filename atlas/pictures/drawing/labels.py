@@ -1,0 +1,187 @@
+"""Names beside things: where a label goes so that it covers neither another label nor a line."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import Stroke
+from numpy.typing import NDArray
+
+from atlas.pictures.drawing.style import ground, zoom
+from atlas.pictures.drawing.text import line, typeset
+from atlas.pictures.layers import FloatArray
+from atlas.pictures.style import WHITE, readable
+
+_TURNS = np.radians([0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180])
+_STEPS = (0.0, 3.0, 7.0, 12.0)
+_TURN, _STEP, _ELSEWHERE, _DOUBT = 1.6, 0.35, 0.9, 8.0
+_AIR, _APART = 1.2, 4.0
+_FAR, _SIGHT = 5.0, 30.0
+_KEPT = 100
+_HEIGHT = 20.0
+_HALO, _BOX = 2.2, 0.85
+NOBODY = -2
+"""The owner of ink that a name is never taken for the name of."""
+Ink: TypeAlias = tuple[FloatArray, float, int]
+"""Points (N, 2) of what is drawn, how much it hurts to cover one of them, and to what they belong."""
+
+
+@dataclass(frozen=True)
+class Tag:
+    """A text of known ``extent`` (width, height) that belongs at ``anchor``; all in printer's points.
+
+    ``offset`` is where it would like to stand as seen from the anchor; (0, 0) means centred there, come what may. It
+    may stand ``elsewhere`` too, the less gladly the later the place. It is the name of the ink of its ``owner``, and
+    should be nearer to that than to what belongs to others.
+    """
+
+    text: str
+    anchor: tuple[float, float]
+    offset: tuple[float, float]
+    extent: tuple[float, float]
+    colour: str
+    size: float
+    elsewhere: tuple[tuple[float, float], ...] = ()
+    owner: int = -1
+
+
+def stand(tag: Tag) -> FloatArray:
+    """Return the centre (2,) of the text where it would like to stand, in points."""
+    return _stands(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
+
+
+def _stands(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
+    """Return the centres (N, 2) of the text beside anchors (N, 2) when its offset is turned and lengthened."""
+    length = float(np.hypot(*tag.offset))
+    if length == 0.0:
+        return anchors
+    angle = np.arctan2(tag.offset[1], tag.offset[0]) + turns
+    u = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    half = 0.5 * np.array(tag.extent)
+    with np.errstate(divide="ignore"):
+        reach = np.minimum((half / np.abs(u)).min(axis=1), np.hypot(*half))
+    return anchors + (length + steps + reach)[:, None] * u
+
+
+def place(tags: Sequence[Tag], drawn: Iterable[Ink], window: tuple[float, float, float, float]) -> list[FloatArray]:
+    """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
+
+    It keeps clear of what is ``drawn``; ``window`` is (left, bottom, right, top).
+    """
+    parts, *about = zip((np.empty((0, 2)), 0.0, NOBODY), *drawn, strict=True)
+    ink, counts = np.concatenate(parts), list(map(len, parts))
+    weights, owners = (np.repeat(values, counts) for values in about)
+    centres = np.array([stand(tag) for tag in tags]).reshape(-1, 2)
+    sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
+    fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
+    settled = fixed.copy()
+    alone = {}
+    for i in np.flatnonzero(~fixed):
+        tag, anchors = tags[i], np.array([tags[i].anchor, *tags[i].elsewhere])
+        where, steps, turns = (g.ravel() for g in np.meshgrid(np.arange(len(anchors)), _STEPS, _TURNS, indexing="ij"))
+        candidates = _stands(tag, anchors[where], turns, steps)
+        cost = _TURN * np.abs(turns) + _STEP * steps + _ELSEWHERE * where
+        beside = np.split(candidates, len(anchors))  # about one anchor there is little ink
+        cost += np.concatenate([_covers(some, tag.extent, ink, weights, window) for some in beside])
+        best = np.argsort(cost, kind="stable")[:_KEPT]
+        candidates, cost = candidates[best], cost[best]
+        if tag.owner >= 0:
+            named = owners != NOBODY
+            cost += _doubt(candidates, tag.extent, ink[named], owners[named] == tag.owner)
+        alone[i] = candidates, cost
+    for _ in range(2):
+        for i, (candidates, cost) in alone.items():
+            settled[i] = False
+            total = cost + _meets(candidates, tags[i].extent, centres[settled], sizes[settled])
+            centres[i] = candidates[int(np.argmin(total))]
+            settled[i] = True
+    return list(centres)
+
+
+def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, own: NDArray[np.bool_]) -> FloatArray:
+    """Return how doubtful it is, at each of the centres (N, 2), to which ink a text belongs."""
+    if not own.any() or own.all():
+        return np.zeros(len(centres))
+    half = 0.5 * np.array(extent)
+    mine, foreign = (_gap(centres, half, ink[which]) for which in (own, ~own))
+    return _DOUBT * np.clip(1.0 - (foreign + 1.0) / (mine + 4.0), 0.0, 1.0) + _ELSEWHERE * np.maximum(mine - _FAR, 0.0)
+
+
+def _gap(centres: FloatArray, half: FloatArray, ink: FloatArray) -> FloatArray:
+    """Return the distance of the nearest ink from a box about each of the centres (N, 2)."""
+    reach = half + _SIGHT
+    near = ((ink > centres.min(axis=0) - reach) & (ink < centres.max(axis=0) + reach)).all(axis=1)
+    if not near.any():
+        return np.full(len(centres), _SIGHT)
+    beyond = [np.maximum(np.abs(ink[near, k] - centres[:, k, None]) - half[k], 0.0) for k in range(2)]
+    return np.minimum(np.sqrt(beyond[0] ** 2 + beyond[1] ** 2).min(axis=1), _SIGHT)
+
+
+def _covers(
+    centres: FloatArray,
+    extent: tuple[float, float],
+    ink: FloatArray,
+    weights: FloatArray,
+    window: tuple[float, float, float, float],
+) -> FloatArray:
+    """Return how much ink a text covers at each of the centres (N, 2), and how far it leaves the window."""
+    half = 0.5 * np.array(extent) + _AIR
+    low, high = centres - half, centres + half
+    near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
+    x, y = ink[near].T
+    covered = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
+    outside = np.maximum(0.0, np.concatenate([window[:2] - low, high - window[2:]], axis=1)).sum(axis=1)
+    cost: FloatArray = covered @ weights[near] + 40.0 * outside
+    return cost
+
+
+def _meets(centres: FloatArray, extent: tuple[float, float], others: FloatArray, sizes: FloatArray) -> FloatArray:
+    """Return how much a text at each of the centres (N, 2) covers of other texts (M, 2) of their sizes."""
+    half, reach = 0.5 * np.array(extent) + _AIR, 0.5 * sizes + _APART
+    high = np.minimum((centres + half)[:, None], others + reach)
+    overlap = high - np.maximum((centres - half)[:, None], others - reach)
+    cost: FloatArray = np.where((overlap > 0.0).all(axis=2), 30.0 + overlap.prod(axis=2), 0.0).sum(axis=1)
+    return cost
+
+
+def along(points: FloatArray, step: float = 2.0) -> FloatArray:
+    """Return points no further than ``step`` apart on a polyline (N, 2): its ink."""
+    finite = points[np.isfinite(points).all(axis=1)]
+    if len(finite) < 2:
+        return finite
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(finite, axis=0), axis=1))])
+    count = int(min(max(2.0, np.ceil(length[-1] / step) + 1.0), 4000.0))
+    s = np.linspace(0.0, length[-1], count)
+    return np.stack([np.interp(s, length, finite[:, k]) for k in range(2)], axis=1)
+
+
+def write(axes: Axes, tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
+    """Write the texts about their centres (points from the lower left corner), as annotations of their anchors.
+
+    Below each lies its outline in the colour of the ground, which is no text, or a white box on a coloured image.
+    """
+    corner = axes.get_window_extent().p0
+    face = WHITE if boxed else ground(axes.get_facecolor() if axes.axison else axes.figure.get_facecolor())
+    scale = zoom() * axes.figure.dpi / 72.0
+    anchors = axes.transData.inverted().transform([corner + scale * np.array(tag.anchor) for tag in tags])
+    for tag, anchor, centre in zip(tags, anchors, centres, strict=True):
+        _, ascent, descent = line(tag.text, tag.size)
+        offset = zoom() * (centre - tag.anchor - (0.0, 0.5 * (ascent - descent)))
+        outline = [] if boxed else [(_HEIGHT, [Stroke(linewidth=zoom() * _HALO, foreground=face)])]
+        for height, effects in (*outline, (_HEIGHT + 1.0, [])):
+            axes.annotate(
+                typeset(tag.text),
+                anchor,
+                offset,
+                textcoords="offset points",
+                ha="center",
+                va="baseline",
+                fontsize=zoom() * tag.size,
+                color=readable(tag.colour, face),
+                zorder=height,
+                path_effects=effects,
+                annotation_clip=False,
+                bbox={"fc": face, "alpha": _BOX, "lw": 0.0, "pad": 0.8 * zoom()} if boxed else None,
+            )

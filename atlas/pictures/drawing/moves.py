@@ -1,0 +1,134 @@
+"""How a scene moves, as data for the pages: for each path a table of turns and shifts over the time that it lasts.
+
+A turn is a quaternion, a shift stands in units of the largest of its path; both are 16-bit numbers, at equal moments.
+Marks of panels with two axes are places in the figure, from its upper left corner, as parts of its size.
+"""
+
+import json
+from base64 import b64encode
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from atlas.arithmetic.quaternions import of_matrix
+from atlas.pictures.arrange import narrowed
+from atlas.pictures.drawing import viewer
+from atlas.pictures.drawing.panels import laid_out
+from atlas.pictures.drawing.plane import marker
+from atlas.pictures.drawing.space import window
+from atlas.pictures.drawing.style import context
+from atlas.pictures.drawing.view import View, fit, named
+from atlas.pictures.layers import FloatArray, Layer, Path, Plane, Scene, Space, Surface
+
+FINE = 32767
+_PLAIN, _MOST, _LOOKS = 96, 240, 2400
+_TURN = np.radians(12.0)
+"""Between two moments no path turns farther, unless there would be too many of them."""
+
+
+def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
+    """Return the script that tells how a scene moves; nothing for one that does not."""
+    if not scene.paths:
+        return ""
+    return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
+
+
+def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
+    """Return the tables of a scene's paths in space, and what rides on them in the figure and in that for a phone.
+
+    `figures` are as for `atlas.pictures.drawing.viewer.data`.
+    """
+    small = narrowed(scene)
+    deep = {layer.rides for panel in scene.panels if isinstance(panel, Space) for layer in _riders(panel)}
+    paths = {name: path for name, path in scene.paths.items() if name in deep}
+    steps = max([_PLAIN, *(_steps(path, scene.lasts) for path in paths.values())])
+    with context(style):
+        wide, narrow = _laid_out(scene, figures[:1]), small and _laid_out(small, figures[1:])
+    if small and narrow and small.panels == scene.panels:  # the viewer has what is in them once
+        narrow["spaces"] = wide["spaces"]
+    tables = {name: _table(path, np.linspace(0.0, scene.lasts, steps + 1)) for name, path in paths.items()}
+    return {"lasts": scene.lasts, "paths": tables, "wide": wide, "narrow": narrow}
+
+
+def _riders(panel: Any) -> Iterator[Any]:
+    """Yield the layers of a panel that ride on a path."""
+    yield from (layer for layer in panel.layers if getattr(layer, "rides", ""))
+
+
+def _steps(path: Path, lasts: float) -> int:
+    """Return how many steps of `_TURN` a path makes."""
+    R, _ = path(np.linspace(0.0, lasts, _LOOKS))
+    turned = np.einsum("nij,nij->n", R[1:], R[:-1])
+    angle = np.arccos(np.clip(0.5 * (turned - 1.0), -1.0, 1.0))
+    return int(min(_MOST, np.ceil(angle.sum() / _TURN)))
+
+
+def _table(path: Path, times: FloatArray) -> list[Any]:
+    """Return the size of a path's shifts, and quaternions (w, x, y, z) and shifts in base 64."""
+    R, s = path(times)
+    size = float(np.abs(s).max()) or 1.0
+    return [float(f"{size:.7g}"), _packed(np.concatenate([_quaternions(R), s / size], axis=1))]
+
+
+def _packed(numbers: FloatArray) -> str:
+    return b64encode(np.round(FINE * np.clip(numbers, -1.0, 1.0)).astype("<i2").tobytes()).decode()
+
+
+def _quaternions(R: FloatArray) -> FloatArray:
+    """Return unit quaternions (N, 4) of matrices (N, 3, 3), each on the side of the one before."""
+    quaternions = np.roll(of_matrix(R), 1, axis=-1)
+    signs = np.sign(np.einsum("ni,ni->n", quaternions[1:], quaternions[:-1]))
+    quaternions[1:] *= np.cumprod(np.where(signs == 0.0, 1.0, signs))[:, None]
+    return quaternions
+
+
+def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
+    """Return for each panel in space its centre, its size and what rides in it; and the marks of the others."""
+    figure = next(iter(figures), None) or laid_out(scene)[0]
+    panels = list(zip(figure.axes, scene.panels, strict=True))
+    times = np.linspace(0.0, scene.lasts, _MOST + 1)
+    spaces = [(axes, panel) for axes, panel in panels if isinstance(panel, Space)]
+    planes = [(axes, panel) for axes, panel in panels if isinstance(panel, Plane)]
+    width, height = 72.0 * figure.get_size_inches()
+    return {
+        "size": [float(f"{side:.7g}") for side in (width, height)],
+        "spaces": [_riding(panel, window(axes)) for axes, panel in spaces],
+        "marks": [mark for axes, panel in planes for mark in _marks(axes, panel, scene, times)],
+    }
+
+
+def _riding(panel: Space, room: tuple[float, float]) -> list[Any]:
+    """Return centre and size of a panel, and (kind, from, to, path) of what the viewer has of each layer that rides."""
+    view = fit(panel, room)
+    counts: Counter[str] = Counter()
+    riding = []
+    for layer in view.panel.layers:
+        own = Counter(_kinds(layer, view))
+        if getattr(layer, "rides", ""):
+            riding += [[kind, counts[kind], counts[kind] + count, layer.rides] for kind, count in own.items()]
+        counts += own
+    return [[*(float(f"{x:.7g}") for x in (*view.centre, view.size))], riding]
+
+
+def _kinds(layer: Layer, view: View) -> Iterator[str]:
+    """Yield the kind of all that the viewer has of a layer."""
+    yield from (kind for kind, _ in viewer.solids(layer, view))
+    if isinstance(layer, Surface):
+        yield "surfaces"
+    if named(layer, view.frame):
+        yield "names"
+
+
+def _marks(axes: Axes, panel: Plane, scene: Scene, times: FloatArray) -> Iterator[list[Any]]:
+    """Yield colour, diameter in points and places in the figure of each mark that rides in a panel with two axes."""
+    to_figure = axes.transData - axes.figure.transFigure
+    for layer in _riders(panel):
+        R, s = scene.paths[layer.rides](times)
+        look = marker(layer.role)
+        for point in np.atleast_2d(layer.points):
+            x, y = to_figure.transform(R @ point + s).T
+            yield [look["mfc"], look["ms"], _packed(np.stack([x, 1.0 - y], axis=1))]

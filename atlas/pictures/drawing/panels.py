@@ -1,0 +1,294 @@
+"""A scene as a Matplotlib figure: one axes a panel, row by row, with names beside the things that they belong to."""
+
+import reprlib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from io import BytesIO
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.transforms import Bbox
+
+from atlas.errors import AtlasError
+from atlas.pictures.drawing.labels import NOBODY, Ink, Tag, along, place
+from atlas.pictures.drawing.labels import write as write_tags
+from atlas.pictures.drawing.plane import draw_plane, marker
+from atlas.pictures.drawing.space import draw_shaded, draw_space, window
+from atlas.pictures.drawing.style import context, style_of, zoom
+from atlas.pictures.drawing.text import extent, points, typeset
+from atlas.pictures.drawing.view import Held
+from atlas.pictures.layers import (
+    Arrow,
+    Curve,
+    FloatArray,
+    Image,
+    Label,
+    Layer,
+    Panel,
+    Plane,
+    Points,
+    Region,
+    Scene,
+    Space,
+)
+from atlas.pictures.style import readable
+from atlas.targets import Target
+
+_INCH, _SCREEN = 25.4, 96
+_KEPT = ("pdf.fonttype", "ps.fonttype")
+_WIDER = (1.15, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0)
+"""Widths, over that of a target, at which a figure that can't be read there is tried."""
+Hold: TypeAlias = Callable[[int, tuple[float, float]], Held]
+
+
+class SceneFigure(Figure):
+    """A figure of Matplotlib that is saved with the kind of fonts it was made for, whatever the settings are then.
+
+    `kept` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, which journals take, unless its style says other;
+    of a figure for a target ``savefig.dpi`` too.
+    """
+
+    kept: Mapping[str, Any] = MappingProxyType({})
+
+    def savefig(self, *args: Any, **options: Any) -> None:
+        """Save as any figure is saved."""
+        with mpl.rc_context(dict(self.kept)):
+            super().savefig(*args, **options)
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        """Return the picture that a notebook shows, at the size on paper, with twice the pixels of a screen."""
+        file, dots = BytesIO(), 2 * _SCREEN
+        self.savefig(file, format="png", dpi=dots)
+        width, height = (round(_SCREEN * length) for length in self.get_size_inches())
+        return file.getvalue(), {"width": width, "height": height}
+
+
+def to_figure(
+    scene: Scene,
+    style: Any = None,
+    *,
+    shaded: bool = False,
+    target: Target | None = None,
+    figure: Figure | None = None,
+    held: Hold | None = None,
+) -> Figure:
+    """Return a scene as a figure of its size, or laid out anew for a target, with one ordinary axes for each panel.
+
+    A panel with two axes has lines, markers, patches, a colorbar and a legend as Matplotlib makes them; a panel in
+    space is drawn with exact hidden lines on axes whose unit is the printer's point, or, if ``shaded``, is a picture by
+    VTK with its names over it. Names are annotations. The group id of what is drawn for a layer, ``artist.get_gid()``,
+    is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
+    picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for
+    `atlas.pictures.drawing.figure`. An empty ``figure`` is drawn into if one is given, and ``held`` tells the view of a
+    panel in space in a window. Raises AtlasError where a panel cannot hold one of its layers, and for a scene that
+    can't be read at the target.
+    """
+    if target:
+        return _readable(scene, style, target, shaded=shaded, figure=figure)
+    return _drawn(scene, style, shaded=shaded, figure=figure, held=held)
+
+
+def _readable(scene: Scene, style: Any, target: Target, **options: Any) -> Figure:
+    """Return a scene as a figure for a target. Raises AtlasError where texts would stand on one another."""
+    from atlas.pictures.arrange import arranged
+    from atlas.pictures.drawing.meeting import unreadable
+
+    drawn = _drawn(arranged(scene, target), style, target, **options)
+    fault = unreadable(drawn)
+    if not fault:
+        return drawn
+    wider = (replace(target, width=share * target.width) for share in _WIDER)
+    wide = (one for one in wider if not unreadable(_drawn(arranged(scene, one), style, one)))
+    needed = next((f"it can be from about {one.width:.0f} mm on" for one in wide), "draw it without a target")
+    raise AtlasError(
+        f"{scene.title}: it can't be read at {target.width:g} mm x {target.height:g} mm, for {fault}; {needed}."
+    )
+
+
+def _drawn(
+    scene: Scene,
+    style: Any,
+    target: Target | None = None,
+    *,
+    shaded: bool = False,
+    figure: Figure | None = None,
+    held: Hold | None = None,
+) -> Figure:
+    """Return a scene as a figure of its size, with the type and the lines of a target."""
+    with context(style, target):
+        figure, panels = laid_out(scene, figure)
+        if target and isinstance(figure, SceneFigure):
+            figure.kept = {**figure.kept, "savefig.dpi": target.dpi}
+        for number, (axes, panel) in enumerate(panels, 1):
+            if isinstance(panel, Space) and shaded:
+                draw_shaded(axes, panel)
+            else:
+                _complete(axes, panel, number, held)
+    return figure
+
+
+def draw_panel(axes: Axes, panel: Panel, style: Any = None) -> None:
+    """Draw a panel into axes of the user's own. Raises AtlasError for what is none, and for three dimensions."""
+    if not isinstance(axes, Axes):
+        raise AtlasError(f"ax must be axes of Matplotlib, not {reprlib.repr(axes)}.")
+    if axes.name == "3d":
+        raise AtlasError("ax must be ordinary axes: a panel in space has its own perspective and hidden lines.")
+    with context(style):
+        _begin(axes, panel)
+        axes.figure.draw_without_rendering()  # which gives them their place
+        _complete(axes, panel)
+
+
+def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
+    """Draw what may move the axes: all of a panel with two axes but for its names, of one in space the title."""
+    if isinstance(panel, Plane):
+        draw_plane(axes, panel, number)
+    else:
+        axes.set_title(typeset(panel.title), y=1.0)
+        axes.set_axis_off()
+
+
+def _complete(axes: Axes, panel: Panel, number: int = 1, held: Hold | None = None) -> None:
+    """Draw the rest of a panel whose axes have their place."""
+    if isinstance(panel, Plane):
+        write_names(axes, panel)
+    else:
+        draw_space(axes, panel, number, held and held(number - 1, window(axes)))
+
+
+def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[tuple[Axes, Panel]]]:
+    """Return a figure, or this one when it is empty, and its axes in their places, each with its panel.
+
+    Those in space are still empty.
+    """
+    if figure is None:
+        figure = SceneFigure([length / _INCH for length in scene.size])
+        figure.kept = {name: mpl.rcParams[name] for name in _KEPT}
+    panels = [
+        (figure.add_subplot(cell), panel) for cell, panel in zip(_cells(scene, figure), scene.panels, strict=True)
+    ]
+    for number, (axes, panel) in enumerate(panels, 1):
+        _begin(axes, panel, number)
+    if _framed(scene):
+        canvas = figure.canvas
+        FigureCanvasSVG(figure)  # it measures texts as `atlas.pictures.drawing.text` does, and each text once
+        ConstrainedLayoutEngine().execute(figure)
+        figure.set_canvas(canvas)
+    return figure, panels
+
+
+def places(scene: Scene) -> list[Bbox]:
+    """Return where each panel is, as shares of the figure; panels that fill it need no axes, which cost most of it."""
+    if _framed(scene):
+        return [axes.get_position() for axes, _ in laid_out(scene)[1]]
+    figure = Figure()
+    return [cell.get_position(figure) for cell in _cells(scene, figure)]
+
+
+def _framed(scene: Scene) -> bool:
+    """Tell whether panels have something about them: ticks and labels, or a title."""
+    return any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
+
+
+def _cells(scene: Scene, figure: Figure) -> list[SubplotSpec]:
+    """Return the cells of the panels of a figure, row by row."""
+    full = {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
+    rows = -(-len(scene.panels) // scene.columns)
+    edges = {} if _framed(scene) else full
+    grid = figure.add_gridspec(rows, scene.columns, height_ratios=scene.rows or None, **edges)
+    return [grid[divmod(k, scene.columns)] for k in range(len(scene.panels))]
+
+
+Places = Callable[[FloatArray], FloatArray]
+
+_OVER = 10.0
+_BACK, _EVERY = 150, 15
+_FAR, _EDGE = 1e6, 1e-6
+_FEW = 200
+"""Of so few marks the rims are ink too; among the rims of more, names would find no room."""
+_RIM = np.array([(np.cos(a), np.sin(a)) for a in np.arange(8) * np.pi / 4])
+_FRAME = 1.5
+"""Names keep so far off the frame, clear of its ticks."""
+
+
+def write_names(axes: Axes, panel: Plane) -> None:
+    """Write the names of a panel where they cover nothing; the axes must have their place in the figure."""
+    axes.apply_aspect()
+    box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
+    size = (float(box.width * scale), float(box.height * scale))
+
+    def places(points: FloatArray) -> FloatArray:
+        """Return places in points from the lower left corner; not a number where there is none, and never far away."""
+        with np.errstate(all="ignore"):
+            pixels = axes.transData.transform(np.atleast_2d(np.asarray(points, dtype=float)))
+            return np.asarray(np.clip((pixels - box.p0) * scale, -_FAR, _FAR))
+
+    tags = []
+    for owner, layer in enumerate(panel.layers):
+        for text, anchors, offset, role in _requests(size, layer, places, bool(panel.legend)):
+            high = points("xtick.labelsize" if role == "note" else "axes.labelsize")
+            first, *elsewhere = [(float(x), float(y)) for x, y in np.atleast_2d(anchors)]
+            colour = readable(style_of(role).colour)
+            tags.append(Tag(text, first, offset, extent(text, high), colour, high, tuple(elsewhere), owner))
+    if tags:
+        window = (_FRAME, _FRAME, size[0] - _FRAME, size[1] - _FRAME)
+        boxed = any(isinstance(layer, Image) for layer in panel.layers)
+        write_tags(axes, tags, place(tags, _ink(size, panel, places), window), boxed=boxed)
+
+
+def _requests(
+    size: tuple[float, float], layer: Layer, places: Places, keyed: bool
+) -> Iterator[tuple[str, FloatArray, tuple[float, float], str]]:
+    """Yield (text, places, offset, role) for each name that a layer wants written in the panel."""
+    if isinstance(layer, Label):
+        yield layer.text, places(layer.at), layer.offset, layer.role
+    elif isinstance(layer, Arrow) and layer.label:
+        tail, tip = places(np.stack([layer.tail, layer.tip]))
+        beyond = 4.0 * (tip - tail) / max(float(np.hypot(*(tip - tail))), 1e-9)
+        yield layer.label, tip, layer.offset or (float(beyond[0]), float(beyond[1])), layer.role
+    elif isinstance(layer, Image) or keyed or not layer.label:
+        return
+    elif isinstance(layer, Points):
+        yield layer.label, places(layer.points)[:1], (4.0, 4.0), layer.role
+    elif isinstance(layer, Curve):
+        pixels = places(layer.points)
+        seen = pixels[((pixels >= -_EDGE) & (pixels <= np.array(size) + _EDGE)).all(axis=1)]
+        if len(seen):
+            yield (
+                layer.label,
+                along(seen)[:-_BACK:-_EVERY],
+                (-4.0, 4.0),
+                layer.role,
+            )  # its last point, and some before it
+    elif isinstance(layer, Region):
+        yield layer.label, places(layer.points).mean(axis=0), (0.0, 0.0), "note"
+
+
+def _ink(size: tuple[float, float], panel: Plane, places: Places) -> Iterator[Ink]:
+    """Yield points of all lines and marks inside the panel, each layer's as its own.
+
+    Guides are pale lines without a name, and no other is taken for theirs: they belong to nobody.
+    """
+    for owner, layer in enumerate(panel.layers):
+        if isinstance(layer, Curve):
+            points = along(places(layer.points))
+        elif isinstance(layer, Points):
+            points = places(layer.points)
+            if len(points) <= _FEW:
+                rims = points[:, None] + 0.5 * marker(layer.role)["ms"] / zoom() * _RIM
+                yield rims.reshape(-1, 2), 1.5, owner
+        elif isinstance(layer, Arrow):
+            points = along(places(np.stack([layer.tail, layer.tip])))
+        else:
+            continue
+        inside = ((points >= -_OVER) & (points <= np.array(size) + _OVER)).all(axis=1)
+        guide = layer.role == "guide"
+        weight = 6.0 if isinstance(layer, Points) else 0.2 if guide else 1.5
+        yield points[inside], weight, NOBODY if guide else owner

@@ -1,0 +1,208 @@
+"""A panel in space on axes whose unit is the printer's point: visible lines solid, hidden ones thin and dashed."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import count, cycle
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.patches import PathPatch, Polygon
+from matplotlib.path import Path
+
+from atlas.pictures import conics
+from atlas.pictures.drawing.hidden import Edge, areas, facing, hidden, shadows, split
+from atlas.pictures.drawing.labels import NOBODY, along, place, write
+from atlas.pictures.drawing.plane import gid, marker
+from atlas.pictures.drawing.style import HEAD_WIDTH, dashes, head_base, stroke, style_of, zoom
+from atlas.pictures.drawing.view import Held, View, fit
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Layer, Points, Space, Surface
+from atlas.pictures.style import Style
+
+_INSIDE, _TINT, _WIRE, _HIDDEN, _VISIBLE, _HEAD, _MARK = 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 6.0
+_DASH = (2.6, 1.9)
+_TOLERANCE = 0.06
+_SPECK = 0.01
+"""Points of paper: where surfaces touch, rounding leaves pieces of lines that are shorter, and would be dots."""
+_LIGHT = np.array([-0.45, 0.62, 0.64])
+_LEVELS = np.linspace(0.02, 0.92, 14)
+_SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
+"""Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
+
+
+def draw_space(axes: Axes, panel: Space, number: int = 1, held: Held | None = None) -> None:
+    """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure.
+
+    Its scale is the largest at which it fits, or the one that is `held`.
+    """
+    view = fit(panel, window(axes), held)
+    axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
+    drawing = _Drawing(axes, view)
+    for order, layer in enumerate(view.panel.layers):
+        drawing.rise = 1e-3 * order
+        drawing.begin(layer, number, order + 1)
+        if isinstance(layer, Surface):
+            drawing.surface(layer)
+        elif isinstance(layer, Curve):
+            drawing.line(layer.points, style_of(layer.role))
+        elif isinstance(layer, Arrow):
+            drawing.arrow(layer)
+        elif isinstance(layer, Points):
+            drawing.marks(layer)
+    drawing.finish()
+    write_names(axes, view, drawing.ink)
+
+
+def window(axes: Axes) -> tuple[float, float]:
+    """Return width and height of axes in points before the target enlarges them."""
+    box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
+    return float(box.width * scale), float(box.height * scale)
+
+
+def write_names(axes: Axes, view: View, ink: Iterable[tuple[FloatArray, float]]) -> None:
+    """Write the names of a panel clear of the ink: points (N, 2) and how much it hurts to cover one of them."""
+    edges = (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0)
+    write(axes, view.tags, place(view.tags, [(*part, NOBODY) for part in ink], edges))
+
+
+class _Drawing:
+    """The artists of a panel in space, and the ink that they are."""
+
+    def __init__(self, axes: Axes, view: View) -> None:
+        self.axes, self.view = axes, view
+        self.ink: list[tuple[FloatArray, float]] = []
+        self.rise = 0.0
+        self._names: Iterator[str] = iter(())
+        self._name: dict[tuple[Any, ...], str] = {}
+        self._lines: defaultdict[tuple[Any, ...], list[FloatArray]] = defaultdict(list)
+
+    def begin(self, layer: Layer, panel: int, place: int) -> None:
+        """Go on to a layer: its parts are named after it."""
+        self._names = (gid(layer, panel, place, piece) for piece in count(1))
+
+    def finish(self) -> None:
+        """Put the lines into the axes, those of one layer and look together."""
+        for (colour, width, dash, height), lines in self._lines.items():
+            cap = "butt" if dash else "round"
+            look = {"colors": colour, "linewidths": stroke(width), "linestyles": [dashes(dash)], "zorder": height}
+            look["gid"] = self._name[colour, width, dash, height]
+            self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
+
+    def surface(self, surface: Surface) -> None:
+        """Tint the two sides, then draw silhouette, edges and wires.
+
+        Of an opaque surface, a piece of a convex body, only the near part is drawn, its inner side below all else.
+        """
+        look, view = style_of(surface.role), self.view
+        opaque = look.fill == 1.0
+        parts = [area for area in areas(surface, view.towards) if area[0] or not opaque]
+        for near, outer, edge in parts:
+            colour = look.colour if outer or not look.back else look.back
+            self._area(edge, colour, look.fill if near else 0.5 * look.fill, _TINT if outer or not opaque else _INSIDE)
+        if not opaque or any(outer for _, outer, _ in parts):
+            light = _LIGHT @ view.frame
+            for edge, shade in zip(shadows(surface, view.towards, light, _LEVELS), cycle(_SHADES), strict=False):
+                self._area(edge, shade, _DEPTH)
+        for wire in surface.wires:
+            self.line(wire, style_of("wire"), _WIRE, 0.1)
+        for rim in surface.rims:
+            self.line(rim, replace(style_of("rim"), hidden=not opaque))
+        for line in silhouette(surface, view):
+            self.line(line, style_of("silhouette"))
+
+    def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
+        """Draw a polyline: what is seen in its own style, what is hidden thin and dashed, or not at all."""
+        for piece, seen in split(points, self.view.surfaces, self.view.towards):
+            length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
+            if length < _SPECK or not (seen or look.hidden):
+                continue
+            flat = self.view.on_paper(piece)
+            hidden_width = max(0.4, 0.6 * look.width)
+            key = (look.width, look.dash, height + self.rise) if seen else (hidden_width, _DASH, _HIDDEN + self.rise)
+            if (look.colour, *key) not in self._name:
+                self._name[look.colour, *key] = next(self._names)
+            self._lines[look.colour, *key].append(flat)
+            self.ink.append((along(flat), weight if seen else 0.4 * weight))
+
+    def arrow(self, arrow: Arrow) -> None:
+        """Draw shaft and head; a hidden head is a pale one."""
+        look, view = style_of(arrow.role), self.view
+        tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
+        base = head_base(tail, tip, look, view.scale)
+        self.line(np.stack([tail, base]), look)
+        self.ink.append((along(view.on_paper(np.stack([base, tip])), 1.0), 2.5))
+        point, foot = view.on_paper(tip), view.on_paper(base)
+        run = point - foot
+        length = float(np.linalg.norm(tip - base)) * view.scale
+        side = np.array([-run[1], run[0]]) / max(float(np.hypot(*run)), 1e-9) * HEAD_WIDTH * length
+        corners = np.stack([point, foot + side, foot + 0.12 * run, foot - side])
+        seen = not hidden(tip[None], view.surfaces, view.towards)[0]
+        face, width = (look.colour, 0.3) if seen else ("#ffffff", 0.5)
+        head = {"fc": face, "ec": look.colour, "lw": stroke(width), "joinstyle": "miter", "clip_on": False}
+        head["gid"] = next(self._names)
+        self.axes.add_artist(Polygon(corners, zorder=_HEAD + self.rise, **head))
+
+    def marks(self, points: Points) -> None:
+        """Draw marked points; hidden ones are hollow."""
+        places = np.atleast_2d(points.points)
+        gone = hidden(places, self.view.surfaces, self.view.towards)
+        flat, look = self.view.on_paper(places), marker(points.role)
+        for group, face in ((flat[~gone], look["mfc"]), (flat[gone], "#ffffff")):
+            if len(group):
+                mark = {**look, "mfc": face, "zorder": _MARK + self.rise, "clip_on": False, "gid": next(self._names)}
+                self.axes.plot(*group.T, ls="", **mark)
+        around = flat[:, None] + np.array([[0, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]])
+        self.ink.append((around.reshape(-1, 2), 4.0))
+
+    def _area(self, edge: Edge, colour: str, opacity: float, height: float = _TINT) -> None:
+        """Fill what an edge encloses."""
+        points, codes = edge
+        if len(points):
+            path = Path(self.view.on_paper(points), codes)
+            look = {"fc": colour, "alpha": opacity, "lw": 0, "zorder": height + self.rise, "gid": next(self._names)}
+            self.axes.add_artist(PathPatch(path, **look))
+
+
+def silhouette(surface: Surface, view: View) -> list[FloatArray]:
+    """Return the curves (N, 3) where lines of sight graze the surface: plane sections, since grad F . d is linear."""
+    normal = surface.quadric[:3, :3] @ view.towards
+    reach = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
+    centre = 0.5 * (reach.min(axis=0) + reach.max(axis=0))
+    radius = float(np.linalg.norm(reach - centre, axis=1).max())
+    if float(np.linalg.norm(normal)) * radius <= 1e-12 * abs(float(facing(surface.quadric, centre, view.towards))):
+        return []
+    distance = -float(surface.quadric[:3, 3] @ view.towards)
+    ball = (centre, radius)
+    return conics.section(surface.quadric, normal, distance, surface.clip, ball, _TOLERANCE / view.scale)
+
+
+def draw_shaded(axes: Axes, panel: Space) -> None:
+    """Draw a panel as a picture by VTK, of the resolution in which the figure is saved, with its names over it."""
+    from atlas.pictures.drawing.shaded import still
+
+    view = fit(panel, window(axes))
+    dpi = mpl.rcParams["savefig.dpi"]
+    dpi = zoom() * (axes.figure.dpi if dpi == "figure" else float(dpi))
+    width, height = (max(1, round(length * dpi / 72.0)) for length in view.window)
+    right, top = width * 72.0 / dpi, height * 72.0 / dpi  # so that a pixel of the picture is one of the file
+    picture = still(replace(view, window=(right, top)), width, height)
+    axes.imshow(picture, extent=(0.0, right, 0.0, top), aspect="auto", interpolation="none")
+    axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
+    write_names(axes, view, _ink(view))
+
+
+def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
+    """Yield what names should not cover in a shaded picture, with its weight."""
+    for layer in view.panel.layers:
+        if isinstance(layer, Curve):
+            yield along(view.on_paper(layer.points)), 3.0
+        elif isinstance(layer, Arrow):
+            yield along(view.on_paper(np.stack([layer.tail, layer.tip]))), 2.0
+        elif isinstance(layer, Points):
+            yield view.on_paper(np.atleast_2d(layer.points)), 8.0
+        elif isinstance(layer, Surface):
+            for rim in layer.rims:
+                yield along(view.on_paper(rim)), 3.0

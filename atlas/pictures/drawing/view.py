@@ -1,0 +1,180 @@
+"""The projection of a panel in space: the direction of view, the scale at which all fits, and the names to write."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from atlas.pictures.drawing.labels import Tag, stand
+from atlas.pictures.drawing.style import style_of
+from atlas.pictures.drawing.text import extent, points
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface, frame, moved, seen
+from atlas.pictures.style import Style, readable
+
+
+def scaled(panel: Space, centre: FloatArray, size: float) -> Space:
+    """Return the panel in the coordinates y = (x - centre)/size; the largest coefficient of each form is one."""
+    return replace(panel, layers=tuple(_scaled(layer, centre, size) for layer in panel.layers))
+
+
+def _scaled(layer: Layer, centre: FloatArray, size: float) -> Layer:
+    layer_scaled = moved(layer, np.eye(3) / size, -centre / size)
+    if isinstance(layer_scaled, Surface):
+        forms = [form / np.abs(form).max() for form in (layer_scaled.quadric, *layer_scaled.within)]
+        layer_scaled = replace(layer_scaled, quadric=forms[0], within=tuple(forms[1:]), clip=layer_scaled.clip / size)
+    return layer_scaled
+
+
+_MARGIN = 4.0
+_BEYOND = 4.5
+
+
+@dataclass(frozen=True)
+class Held:
+    """The scale of a panel, and where its origin is on paper: what all pictures of one movement share.
+
+    A panel is in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one; ``scale`` is in
+    printer's points per unit of these, ``shift`` (2,) the place on paper of their origin.
+    """
+
+    centre: FloatArray
+    size: float
+    scale: float
+    shift: FloatArray
+
+
+@dataclass(frozen=True)
+class View(Held):
+    """Where things of a panel appear on paper.
+
+    ``panel`` is the panel in these coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
+    the panel's (width, height) in points; ``tags`` are the names, anchored on paper.
+    """
+
+    panel: Space
+    frame: FloatArray
+    window: tuple[float, float]
+    tags: tuple[Tag, ...]
+
+    @property
+    def towards(self) -> FloatArray:
+        """The unit vector (3,) to the eye."""
+        return self.frame[2]
+
+    @property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """What can hide something."""
+        return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
+
+    def on_paper(self, points: FloatArray) -> FloatArray:
+        """Points (..., 3) of the scene as points (..., 2) of the paper."""
+        return self.scale * (points @ self.frame[:2].T) + self.shift
+
+
+def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
+    """Fit panels into one window (width, height) in points: the largest scale at which each stays inside, names too."""
+    low = np.min([seen(panel).min(axis=0) for panel in panels], axis=0)
+    high = np.max([seen(panel).max(axis=0) for panel in panels], axis=0)
+    centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
+    flats, tags = [], []
+    for one in panels:
+        panel = scaled(one, centre, size)
+        eye = frame(panel)
+        flat = seen(panel) @ eye[:2].T
+        wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
+        middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
+        flats += [flat, np.stack([middle - wide, middle + wide])]
+        tags += [tag for layer in panel.layers for tag in _tags(layer, eye)]
+    width, height = window
+    flat = np.concatenate(flats)
+    boxes = _boxes(tags)
+    scale = _fit(flat, boxes, np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN]))
+    left, right = _reach(flat, boxes, scale)
+    return Held(centre, size, scale, 0.5 * (np.array([width, height]) - left - right))
+
+
+def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> View:
+    """Return a panel as it appears in a window (width, height) in points: as it fits there best, or as it is held."""
+    held = held or hold([panel], window)
+    panel = scaled(panel, held.centre, held.size)
+    eye = frame(panel)
+
+    def on_paper(place: tuple[float, float]) -> tuple[float, float]:
+        x, y = held.scale * np.array(place) + held.shift
+        return float(x), float(y)
+
+    tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
+    placed = (replace(tag, anchor=on_paper(tag.anchor), elsewhere=tuple(map(on_paper, tag.elsewhere))) for tag in tags)
+    return View(held.centre, held.size, held.scale, held.shift, panel, eye, window, tuple(placed))
+
+
+def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
+    """Yield the names that a layer wants written; their anchors are on paper at scale 1."""
+    request = named(layer, eye)
+    if request is not None:
+        text, place, offset, role = request
+        size = points("axes.labelsize" if role == "note" else "font.size")
+        first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(place) @ eye[:2].T)
+        yield Tag(text, first, offset, extent(text, size), readable(style_of(role).colour), size, tuple(elsewhere))
+
+
+def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
+    """Return text, place, offset and role of a layer's name, if it has one."""
+    request: tuple[str, FloatArray, tuple[float, float], str] | None = None
+    if isinstance(layer, Label):
+        request = layer.text, layer.at, layer.offset, layer.role
+    elif isinstance(layer, Arrow):
+        step = eye[:2] @ (np.asarray(layer.tip) - np.asarray(layer.tail))
+        length = float(np.hypot(*step))
+        beyond = (_BEYOND * step[0] / length, _BEYOND * step[1] / length) if length else (_BEYOND, 0.0)
+        request = layer.label, layer.tip, layer.offset or beyond, layer.role
+    elif isinstance(layer, Points):
+        request = layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), layer.role
+    elif isinstance(layer, Curve):
+        request = layer.label, layer.points[-1], (4.0, 4.0), layer.role
+    elif isinstance(layer, Surface):
+        points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
+        request = layer.label, points[int(np.argmax(points @ (eye[0] + eye[1])))], (3.0, 3.0), "note"
+    return request if request and request[0] else None
+
+
+def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
+    """Return the largest scale at which drawing and names stay inside, by bisection."""
+    span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
+    corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
+    low, high = 0.0, float(np.min(inside / span))
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        a, b = _reach(corners, boxes, middle)
+        low, high = (middle, high) if (b - a <= inside).all() else (low, middle)
+    return low or high
+
+
+def _boxes(tags: list[Tag]) -> FloatArray:
+    """Return anchor at scale 1, middle from there, and half the extent of each name, (3, N, 2)."""
+    boxes = [(tag.anchor, stand(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
+    return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
+
+
+def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
+    anchors, beside, half = boxes
+    centres = scale * anchors + beside
+    low = np.concatenate([scale * flat, centres - half]).min(axis=0)
+    high = np.concatenate([scale * flat, centres + half]).max(axis=0)
+    return low, high
+
+
+def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
+    """Return the polyline (N, 3) itself, or the dashes of it, measured in points of the paper along the line."""
+    if not look.dash:
+        return [points]
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    pattern = np.array(look.dash) / view.scale
+    ends = np.cumsum(np.resize(pattern, len(pattern) * (1 + int(length[-1] / pattern.sum()))))
+    ends = np.minimum(np.concatenate([[0.0], ends]), length[-1])
+    pieces = []
+    for start, stop in zip(ends[::2], ends[1::2], strict=False):
+        s = np.concatenate([[start], length[(length > start) & (length < stop)], [stop]])
+        pieces.append(np.stack([np.interp(s, length, points[:, i]) for i in range(3)], axis=1))
+    return pieces

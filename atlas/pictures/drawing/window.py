@@ -1,0 +1,148 @@
+"""A scene as a PyVista plotter, to be turned in a window or in a notebook.
+
+Translucent surfaces are depth-peeled, without antialiasing: both together leave them out or falsify their order.
+"""
+
+import json
+from base64 import b64encode
+from html import escape
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+import pyvista as pv
+
+from atlas import gl
+from atlas.errors import AtlasError
+from atlas.pictures.drawing.glass import lattice
+from atlas.pictures.drawing.panels import to_figure
+from atlas.pictures.drawing.shaded import _GLASS, _add, _add_solids, _set_up
+from atlas.pictures.drawing.style import style_of
+from atlas.pictures.drawing.text import typeset
+from atlas.pictures.drawing.view import View, fit, named
+from atlas.pictures.drawing.viewer import data
+from atlas.pictures.layers import Scene, Space, Surface
+from atlas.places import folder
+
+_DOTS, _LABEL, _PEELS = 150.0 / 25.4, 20, 10
+_CLOSER = 4.0
+"""How much closer a reader may come before lines show that they have sides."""
+
+
+class ScenePlotter(pv.Plotter):
+    """A plotter that a notebook shows as the scene it was made of, in the viewer of the pages, which turns it there.
+
+    What is added to the plotter afterwards is seen by ``show`` and ``screenshot``, but not there.
+    """
+
+    scene: Scene | None = None
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """Return what a notebook shows."""
+        return mimebundle(self.scene)
+
+
+def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
+    """Return the panels in space of a scene as a plotter, side by side, in the coordinates of the scene.
+
+    It may be turned: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a scene without
+    a panel in space, and where no GL library can draw.
+    """
+    panels = [panel for panel in scene.panels if isinstance(panel, Space)]
+    if not panels:
+        raise AtlasError("the scene has no panel in space; draw it with to_figure")
+    if gl.prepare() is None:
+        raise AtlasError(gl.advice())
+    size = [round(length * _DOTS) for length in scene.size]
+    share = (size[0] * 72.0 / 25.4 / _DOTS / len(panels), size[1] * 72.0 / 25.4 / _DOTS)
+    plotter = ScenePlotter(
+        off_screen=off_screen, shape=(1, len(panels)), window_size=size, lighting="none", border=False
+    )
+    plotter.scene = scene
+    for column, panel in enumerate(panels):
+        plotter.subplot(0, column)
+        view = fit(panel, share)
+        _add_solids(plotter, view, share[1] / (size[1] * view.scale) / _CLOSER)
+        for surface in view.surfaces:
+            _add_surface(plotter, surface, view)
+        _add_names(plotter, view)
+        _set_up(plotter, view)
+        plotter.disable_anti_aliasing()
+        plotter.enable_depth_peeling(number_of_peels=_PEELS, occlusion_ratio=0.0)
+    return plotter
+
+
+def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
+    """Add the meshes of a surface, each side in its colour."""
+    look = style_of(surface.role)
+    for grid in surface.grids:
+        rows, columns = grid.shape[:2]
+        mesh = pv.PolyData.from_regular_faces(grid.reshape(-1, 3), lattice(rows, columns)).clean().compute_normals()
+        back = {**_GLASS, "color": look.back or look.colour, "opacity": look.glass}
+        _add(plotter, mesh, view, color=look.colour, opacity=look.glass, backface_params=back, **_GLASS)
+
+
+def _add_names(plotter: pv.Plotter, view: View) -> None:
+    """Add the names as labels that keep their size and stay in front; formulas are set by Matplotlib."""
+    import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
+
+    requests = [named(layer, view.frame) for layer in view.panel.layers]
+    places = [view.centre + view.size * np.atleast_2d(place)[0] for _, place, _, _ in filter(None, requests)]
+    texts = [typeset(text) for text, _, _, _ in filter(None, requests)]
+    if texts:
+        plotter.add_point_labels(
+            places, texts, font_size=_LABEL, show_points=False, shape=None, always_visible=True, reset_camera=False
+        )
+
+
+_STILL, _SCREEN, _INCH = 192, 96, 25.4
+_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
+_STYLE = """
+html, body { margin: 0; background: #fff; overflow: hidden; }
+.turned { position: relative; }
+img { display: block; width: 100%; }
+.scene, .scene > :is(canvas, div) { position: absolute; inset: 0; width: 100%; height: 100%; }
+.scene canvas { cursor: move; touch-action: none; }
+.scene > div { pointer-events: none; overflow: hidden; }
+.scene svg { position: absolute; left: 0; top: 0; will-change: transform; }
+.scene :is(path, text) { stroke: #fff; stroke-width: 35px; stroke-linejoin: round; paint-order: stroke; }
+"""
+_START = """
+const box = document.createElement("div"), still = document.querySelector("img");
+box.className = "scene";
+still.parentElement.append(box);
+const start = () => {
+  try {
+    new atlasViewer.Viewer(box, JSON.parse(document.querySelector("#data").textContent), `${still.alt} Arrow keys turn it, plus and minus zoom, 0 goes back.`, false).hurry();
+  } catch (error) { box.remove(); console.warn(error.message); }  // without WebGL 2 the still picture stays
+};
+still.complete ? start() : still.addEventListener("load", start);
+"""  # noqa: E501  lines of a script
+
+
+def mimebundle(scene: Scene) -> dict[str, str]:
+    """Return what a notebook shows of a scene: a frame with the document, in words where it shows no HTML."""
+    width, height = (round(_SCREEN * length / _INCH) for length in scene.size)
+    frame = (
+        f'<iframe width="{width}" height="{height}" style="border:0;max-width:100%" sandbox="allow-scripts" '
+        f'title="{escape(scene.title)}" srcdoc="{escape(document(scene))}"></iframe>'
+    )
+    return {"text/html": frame, "text/plain": f"{scene.title}. {scene.alt}"}
+
+
+def document(scene: Scene) -> str:
+    """Return the document: it asks for nothing else, and its policy lets it ask for nothing."""
+    file = BytesIO()
+    to_figure(scene).savefig(file, format="png", dpi=_STILL)
+    still = b64encode(file.getvalue()).decode()
+    viewer = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
+    content = json.dumps(data(scene), ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
+    return "\n".join(
+        (
+            f'<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+            f"<title>{escape(scene.title)}</title><style>{_STYLE}</style>",
+            f'<div class="turned"><img alt="{escape(scene.alt)}" src="data:image/png;base64,{still}"></div>',
+            f'<script type="application/json" id="data">{content}</script>',
+            f"<script>{viewer}</script><script>{_START}</script>",
+        )
+    )

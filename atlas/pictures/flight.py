@@ -1,0 +1,179 @@
+"""The flight of a point of a body: its path and that of the centre of mass, in space and across the field."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TypeAlias
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray, positive
+from atlas.errors import AtlasError, DomainError
+from atlas.motions.particle.flight import Flight
+from atlas.pictures.any_motion import turns as turns_of
+from atlas.pictures.captions import plain_vector, tex_equals, tex_vector
+from atlas.pictures.layers import Arrow, Curve, Layer, Plane, Points, Scene, Space, frame
+from atlas.pictures.movement import along
+from atlas.pictures.sample import curve, quarter_pixel
+
+WIDTH, HEIGHT = 178.0, 60.0
+VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
+MANY = 200
+ASKEW = 25.0
+CLEAR = 0.6
+"""The arrows of the fields keep off the paths by this part of their length."""
+Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
+
+
+def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit: str = "length") -> Scene:
+    """Return the figure of a flight, over so many turns of its centre of mass or up to `stop`.
+
+    Raises AtlasError for several flights at once, DomainError where nothing makes the centre of mass turn.
+    """
+    particle = flight.particle
+    if particle.shape or flight.point.ndim > 1 or flight.motion.rotation(0.0).ndim > 2:
+        raise AtlasError("A picture is of one Flight, not of several: make one with numbers in place of arrays.")
+    point, E = flight.point.tolist(), particle.E.tolist()
+    setting = (
+        rf"a body in $\mathbf{{B}}={tex_vector(particle.B.tolist())}$, $\mathbf{{E}}={tex_vector(E)}$",
+        f"a body in the electric field {plain_vector(E)}",
+    )
+    rate = turns_of(flight.motion, particle.period) if particle.cyclotron_frequency else 0.0
+    return replace(picture(flight, point, setting, rate, turns, stop, unit), title="Flight")
+
+
+def picture(
+    flight: Flight,
+    point: Sequence[float],
+    setting: tuple[str, str],
+    rate: float,
+    turns: float,
+    stop: float | None,
+    unit: str,
+) -> Scene:
+    """Return the figure of a flight; `setting` says whose it is, for a caption and in plain words.
+
+    `rate` is how often at most the body turns in a unit of time.
+    """
+    particle = flight.particle
+    if not particle.cyclotron_frequency:
+        raise DomainError("Without a magnetic field and a charge nothing turns the path of this flight: no picture.")
+    stop = positive(turns, "turns") * particle.period if stop is None else positive(stop, "stop")
+    spun = rate * stop + stop / particle.period
+    if not spun < MANY:
+        raise DomainError(
+            f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn: give a stop up to "
+            f"{MANY * stop / spun:.3g}."
+        )
+    B = particle.B
+    axes, view = across(flight, B), beside(flight, stop)
+    drawn = paths(flight, axes, view, stop)
+    return Scene(
+        caption=(
+            rf"The flight of a point $\mathbf{{x}}_N={tex_vector(point)}$ of {setting[0]}; the centre of mass "
+            rf"circles with $2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. "
+            r"(b) Seen along $\mathbf{B}$. Thin lines join centre and point at equal steps of time."
+        ),
+        alt=(
+            f"Two panels with the path of a point of {setting[1]}: a curve that winds round the path of the centre of "
+            "mass, drawn in space and projected on the plane across the magnetic field."
+        ),
+        panels=(space(flight, B, view, drawn), projection(flight, axes, drawn, unit)),
+        columns=2,
+        named={"Thin lines": "guide"},
+        size=(WIDTH, HEIGHT),
+        paths={
+            "centre": partial(carried, particle.position, np.eye(3)),
+            "point": partial(carried, flight.position, np.eye(3)),
+            "centre below": partial(carried, particle.position, axes),
+            "point below": partial(carried, flight.position, axes),
+            "arm": partial(swung, flight),
+        },
+        lasts=stop,
+    )
+
+
+def carried(
+    position: Callable[[FloatArray], FloatArray], axes: FloatArray, t: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return how a mark goes along a path, as it is seen along these axes (columns)."""
+    return along(position(t) @ axes, position(np.zeros(1))[0] @ axes)
+
+
+def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how what is fixed in the body flies: its centre goes along, and it turns."""
+    start = flight.particle.position(np.zeros(1))[0]
+    turns = flight.rotation(t)
+    return turns, flight.particle.position(t) - turns @ start
+
+
+def across(flight: Flight, B: FloatArray) -> FloatArray:
+    """Return the axes of panel (b) as columns: x along the drift [E, B], or along e1 where there is none."""
+    drifts = bool(flight.particle.drift.any())
+    first = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
+    return np.stack([first, np.cross(B / np.linalg.norm(B), first)], axis=1)
+
+
+def beside(flight: Flight, stop: float) -> Space:
+    """Return the view of panel (a): nearly across the way that the centre of mass goes, so that it fills the panel."""
+    way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
+    return replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + ASKEW) if way[:2].any() else VIEW
+
+
+def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
+    """Return the path of the centre of mass, that of the point, and the arms between them, (M, 2, 3), for both panels.
+
+    They are as fine as the panel asks for in which they are larger.
+    """
+    rough = flight.position(np.linspace(0.0, stop, 257))
+    extents = (np.ptp(rough @ seen, axis=0) / [WIDTH / 2, HEIGHT] for seen in (frame(view)[:2].T, axes))
+    fine = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
+    centre = curve(flight.particle.position, 0.0, stop, fine, pieces=64)
+    point = curve(flight.position, 0.0, stop, fine, pieces=64)
+    times = np.linspace(0.0, stop, 33)
+    return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
+
+
+def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
+    """Panel (a): the paths in space, with the directions of the fields to the left of them."""
+    layers = bundle(*drawn)
+    layers.append(Curve(drawn[2][0], "velocity", rides="arm"))
+    eye = frame(view)
+    flat = np.concatenate(drawn[:2]) @ eye.T
+    length = 0.25 * float(np.ptp(flat, axis=0).max())
+    named = ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$"))
+    arrows = [(length * field / np.linalg.norm(field), role, name) for field, role, name in named if np.any(field)]
+    ends = np.array([eye @ arrow for arrow, _, _ in arrows])
+    left, low = flat.min(axis=0)[:2]
+    corner = np.array([left - max(0.0, *ends[:, 0]) - CLEAR * length, low - min(0.0, *ends[:, 1]), 0.0]) @ eye
+    layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
+    return replace(view, layers=tuple(layers))
+
+
+def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Plane:
+    """Panel (b): the paths on the plane across B."""
+    centre, point, arms = (path @ axes for path in drawn)
+    layers = bundle(centre, point, arms, ("centre of mass", "point"), " below")
+    drifts = bool(flight.particle.drift.any())
+    along = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
+    across = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
+    return Plane(
+        tuple(layers),
+        rf"along ${along}$ ({unit})",
+        rf"along ${across}$ ({unit})",
+        equal=True,
+        title=r"(b) across $\mathbf{B}$",
+    )
+
+
+def bundle(
+    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), where: str = ""
+) -> list[Layer]:
+    """Return the layers of the two paths and the arms between them."""
+    return [
+        *(Curve(arm, "guide") for arm in arms),
+        Curve(centre, "fourth", names[0]),
+        Curve(point, "trajectory", names[1]),
+        Points(point[:1], "start", rides=f"point{where}"),
+        Points(centre[:1], "fourth", rides=f"centre{where}"),
+    ]

@@ -1,0 +1,193 @@
+"""The hyperbola (67) in the plane (omega2, omega3): the window it is shown in, and its branches there."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.arithmetic.inputs import FloatArray, number
+from atlas.arithmetic.inputs import components as parts
+from atlas.bodies.integrals import shape_factors
+from atlas.errors import DomainError
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+from atlas.pictures.layers import Label, Layer, Plane, Points
+from atlas.pictures.sample import flat
+
+NAMES = ("B2", "B3")
+
+
+@dataclass(frozen=True)
+class Window:
+    """A rectangle of the plane (omega2, omega3), or (omega2, something else), by its limits."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+    @property
+    def half(self) -> tuple[float, float]:
+        """Half the width and half the height."""
+        return (self.x[1] - self.x[0]) / 2, (self.y[1] - self.y[0]) / 2
+
+    @property
+    def box(self) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest corner, (2,) each."""
+        return np.array([self.x[0], self.y[0]]), np.array([self.x[1], self.y[1]])
+
+    def upright(self, omega2: float) -> FloatArray:
+        """Return the upright line at omega2, shape (2, 2)."""
+        return np.array([[omega2, self.y[0]], [omega2, self.y[1]]])
+
+    def level(self, height: float) -> FloatArray:
+        """Return the level line at this height, shape (2, 2)."""
+        return np.array([[self.x[0], height], [self.x[1], height]])
+
+    def band(self, start: float, stop: float) -> FloatArray:
+        """Return the corners of the upright band between two values of omega2, shape (4, 2)."""
+        return np.vstack([self.upright(start), self.upright(stop)[::-1]])
+
+    def panel(self, layers: Iterable[Layer], unit: str, **more: Any) -> Plane:
+        """Return the panel of (omega2, omega3), in 1 over ``unit``, with what else a `Plane` takes."""
+        return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **more)
+
+
+def components(field: Any) -> tuple[float, float]:
+    """Return B2 and B3 of B', of which one at least must not vanish."""
+    B2, B3 = (number(component, name) for component, name in zip(parts(field, NAMES, "The field"), NAMES, strict=True))
+    if B2 == 0 and B3 == 0:
+        raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
+    return B2, B3
+
+
+def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
+    """Return the window that reaches ``reach`` times each component of the field from the centre.
+
+    If ``square``, it reaches as far in both directions, so many times the larger component.
+    """
+    B2, B3 = components(field)
+    largest = max(abs(B2), abs(B3))
+    half = (reach * largest,) * 2 if square else (reach * (abs(B2) or largest), reach * (abs(B3) or largest))
+    return Window((-B2 - half[0], -B2 + half[0]), (-B3 - half[1], -B3 + half[1]))
+
+
+def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, float]) -> tuple[FloatArray, ...]:
+    """Return the pieces (N, 2) of the curve (67) that the window shows, drawn ``millimetres`` wide and high.
+
+    With x = (omega2 + B2)/B2 each branch (71) runs in log |x| from the edge of the window to where it has left the
+    window at the pole. For I = 1, B3 = 0 or B2 = 0 it is straight lines.
+    """
+    B2, B3 = components(field)
+    I, one_less, _ = shape_factors(ratio)
+    pole = view.upright(-B2)
+    if B2 == 0:
+        return (pole,)
+    if B3 == 0 or one_less == 0:
+        return view.level(0.0) * [1.0, 0.0] + np.outer(view.x, [0.0, B3 / B2]), pole
+    far, rise = view.half[0] / abs(B2), view.half[1] * I / abs(B3)
+    hyperbola = Hyperbola(ratio, field)
+
+    def ordinate(x: FloatArray) -> FloatArray:
+        omega2 = B2 * (x - 1)
+        beside = np.nextafter(-B2, np.copysign(np.inf, B2 * x))  # x may be too small for a float omega2 to tell
+        return np.asarray(hyperbola.omega3(np.where(omega2 == -B2, beside, omega2)))
+
+    return graph(ordinate, B2, view, abs(one_less) / (rise + far), millimetres)
+
+
+def graph(
+    function: Callable[[FloatArray], Any], B2: float, view: Window, near: float, millimetres: tuple[float, float]
+) -> tuple[FloatArray, ...]:
+    """Return the pieces (N, 2) that the window shows of a graph over omega2 with the pole -B2.
+
+    ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``near``, where the graph has left the
+    window at the pole.
+    """
+    far = max(abs(edge + B2) for edge in view.x) / abs(B2)
+    near = min(near, far / 2)
+    pieces = []
+    for side in (1.0, -1.0):
+
+        def points(s: FloatArray, side: float = side) -> FloatArray:
+            x = side * np.exp(s)
+            return np.stack([B2 * (x - 1), function(x)], axis=1)
+
+        curve = flat(points, float(np.log(near)), float(np.log(far)), (view.x, view.y), millimetres, pieces=16)
+        pieces.append(curve[seen(curve, view)])
+    return tuple(piece for piece in pieces if len(piece))
+
+
+def seen(points: FloatArray, view: Window) -> NDArray[np.bool_]:
+    """Tell which points (N, 2) of a polyline are in the window, or next to one that is."""
+    low, high = view.box
+    inside = np.asarray(((points >= low) & (points <= high)).all(axis=1))
+    chosen = inside.copy()
+    chosen[1:] |= inside[:-1]
+    chosen[:-1] |= inside[1:]
+    return chosen
+
+
+def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
+    """Return the intervals of omega2 on which the family is unstable against nutation: none, one, or one a branch."""
+    B2, _ = components(field)
+    band = Hyperbola(ratio, field).unstable_band if B2 else None
+    if band is None:
+        return ()
+    inner, outer = (float(np.sqrt(y)) for y in band)
+    if inner == 0:
+        return ((-B2 - abs(B2) * outer, -B2 + abs(B2) * outer),)
+    return tuple(
+        (min(ends), max(ends)) for ends in ((B2 * (side * inner - 1), B2 * (side * outer - 1)) for side in (-1, 1))
+    )
+
+
+def asymptote(ratio: Any, field: Any, view: Window) -> FloatArray:
+    """Return the asymptote through the centre -B' along I^-1 B' as far as the window goes, shape (2, 2)."""
+    I, _, _ = shape_factors(ratio)
+    B2, B3 = components(field)
+    along = np.array([I * B2, B3])
+    with np.errstate(divide="ignore"):
+        reach = float(np.min(np.array(view.half) / np.abs(along)))
+    return np.array([-B2, -B3]) + np.outer([-reach, reach], along)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A named point of the family: its name in a figure and in a sentence, where it is, and its role."""
+
+    text: str
+    words: str
+    at: tuple[float, float]
+    role: str
+
+
+def places(ratio: Any, field: Any) -> tuple[Place, ...]:
+    """Return the named points of the hyperbola (67): at rest, -2 B', and -(2-I) B2, where omega3 = 0 again.
+
+    The last is the state of rest for I = 2 and lies at the pole for I = 1: then it is left out, as it is for B2 = 0 or
+    B3 = 0, where nothing singles it out.
+    """
+    B2, B3 = components(field)
+    special = Hyperbola(ratio, field).special
+    labels = [
+        Place("rest", "the state of rest at 0", special["omega2 = 0"], "rest"),
+        Place(r"$-2\mathbf{B}'$", "the point \N{MINUS SIGN}2B'", special["omega2 = -2 B2"], "special"),
+    ]
+    zero = special["omega2 = -(2-I) B2"]
+    if B2 and B3 and zero[0] not in {0.0, -B2}:
+        labels.append(Place(r"$\omega_3=0$", "the second point with omega 3 = 0", zero, "point"))
+    return tuple(labels)
+
+
+def marked(named: Sequence[Place], field: Any) -> list[Layer]:
+    """Return the centre -B' and some named points as marks with their names."""
+    centre, (s2, s3) = -np.array(components(field)), np.copysign(1.0, field)
+    return [
+        Points(centre[None], "centre"),
+        *(Points(np.array([place.at]), place.role) for place in named),
+        Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
+        *(
+            Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
+            for place, turn in zip(named, (1, -1, -1), strict=False)
+        ),
+    ]

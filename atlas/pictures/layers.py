@@ -1,0 +1,252 @@
+"""A figure as data: what is in it and which role each part plays, never how it is drawn.
+
+A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.pictures.drawing` draw it. Coordinates are those
+of the quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar
+signs. What moves in time ``rides`` on a path of the scene, by its name.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.errors import AtlasError
+
+FloatArray: TypeAlias = NDArray[np.float64]
+Path: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+"""A rigid motion of times (N,): the matrices R (N, D, D) and shifts s (N, D) of x -> R x + s, at t = 0 the identity."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A polyline through ``points`` (N, 2) or (N, 3)."""
+
+    points: FloatArray
+    role: str
+    label: str = ""
+    rides: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Marked points (N, 2) or (N, 3)."""
+
+    points: FloatArray
+    role: str
+    label: str = ""
+    rides: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Arrow:
+    """A vector drawn from ``tail`` to ``tip``, with its name ``offset`` printer's points away from the tip.
+
+    Without an offset the name stands just beyond the tip. Where it would cover something it is moved a little.
+    """
+
+    tail: FloatArray
+    tip: FloatArray
+    role: str
+    label: str = ""
+    offset: tuple[float, float] | None = None
+    rides: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """Text at a place, ``offset`` printer's points away from it; with offset (0, 0) it is centred there and stays.
+
+    ``at`` may hold several places (N, 2) or (N, 3), the first the best, the others for when it is taken. In a panel
+    with two axes it is also the label, for a legend, of the last curve or points of its role before it without one.
+    """
+
+    at: FloatArray
+    text: str
+    role: str = "label"
+    offset: tuple[float, float] = (0.0, 0.0)
+    rides: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A piece of a quadric: the points x with (x, 1) Q (x, 1) = 0 that lie in every half space ``n . x <= d``.
+
+    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly what the
+    surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``, (x, 1) W (x, 1) <= 0:
+    a disk, for one. ``grids`` are (M, N, 3) meshes of it for shading, ``wires`` curves (N, 3) on it, ``rims`` its
+    edges.
+    """
+
+    quadric: FloatArray
+    clip: FloatArray
+    grids: tuple[FloatArray, ...]
+    wires: tuple[FloatArray, ...] = ()
+    rims: tuple[FloatArray, ...] = ()
+    within: tuple[FloatArray, ...] = ()
+    role: str = "surface"
+    label: str = ""
+    rides: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A filled polygon (N, 2) in the plane."""
+
+    points: FloatArray
+    role: str
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """A map of ``values`` (len(y)-1, len(x)-1) over the cells between the edges ``x`` and ``y``.
+
+    On the scales of its panel the edges are at equal steps.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    values: FloatArray
+    label: str
+    scale: Literal["linear", "log"] = "linear"
+    limits: tuple[float, float] | None = None
+
+
+Layer: TypeAlias = Curve | Points | Arrow | Label | Surface | Region | Image
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A panel with two axes.
+
+    With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel if that is not made
+    narrower); without it they stand at the layers themselves.
+    """
+
+    layers: tuple[Layer, ...]
+    x_label: str
+    y_label: str
+    x_limits: tuple[float, float] | None = None
+    y_limits: tuple[float, float] | None = None
+    x_scale: Literal["linear", "log", "symlog"] = "linear"
+    y_scale: Literal["linear", "log", "symlog"] = "linear"
+    equal: bool = False
+    legend: bool | Literal["beside"] = False
+    title: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Space:
+    """A panel in three dimensions, seen in parallel projection from ``azimuth`` and ``elevation`` (degrees).
+
+    With azimuth 0 the eye looks along -e1: e2 points right and e3 up, as in the paper's figures. Panels of one ``span``
+    (how much is shown at least, to the right and upwards) have one scale.
+    """
+
+    layers: tuple[Layer, ...]
+    azimuth: float = 20.0
+    elevation: float = 15.0
+    title: str = ""
+    span: tuple[float, float] = (0.0, 0.0)
+
+
+Panel: TypeAlias = Plane | Space
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """One figure: its panels row by row, its size in millimetres, and the words that go with it.
+
+    ``title`` is that of the recipe, the first line of its docstring, where there is none; ``caption`` and ``alt``,
+    which each has as it has panels, are complete sentences, ``alt`` without TeX. ``parameters`` are those that the
+    figure was made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
+    {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
+    ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
+    the other, each as high as a row of the figure, where those of the figure would only become smaller. ``paths`` tell
+    how the layers move in time that ride on one, by its name in their ``rides``, for a time that ``lasts``.
+    ``narrowest`` is the width in millimetres below which it can't be read, as its recipe declares it; ``rows`` are the
+    heights of the rows, of which all have one if it is empty.
+    """
+
+    title: str = ""
+    caption: str = ""
+    alt: str = ""
+    panels: tuple[Panel, ...] = ()
+    columns: int = 1
+    size: tuple[float, float] = (120.0, 100.0)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    named: Mapping[str, str] = field(default_factory=dict)
+    commands: tuple[str, ...] = ()
+    narrow: tuple[Panel, ...] = ()
+    paths: Mapping[str, Path] = field(default_factory=dict)
+    lasts: float = 0.0
+    narrowest: float = 0.0
+    rows: tuple[float, ...] = ()
+
+
+def frame(space: Space) -> FloatArray:
+    """Return the rows right, up, towards the eye, in (e1, e2, e3); shape (3, 3)."""
+    a, e = np.radians(space.azimuth), np.radians(space.elevation)
+    towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
+    right = (-np.sin(a), np.cos(a), 0.0)
+    up = (-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e))
+    return np.array([right, up, towards])
+
+
+def seen(space: Space) -> FloatArray:
+    """Return all the points (N, 3) of a panel that must be seen. Raises AtlasError for a layer without a depth."""
+    return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in _points_of(layer)])
+
+
+def _points_of(layer: Layer) -> Iterator[FloatArray]:
+    if isinstance(layer, Curve | Points):
+        yield layer.points
+    elif isinstance(layer, Arrow):
+        yield np.stack([layer.tail, layer.tip])
+    elif isinstance(layer, Label):
+        yield layer.at
+    elif isinstance(layer, Surface):
+        yield from (*layer.grids, *layer.rims)
+    else:
+        kind = "map" if isinstance(layer, Image) else "flat region"
+        raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
+
+
+_SIDES = np.array([1.0, 1.0, 1.0, -1.0])
+"""A half space n . x <= d is one linear form of (x, 1), (n, -d)."""
+
+
+def moved(layer: Layer, A: FloatArray, s: FloatArray) -> Layer:
+    """Return a layer under the map x -> A x + s, A (D, D) regular; a region or a map stays as it is."""
+
+    def at(points: FloatArray) -> FloatArray:
+        return np.asarray(np.asarray(points, dtype=float) @ A.T + s)
+
+    match layer:
+        case Curve() | Points():
+            return replace(layer, points=at(layer.points))
+        case Arrow():
+            return replace(layer, tail=at(layer.tail), tip=at(layer.tip))
+        case Label():
+            return replace(layer, at=at(layer.at))
+        case Surface():
+            return moved_surface(layer, A, s)
+    return layer
+
+
+def moved_surface(surface: Surface, A: FloatArray, s: FloatArray) -> Surface:
+    """Return a surface under the map x -> A x + s: its forms are those of the points that come to a place."""
+    back = np.eye(4)
+    back[:3, :3] = np.linalg.inv(A)
+    back[:3, 3] = -back[:3, :3] @ s
+    return replace(
+        surface,
+        quadric=back.T @ surface.quadric @ back,
+        clip=(surface.clip * _SIDES) @ back * _SIDES,
+        grids=tuple(grid @ A.T + s for grid in surface.grids),
+        wires=tuple(wire @ A.T + s for wire in surface.wires),
+        rims=tuple(rim @ A.T + s for rim in surface.rims),
+        within=tuple(back.T @ form @ back for form in surface.within),
+    )

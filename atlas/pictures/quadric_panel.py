@@ -1,0 +1,204 @@
+"""Panels in space of the quadric (51): its surface with the vectors, axes and angles of the paper's Figure Hyp.
+
+All lengths are angular velocities, in the unit of the field (1/time); points are arrays (3,) in the laboratory basis
+e1, e2, e3.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from atlas.pictures import quadrics, solids
+from atlas.pictures.captions import quotient
+from atlas.pictures.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Scene, Space, Surface, frame, seen
+from atlas.pictures.sample import quarter_pixel
+from atlas.surfaces.kernel import Quadric
+
+E1, E2, E3 = np.eye(3)
+O = np.zeros(3)
+WIDTH = 120.0
+_PAGE, _LEAST, _NAMES = np.array([WIDTH, 98.0]), 50.0, np.array([17.0, 14.0])
+_FLAT = 1e-3
+LONGEST = 2.2
+"""The arrow along I^-1 B' is at most so many times as long as that of B': for a needle all else would be small."""
+LEGEND = (
+    r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. The points of the "
+    r"hyperbola $\omega_1=0$ (heavy line) alone are motions; through $-\mathbf{B}'$ go the canonical axes."
+)
+
+DEGENERATE = {
+    "all space": ("all space", r"Without a field $\Omega_3$ of every motion is constant."),
+    "line": ("a line", r"All its points (heavy line) are motions, spins along $\mathbf{B}'$."),
+    "plane pair": (
+        "a plane pair",
+        r"Parts that a plane hides are dashed. The points of the lines $\omega_1=0$ (heavy) alone are motions.",
+    ),
+}
+"""Quadrics without two sides and without canonical axes: what they are, and what a caption says of them."""
+
+
+def in_plane(second: float, third: float) -> FloatArray:
+    """Return the vector (0, second, third)."""
+    return np.array([0.0, second, third])
+
+
+def picture(layers: Sequence[Layer], view: tuple[float, float], **words: Any) -> Scene:
+    """Return the figure that one panel fills, seen from azimuth and elevation, with room for names around it.
+
+    It is at most 120 x 98 mm, and no side is below 50; the panel's projection decides the ratio of the sides.
+    """
+    panel = Space(tuple(layers), *view)
+    points = seen(panel)
+    flat = points / np.abs(points).max() @ frame(panel)[:2].T
+    span = np.ptp(flat, axis=0)
+    filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
+    width, height = np.maximum(np.round(filled), _LEAST)
+    return Scene(panels=(panel,), size=(float(width), float(height)), **words)
+
+
+def tolerance(reach: float) -> float:
+    """Return a quarter of a pixel at 300 dots an inch, in 1/time, for a figure that shows about ``2 reach``."""
+    return quarter_pixel(2.0 * reach, WIDTH)
+
+
+def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
+    """Return how far from -B' along its axis a sheet is drawn, in 1/time: on the side of the origin and on the other.
+
+    On its side a sheet goes past the origin, towards the tip of B'; a tube no further than it is wide, on either side.
+    """
+    b = float(np.hypot(*field))
+    w = quadrics.sheet_axis(quadric)
+    origin = abs(float(np.asarray(quadric.axes)[w] @ in_plane(*field)))
+    vertex = abs(float(quadric.semi_axes[w])) if quadric.kind == "two-sheet hyperboloid" else 0.0
+    high = max(origin + 0.75 * b, 1.4 * vertex)
+    if quadric.kind != "one-sheet hyperboloid":
+        return high, high
+    width = 2.0 * max(abs(float(c)) for k, c in enumerate(quadric.semi_axes) if k != w)
+    return min(high, origin + width), min(high, width)
+
+
+def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = "both") -> list[Surface]:
+    """Return the drawn sheets of a hyperboloid or cone (51), one surface each: 'both', or only that of the 'origin'.
+
+    ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
+    """
+    high, low = extent(quadric, field)
+    fine = tolerance(high if which == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
+    upwards = rises(quadric, field)
+    span = (-low, high) if upwards else (-high, low)
+    pieces = quadrics.sheets(quadric, quadrics.quadric_matrix(I, field), *span, fine)[:: 1 if upwards else -1]
+    return pieces if which == "both" else pieces[:1]
+
+
+def rises(quadric: Quadric, field: tuple[float, float]) -> bool:
+    """Tell whether the origin lies upwards from -B' along the axis of the sheets."""
+    return not float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
+
+
+def planes(field: tuple[float, float]) -> list[Layer]:
+    """Return the two planes omega_3 = 0 and omega_2 = -B2 into which the quadric (51) falls apart for B3 = 0."""
+    B2, reach = field[0], 1.6 * abs(field[0])
+    corner = in_plane(-B2, 0.0)
+    layers: list[Layer] = []
+    for along, name in ((E2, r"$\omega_3=0$"), (E3, r"$\omega_2=-B'_2$")):
+        layers.append(solids.rectangle(corner, reach * along, reach * E1, role="surface", label=name))
+        layers.append(Curve(np.stack([corner - reach * along, corner + reach * along]), "hyperbola"))
+    return layers
+
+
+def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
+    """Return the surface (51) with the hyperbola (67) on it and, for hyperboloids and cones, the canonical axes omega'.
+
+    ``ratio`` is I = I3/I2 or a body, ``field`` (B2, B3) of B'; ``which`` is as for `sheets`. A pair of planes and a
+    line are drawn as such; for B' = 0, where every omega qualifies, the list is empty.
+    """
+    I, quadric = quotient(ratio), Quadric(ratio, field)
+    b = float(np.hypot(*field))
+    if quadric.kind == "plane pair":
+        return planes(field)
+    if quadric.kind == "line":
+        line = np.stack([in_plane(0.0, -2.4 * field[1]), in_plane(0.0, 1.6 * field[1])])
+        return [Curve(line, "hyperbola"), Points(-in_plane(*field)[None], "centre", r"$-\mathbf{B}'$")]
+    if quadric.kind == "all space":
+        return []
+    pieces = sheets(I, quadric, field, which)
+    above = which != "origin" or rises(quadric, field)
+    reach = 1.14 * extent(quadric, field)[0] if above else 0.75 * b
+    return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, reach, 0.75 * b)]
+
+
+def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
+    """Return the layers of the paper's Figure Hyp: the quadric (51), the laboratory axes, B', I^-1 B' and beta.
+
+    Arguments are those of `surface_layers`. Raises AtlasError where the ratio or the field is not valid.
+    """
+    b = float(np.hypot(*field)) or 1.0
+    axes, surface = basis((0.9 * b, 1.15 * b, 1.4 * b)), surface_layers(ratio, field, which)
+    if not any(field):
+        note = Label(0.55 * (E2 + E3), "every $\\omega$ keeps $\\Omega_3$ constant", "note")
+        return [*axes, Points(O[None], "origin", r"$O$"), note]
+    I = quotient(ratio)
+    beta = float(np.arctan2(field[1], I * field[0]))
+    return [*surface, *axes, *vectors(I, beta, field)]
+
+
+def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
+    """Return the section omega_1 = 0 of the surfaces, (67), as curves (N, 3)."""
+    Q = quadrics.quadric_matrix(I, field)
+    fine = tolerance(float(np.hypot(*field)))
+    return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, fine)]
+
+
+def basis(lengths: tuple[float, float, float]) -> list[Layer]:
+    """Return the laboratory axes e1, e2, e3 as arrows of these lengths from the origin."""
+    return [
+        Arrow(O, length * e, "basis", rf"$\mathbf{{e}}_{k}$")
+        for k, (e, length) in enumerate(zip((E1, E2, E3), lengths, strict=True), 1)
+    ]
+
+
+def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
+    """Return arrows B' and I^-1 B', the angle ``beta`` in radians between e2 and the latter, and the line to -B'."""
+    B2, B3 = field
+    prime, inverse = in_plane(B2, B3), in_plane(B2, B3 / I)
+    inverse_name = r"\mathrm{I\!I}^{-1}\mathbf{B}'"  # mathtext's blackboard I is slanted
+    if (inverse == prime).all():
+        arrows = [Arrow(O, prime, "field", rf"$\mathbf{{B}}'={inverse_name}$")]
+    else:
+        length, most = float(np.linalg.norm(inverse)), LONGEST * float(np.linalg.norm(prime))
+        inverse_name = f"${inverse_name}$" if length <= most else f"${inverse_name}$, cut"
+        inverse = inverse * min(1.0, most / length)
+        arrows = [Arrow(O, prime, "field", r"$\mathbf{B}'$"), Arrow(O, inverse, "field_inverse", inverse_name)]
+    layers: list[Layer] = [*arrows, Curve(np.stack([O, -prime]), "construction"), Points(O[None], "origin", r"$O$")]
+    if abs(beta) > _FLAT:
+        layers += angle(O, beta, 0.42 * float(np.linalg.norm(inverse)), r"$\beta$")
+    return layers
+
+
+def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[Layer]:
+    """Return the arc of an angle (radians, from e2 towards e3) in the plane omega_1 = 0, with its name."""
+    arc = solids.arc(centre, radius * E2, radius * E3, 0.0, value, tolerance(2.0 * radius))
+    along = [in_plane(float(np.cos(share * value)), float(np.sin(share * value))) for share in (0.5, 0.25, 0.0)]
+    offset = (4.0 * float(along[0][1]), 4.0 * float(along[0][2]))
+    label = Label(centre + radius * np.array(along), name, offset=offset)
+    return [Curve(arc, "angle"), label]
+
+
+def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
+    """Return the canonical axes omega'_1..3 through -B', (53), and the angle beta/2 + pi/4 from e2 to omega'_2.
+
+    The axis of the sheets is ``reach`` long, the others ``across``.
+    """
+    centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
+    w = quadrics.sheet_axis(quadric)
+    layers: list[Layer] = []
+    for k in range(3):
+        length = reach if k == w else across
+        back = 0.35 * across
+        layers.append(Arrow(centre - back * axes[k], centre + length * axes[k], "canonical", rf"$\omega'_{k + 1}$"))
+    layers.append(Points(centre[None], "centre", r"$-\mathbf{B}'$"))
+    radius = 0.5 * across
+    layers.append(Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"))
+    layers += angle(centre, float(np.arctan2(axes[1, 2], axes[1, 1])), radius, r"$\beta/2+\pi/4$")
+    return layers

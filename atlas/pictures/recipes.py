@@ -1,0 +1,203 @@
+"""Recipes of figures, those in figures/ and files of the user's own: what each takes, and the scene it makes.
+
+What a recipe says of itself, its title and its parameters with their defaults and ranges, is read from its source; it
+runs only when its scene is wanted. A name stands for a file in figures/, what ends with ``.py`` for itself.
+"""
+
+import ast
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any, get_type_hints
+
+from atlas.errors import AtlasError, nearest
+from atlas.pictures.layers import Scene
+from atlas.pictures.parameters import RANGES, fitted
+from atlas.places import folder
+from atlas.sources import syntax_tree
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A figure that can be made: its name, title, parameters with their defaults, and where it is written.
+
+    `records` are the files of reports/data that it reads, as it declares them: ``RECORDS = ("bench.json",)``; `ranges`
+    are the ends of its numbers, those that all recipes share and its own: ``RANGES = {"count": (2, 24)}``; `narrowest`
+    is the width in millimetres below which the figure can't be read: ``NARROWEST = 140.0``.
+    """
+
+    name: str
+    title: str
+    parameters: Mapping[str, Any]
+    source: Path
+    records: tuple[str, ...] = ()
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    narrowest: float = 0.0
+
+    def scene(self, **parameters: Any) -> Scene:
+        """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
+        for name in parameters:
+            if name not in self.parameters:
+                raise _unknown("parameter", name, self.parameters, f"the figure {self.name!r}")
+        try:
+            make, hints = _function(self.source)
+            used = {
+                name: fitted(name, parameters.get(name, default), hints.get(name), default, self.ranges)
+                for name, default in self.parameters.items()
+            }
+            scene = make(**used)
+        except AtlasError:
+            raise
+        except Exception as error:
+            raise _broken(self.source, error) from error
+        if not isinstance(scene, Scene):
+            raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
+        if missing := [name for name in ("caption", "alt", "panels") if not getattr(scene, name)]:
+            raise AtlasError(f"{_short(self.source)}: the Scene has no {' and no '.join(missing)}")
+        return replace(scene, title=scene.title or self.title, parameters=used, narrowest=self.narrowest)
+
+    def hints(self) -> dict[str, Any]:
+        """Return what its parameters are annotated with; its file is run for it."""
+        try:
+            return _function(self.source)[1]
+        except Exception as error:
+            raise _broken(self.source, error) from error
+
+
+def names() -> list[str]:
+    """Return the names of all recipes in alphabetical order."""
+    return sorted(path.stem for path in folder("figures").glob("*.py") if not path.stem.startswith("_"))
+
+
+def source(name: str) -> Path:
+    """Return the file of a recipe. Raises AtlasError where there is none."""
+    if name.endswith(".py"):
+        file = Path(name)
+        if not file.is_file():
+            raise AtlasError(f"there is no recipe {name}: it would be a file of Python with a function scene().")
+        return file.absolute()
+    known = names()
+    if name not in known:
+        raise _unknown("figure", name, known, str(folder("figures")))
+    return folder("figures") / f"{name}.py"
+
+
+def title(name: str) -> str:
+    """Return the title of a recipe, the first line of its docstring."""
+    file = source(name)
+    return _title(file, _tree(file))
+
+
+def load(name: str) -> Recipe:
+    """Read what a recipe says of itself, without running it; again when its file has changed."""
+    file = source(name)
+    return _load(file, _stamp(file))
+
+
+def _stamp(source: Path) -> tuple[int, int]:
+    """Return what changes with a file: in a notebook a recipe is edited between two calls."""
+    status = source.stat()
+    return status.st_mtime_ns, status.st_size
+
+
+@lru_cache
+def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
+    tree = _tree(source)
+    make = next((node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "scene"), None)
+    if make is None:
+        raise AtlasError(f"{_short(source)} has no function scene(); a recipe is one that returns a Scene")
+    arguments = make.args
+    places = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]
+    values = [
+        *[None] * (len(places) - len(arguments.kwonlyargs) - len(arguments.defaults)),
+        *arguments.defaults,
+        *arguments.kw_defaults,
+    ]
+    parameters = {place.arg: _default(source, place.arg, value) for place, value in zip(places, values, strict=True)}
+    records = tuple(map(str, _declared("RECORDS", source, tree, ())))
+    ranges = {**RANGES, **_declared("RANGES", source, tree, {})}
+    narrowest = _declared("NARROWEST", source, tree, 0.0)
+    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges, narrowest)
+
+
+def _tree(source: Path) -> ast.Module:
+    """Parse a recipe."""
+    try:
+        return syntax_tree(source.read_bytes(), str(source))
+    except (SyntaxError, ValueError) as error:
+        raise _broken(source, error) from error
+
+
+def _title(source: Path, tree: ast.Module) -> str:
+    docstring = ast.get_docstring(tree)
+    if not docstring:
+        raise AtlasError(f"{_short(source)} has no docstring; its first line would be the title of the figure")
+    return docstring.splitlines()[0].rstrip(".")
+
+
+def _declared(constant: str, source: Path, tree: ast.Module, standard: Any) -> Any:
+    """Return a constant of a recipe, written out at its top level; the standard where it has none."""
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and any(isinstance(t, ast.Name) and t.id == constant for t in node.targets):
+            try:
+                return type(standard)(ast.literal_eval(node.value))
+            except (ValueError, TypeError) as error:
+                raise AtlasError(f"{constant} in {_short(source)} is not a {_KINDS[constant]} written out") from error
+    return standard
+
+
+_KINDS = {"RECORDS": "tuple of names", "RANGES": "dictionary of pairs", "NARROWEST": "number"}
+
+
+def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
+    """Return the default of a parameter."""
+    if value is None:
+        raise AtlasError(f"the parameter {parameter!r} of {_short(source)} has no default; every parameter needs one")
+    try:
+        return ast.literal_eval(value)
+    except ValueError as error:
+        raise AtlasError(
+            f"the default of the parameter {parameter!r} of {_short(source)} is not a plain value; write it out"
+        ) from error
+
+
+def _function(source: Path) -> tuple[Callable[..., Scene], dict[str, Any]]:
+    """Run a recipe's file and return its function and what it is annotated with."""
+    return _run(source, _stamp(source))
+
+
+@lru_cache
+def _run(source: Path, _stamp: tuple[int, int]) -> tuple[Callable[..., Scene], dict[str, Any]]:
+    module = ModuleType(f"atlas_figures.{source.stem}")
+    module.__file__ = str(source)
+    sys.modules[module.__name__] = module
+    code = compile(source.read_bytes(), str(source), "exec", dont_inherit=True)
+    exec(code, module.__dict__)  # noqa: S102  the import system would leave a __pycache__ beside a user's file
+    make: Callable[..., Scene] = module.scene
+    return make, get_type_hints(make)
+
+
+def _broken(source: Path, error: Exception) -> AtlasError:
+    """Say in one sentence what went wrong in a recipe, and in which of its lines."""
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(source)]
+    if isinstance(error, SyntaxError):
+        lines, error_text = [error.lineno], error.msg
+    else:
+        error_text = str(error)
+    where = f", line {lines[-1]}" if lines and lines[-1] else ""
+    return AtlasError(f"{_short(source)}{where}: {type(error).__name__}: {error_text}")
+
+
+def _short(source: Path) -> str:
+    """Name a recipe's file as the user knows it."""
+    return f"figures/{source.name}" if source.parent == folder("figures") else source.name
+
+
+def _unknown(what: str, name: str, known: Iterable[str], where: str) -> AtlasError:
+    """Say which names there are, and which one is meant most likely."""
+    options = list(known)
+    return AtlasError(f"no {what} {name!r} in {where}{nearest(name, options)}; known: {', '.join(options) or 'none'}")

@@ -1,0 +1,170 @@
+"""Curves sampled and surfaces cut into faces to a tolerance: what bends needs more, what is not seen nothing."""
+
+from collections.abc import Callable, Collection, Iterable
+
+import numpy as np
+
+from atlas.errors import DomainError
+from atlas.pictures.layers import FloatArray
+
+_ROUNDS = 40
+MOST = 1_000_000
+"""Points of a curve, beyond which it cannot be drawn."""
+_INCH, _DPI = 25.4, 300.0
+_LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
+"""Where a piece is looked at: each plain bend, turned over or not, shows 93 of 100 parts of its sag at one of them."""
+_LEAVE, _AIM = 0.9, 0.8
+"""A piece is left at so much of the tolerance, and cut for so much of it."""
+_ARC, _EVEN, _FEW = 0.2, 1.5, 3
+"""What sags less than a fifth of its length, and by one parabola at all looks, is cut at once in all that it needs."""
+
+
+def quarter_pixel(extent: float, millimetres: float) -> float:
+    """Return a quarter of a pixel in the units of ``extent``, which is drawn ``millimetres`` wide."""
+    return 0.25 * extent * _INCH / (millimetres * _DPI)
+
+
+def curve(
+    function: Callable[[FloatArray], FloatArray],
+    start: float,
+    stop: float,
+    tolerance: float,
+    *,
+    pieces: int = 8,
+    box: tuple[FloatArray, FloatArray] | None = None,
+    scale: FloatArray | float = 1.0,
+) -> FloatArray:
+    """Sample ``function`` from ``start`` to ``stop`` so that no chord is further than ``tolerance`` from the curve.
+
+    ``function`` takes parameters (N,) and returns points (N, D); it is first cut into ``pieces`` equal parts, each of
+    which is cut again until three inner points of it, placed so that no symmetry deceives, lie on the chord. Parts that
+    lie wholly on one outer side of ``box`` = (lowest, highest corner) are left as they are. Distances are those of the
+    points times ``scale`` (D,).
+    """
+    return _cut(function, start, stop, tolerance, pieces, box, scale)[1]
+
+
+def room(values: Collection[float], share: float) -> tuple[float, float]:
+    """Return limits with all the values between them, and so much of their extent free on either side."""
+    low, high = min(values), max(values)
+    free = share * (high - low)
+    return float(low - free), float(high + free)
+
+
+def flat(
+    function: Callable[[FloatArray], FloatArray],
+    start: float,
+    stop: float,
+    limits: tuple[tuple[float, float], tuple[float, float]],
+    millimetres: tuple[float, float],
+    *,
+    pieces: int = 8,
+) -> FloatArray:
+    """Sample a curve (N, 2) of a panel with these ``limits`` of x and y to a quarter of a pixel, and only inside it.
+
+    ``millimetres`` are the panel's width and height on paper.
+    """
+    low, high = np.array(limits).T
+    scale = np.array(millimetres) / (high - low)
+    return curve(function, start, stop, quarter_pixel(1.0, 1.0), pieces=pieces, box=(low, high), scale=scale)
+
+
+def knots(
+    function: Callable[[FloatArray], FloatArray], start: float, stop: float, tolerance: float, pieces: int = 8
+) -> FloatArray:
+    """Return the parameters (N,) of the points of `curve`."""
+    return _cut(function, start, stop, tolerance, pieces, None, 1.0)[0]
+
+
+def _cut(
+    function: Callable[[FloatArray], FloatArray],
+    start: float,
+    stop: float,
+    tolerance: float,
+    pieces: int,
+    box: tuple[FloatArray, FloatArray] | None,
+    scale: FloatArray | float,
+) -> tuple[FloatArray, FloatArray]:
+    """Return parameters and points; the sag of an arc falls with the square of its parts, which tells their number."""
+    if pieces > MOST:
+        raise DomainError(f"A curve over that many turns needs more than {MOST} points: ask for a shorter part of it.")
+    s = np.linspace(start, stop, pieces + 1)
+    x = function(s)
+    open_ = np.ones(pieces, dtype=bool)
+    for _ in range(_ROUNDS):
+        i = np.flatnonzero(open_)
+        if i.size == 0:
+            break
+        inner = function((s[i] + _LOOKS * (s[i + 1] - s[i])).ravel()).reshape(len(_LOOKS), i.size, -1)
+        a, b = x[i] * scale, x[i + 1] * scale
+        sags = np.stack([_distance(y * scale, a, b) for y in inner])
+        sag, bend = sags.max(axis=0), sags / (_LOOKS * (1.0 - _LOOKS))
+        plain = bend.max(axis=0) < _EVEN * bend.min(axis=0)
+        plain &= sag < _ARC * np.linalg.norm(b - a, axis=1)
+        seen = np.ones(i.size, dtype=bool)
+        if box is not None:
+            corners = np.concatenate([x[None, i], inner, x[None, i + 1]])
+            out = np.all(corners < box[0], axis=0) | np.all(corners > box[1], axis=0)
+            seen = ~np.any(out, axis=1)
+        curved = seen & ~(sag <= _LEAVE * tolerance)
+        wanted = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
+        if not wanted[curved & plain].sum() + _FEW * curved.sum() + len(s) < MOST or not np.isfinite(sag[seen]).all():
+            raise DomainError(
+                f"A curve needs more than {MOST} points to be drawn to {tolerance:g}: its sizes or its turns are too "
+                "far from what is shown; choose parameters nearer to one another."
+            )
+        parts = np.ones(len(open_), dtype=int)
+        parts[i[curved]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[curved], 2)
+        owner = np.repeat(np.arange(len(parts)), parts)
+        number = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
+        fresh = np.flatnonzero(number)
+        places = s[owner] + number / parts[owner] * (s[owner + 1] - s[owner])
+        points = np.concatenate([x[owner], x[-1:]])
+        if fresh.size:
+            points[fresh] = function(places[fresh])
+        s, x, open_ = np.append(places, s[-1]), points, parts[owner] > 1
+    return s, x
+
+
+def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Distance of the points ``y`` from the segments ``a b``, row by row."""
+    chord = b - a
+    length = np.einsum("ij,ij->i", chord, chord)
+    along = np.einsum("ij,ij->i", y - a, chord) / np.where(length > 0.0, length, 1.0)
+    nearest = a + np.clip(along, 0.0, 1.0)[:, None] * chord
+    distance: FloatArray = np.linalg.norm(y - nearest, axis=1)
+    return distance
+
+
+SHADE = 1.0 / 512.0
+"""Half of one of 256 shades: what the light may be wrong by between two corners of a face."""
+
+
+def cuts(
+    quadric: FloatArray,
+    lines: Iterable[Callable[[FloatArray], FloatArray]],
+    start: float,
+    stop: float,
+    tolerance: float,
+) -> FloatArray:
+    """Return the parameters (N,), common to some ``lines`` on a quadric, at which its mesh is cut across them.
+
+    Between two cuts no chord of these lines leaves the quadric by more than ``tolerance``, and the unit normal is
+    linear to `SHADE`: turning by an angle d it departs by d^2/8, so that the light on a face is right to its last bit.
+    """
+
+    def of_line(line: Callable[[FloatArray], FloatArray]) -> Callable[[FloatArray], FloatArray]:
+        def point_and_normal(s: FloatArray) -> FloatArray:
+            x = line(s)
+            return np.concatenate([x / tolerance, normals(quadric, x) / SHADE], axis=1)
+
+        return point_and_normal
+
+    return np.unique(np.concatenate([knots(of_line(line), start, stop, 1.0) for line in lines]))
+
+
+def normals(quadric: FloatArray, points: FloatArray) -> FloatArray:
+    """Return the unit normals of a quadric at points (..., 3), zero where it has none: in the apex of a cone."""
+    gradient = points @ quadric[:3, :3] + quadric[:3, 3]
+    length = np.linalg.norm(gradient, axis=-1, keepdims=True)
+    return np.asarray(gradient / np.where(length > 0.0, length, 1.0))

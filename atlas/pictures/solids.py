@@ -1,0 +1,145 @@
+"""Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from atlas.pictures import sample
+from atlas.pictures.layers import FloatArray, Surface
+
+TURN = 2.0 * np.pi
+_FLAT = 1e-6
+
+
+def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return two unit vectors (3,) that make a right-handed frame with the unit vector ``axis``."""
+    helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    first = np.cross(axis, helper)
+    first /= np.linalg.norm(first)
+    return first, np.cross(axis, first)
+
+
+def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
+    """Return the circle around ``axis`` (unit vector), shape (N, 3), sampled to a tolerance."""
+    first, second = across(axis)
+    return arc(centre, radius * first, radius * second, 0.0, TURN, tolerance)
+
+
+def arc(
+    centre: FloatArray, first: FloatArray, second: FloatArray, start: float, stop: float, tolerance: float
+) -> FloatArray:
+    """Return centre + first cos s + second sin s for s from start to stop, shape (N, 3), sampled to a tolerance."""
+    return sample.curve(ellipse(centre, first, second), start, stop, tolerance)
+
+
+def ellipse(centre: FloatArray, first: FloatArray, second: FloatArray) -> Callable[[FloatArray], FloatArray]:
+    """Return the function centre + first cos s + second sin s of s (N,), with values (N, 3)."""
+    return lambda s: centre + np.cos(s)[:, None] * first + np.sin(s)[:, None] * second
+
+
+def around(
+    quadric: FloatArray, centre: FloatArray, first: FloatArray, second: FloatArray, tolerance: float
+) -> FloatArray:
+    """Return the angles (N,) at which a round surface is cut along its axis; the ellipse given is its widest."""
+    return sample.cuts(quadric, [ellipse(centre, first, second)], 0.0, TURN, tolerance)
+
+
+def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
+    """Return the (4, 4) matrix of x.form.x + linear.x + constant."""
+    Q = np.zeros((4, 4))
+    Q[:3, :3], Q[3, 3] = form, constant
+    Q[:3, 3] = Q[3, :3] = 0.5 * linear
+    return Q
+
+
+def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sphere") -> Surface:
+    """Return a sphere with a light net of parallels and meridians."""
+    e1, e2, e3 = np.eye(3)
+    Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
+    east = around(Q, centre, radius * e1, radius * e2, tolerance)
+    north = sample.cuts(Q, [ellipse(centre, radius * e1, radius * e3)], -0.5 * np.pi, 0.5 * np.pi, tolerance)
+    v, u = np.meshgrid(east, north)
+    grid = centre + radius * np.stack([np.cos(u) * np.cos(v), np.cos(u) * np.sin(v), np.sin(u)], axis=-1)
+    wires = [
+        circle(centre + radius * np.sin(h) * e3, e3, radius * np.cos(h), tolerance)
+        for h in np.radians([-60.0, -30.0, 0.0, 30.0, 60.0])
+    ]
+    wires += [
+        arc(centre, radius * (np.cos(w) * e1 + np.sin(w) * e2), radius * e3, -0.5 * np.pi, 0.5 * np.pi, tolerance)
+        for w in np.arange(12) * np.pi / 6.0
+    ]
+    return Surface(Q, np.empty((0, 4)), (grid,), tuple(wires), role=role)
+
+
+def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolerance: float) -> Surface:
+    """Return the cone of half-angle ``angle`` around the unit vector ``axis``, its side ``length`` long.
+
+    With a right angle it is a disk: the form of the cone is then a square, which has no normal where it is zero.
+    """
+    c, s = float(np.cos(angle)), float(np.sin(angle))
+    if abs(c) < _FLAT:
+        return disk(apex, axis, length, tolerance, role="cone")
+    first, second = across(axis)
+    form = c * c * np.eye(3) - np.outer(axis, axis)
+    Q = matrix(form, -2.0 * form @ apex, float(apex @ form @ apex))
+    angles = around(Q, apex + c * length * axis, s * length * first, s * length * second, tolerance)
+    v, w = np.meshgrid(angles, [0.0, tolerance, length])  # the apex has no normal: it colours a speck only
+    direction = c * axis + s * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    height = float(axis @ apex)
+    sign = 1.0 if c >= 0.0 else -1.0
+    clip = np.array([[*(-sign * axis), -sign * height], [*(sign * axis), sign * (height + c * length)]])
+    rim = circle(apex + c * length * axis, axis, s * length, tolerance)
+    return Surface(Q, clip, (apex + w[..., None] * direction,), (), (rim,), role="cone")
+
+
+def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
+    """Return a disk whose outer side is the one that ``axis`` points to."""
+    first, second = across(axis)
+    ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
+    Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
+    v, r = np.meshgrid(around(Q, centre, radius * first, radius * second, tolerance), [0.0, radius])
+    grid = centre + r[..., None] * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    rim = circle(centre, axis, radius, tolerance)
+    return Surface(Q, np.empty((0, 4)), (grid,), (), (rim,), (ball,), role=role)
+
+
+def cylinder(
+    centre: FloatArray, axis: FloatArray, radius: float, height: float, tolerance: float, role: str = "body"
+) -> Surface:
+    """Return the side of a cylinder around the unit vector ``axis``."""
+    first, second = across(axis)
+    form = np.eye(3) - np.outer(axis, axis)
+    Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)
+    v, w = np.meshgrid(around(Q, centre, radius * first, radius * second, tolerance), [-0.5 * height, 0.5 * height])
+    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    middle = float(axis @ centre)
+    clip = np.array([[*axis, middle + 0.5 * height], [*(-axis), -middle + 0.5 * height]])
+    rims = tuple(circle(centre + s * height * axis, axis, radius, tolerance) for s in (-0.5, 0.5))
+    return Surface(Q, clip, (centre + ring + w[..., None] * axis,), (), rims, role=role)
+
+
+def rectangle(
+    centre: FloatArray, first: FloatArray, second: FloatArray, role: str = "plane", label: str = ""
+) -> Surface:
+    """Return the rectangle centre + a first + b second with a, b in [-1, 1]; first and second are orthogonal."""
+    units = [v / np.linalg.norm(v) for v in (first, second)]
+    normal = np.cross(units[0], units[1])
+    sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
+    rim = centre + sides[:, :1] * first + sides[:, 1:] * second
+    b, a = np.meshgrid([-1.0, 1.0], [-1.0, 1.0])
+    grid = centre + a[..., None] * first + b[..., None] * second
+    clip = np.array(
+        [
+            [*(g * unit), g * float(unit @ centre) + float(np.linalg.norm(v))]
+            for unit, v in zip(units, (first, second), strict=True)
+            for g in (1.0, -1.0)
+        ]
+    )
+    Q = matrix(np.zeros((3, 3)), normal, -float(normal @ centre))
+    return Surface(Q, clip, (grid,), (), (rim,), role=role, label=label)
+
+
+def extent(surfaces: Sequence[Surface], along: FloatArray) -> tuple[float, float]:
+    """Return the least and the largest coordinate of surfaces along the unit vector ``along`` (3,)."""
+    heights = np.concatenate([np.ravel(grid @ along) for surface in surfaces for grid in surface.grids])
+    return float(heights.min()), float(heights.max())

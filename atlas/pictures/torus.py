@@ -1,0 +1,57 @@
+"""A torus as a picture: its net, its outline, and lines on it without what it hides."""
+
+import numpy as np
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.pictures.layers import Curve, Layer, Space, frame
+
+RADII = (1.0, 0.42)
+"""Radii of the torus, and of its tube."""
+VIEW = (25.0, 52.0)
+GRAZE = 1e-9
+
+
+def on_torus(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the point (..., 3) of the torus with these angles, round its axis e3 and round its tube."""
+    far = RADII[0] + RADII[1] * np.cos(second)
+    return np.stack([far * np.cos(first), far * np.sin(first), RADII[1] * np.sin(second)], axis=-1)
+
+
+def hidden(points: FloatArray) -> FloatArray:
+    """Tell which points x (N, 3) of the torus lie behind a part of it, as seen along the unit vector d to the eye.
+
+    On the ray x + t d its equation (|x|^2 + R^2 - r^2)^2 = 4 R^2 (x_1^2 + x_2^2) has the root t = 0 and those of a
+    cubic, of which one is positive if its value at t = 0, or the least one after that, is negative.
+    """
+    (R, r), d = RADII, frame(Space((), *VIEW))[2]
+    G, b = np.sum(points**2, axis=1) + R * R - r * r, points @ d
+    c0 = 4 * b * G - 8 * R * R * (points[:, :2] @ d[:2])
+    c1 = 4 * b * b + 2 * G - 4 * R * R * (d[:2] @ d[:2])
+    least = np.maximum((np.sqrt(np.maximum(16 * b * b - 3 * c1, 0.0)) - 4 * b) / 3, 0.0)
+    return np.asarray(np.minimum(c0, c0 + least * (c1 + least * (4 * b + least))) < -GRAZE)
+
+
+def seen(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
+    """Return the visible parts of a line on the torus, and in the role `behind`, if any, those that it hides."""
+    gone = hidden(points)
+    pieces = np.split(np.arange(len(points)), np.flatnonzero(np.diff(gone)) + 1)
+    roles = [behind if gone[piece[0]] else role for piece in pieces]
+    return [Curve(points[piece[0] : piece[-1] + 2], one) for piece, one in zip(pieces, roles, strict=True) if one]
+
+
+def net() -> list[Layer]:
+    """Return the visible parts of lines of constant angle and of the outline."""
+    round_ = np.linspace(0.0, 2 * np.pi, 181)
+    layers: list[Layer] = []
+    for angle in np.arange(24) * np.pi / 12:
+        layers += seen(on_torus(np.full_like(round_, angle), round_), "guide")
+    for angle in np.arange(8) * np.pi / 4:
+        layers += seen(on_torus(round_, np.full_like(round_, angle)), "guide")
+    return [*layers, *_outline(round_)]
+
+
+def _outline(round_: FloatArray) -> list[Layer]:
+    """Return the visible parts of the two lines along which rays to the eye graze the torus."""
+    towards = frame(Space((), *VIEW))[2]
+    slope = -np.arctan2(towards[0] * np.cos(round_) + towards[1] * np.sin(round_), towards[2])
+    return [layer for turned in (slope, slope + np.pi) for layer in seen(on_torus(round_, turned), "silhouette")]

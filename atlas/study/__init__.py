@@ -1,1 +1,0 @@
-"""Integrators as peers, work against precision, stress."""

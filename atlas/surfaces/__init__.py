@@ -1,0 +1,1 @@
+"""The quadric of initial data on which Omega3 is constant."""

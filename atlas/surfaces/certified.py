@@ -1,0 +1,93 @@
+"""The quadric of initial data (51) to (57) as balls."""
+
+from typing import Any
+
+from flint import arb, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rationals
+from atlas.bodies.certified_body import ratio_of
+from atlas.bodies.formula_domain import check_a2, check_a3, check_beta
+from atlas.surfaces import formula as quadric
+
+
+class Quadric:
+    """The surface (51) for I = I3/I2 and the field (B2, B3), with its canonical form (54)."""
+
+    def __init__(self, ratio: Any, field: Any) -> None:
+        self.I = ratio_of(ratio)
+        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
+
+    @property
+    def kind(self) -> str:
+        """What surface (50) is, decided on the inputs as given."""
+        if self.B2 == 0:
+            return "all space" if self.B3 == 0 else "line"
+        if self.B3 == 0:
+            return "plane pair"
+        if self.I == 1:
+            return "cone"
+        return "two-sheet hyperboloid" if self.I > 1 else "one-sheet hyperboloid"
+
+    @property
+    def beta(self) -> Real:
+        """The angle from e2 to I^-1 B', (53): tan beta = B3/(I B2)."""
+        check_beta(self.B2, self.B3)
+        if self.B3 == 0 and self.B2 > 0:
+            return fmpq(0)
+        return arb.atan2(arb(self.B3), arb(self.I * self.B2))
+
+    @property
+    def a2(self) -> Real:
+        """2 sin(beta)/(1 - sin(beta)), (54)."""
+        check_a2(self.B2, self.B3)
+        a2: Real = quadric.a2(*self._constants)
+        return a2
+
+    @property
+    def a3(self) -> Real:
+        """2 sin(beta)/(1 + sin(beta)), (54)."""
+        check_a3(self.B2, self.B3)
+        a3: Real = quadric.a3(*self._constants)
+        return a3
+
+    @property
+    def semi_axes(self) -> tuple[Real, Real, Real]:
+        """C1, C2, C3 of (55) and (57): the roots of |1-I| B2^2 (1, |a2|, |a3|)."""
+        if self.I == 1 or self.B2 == 0:
+            return fmpq(0), fmpq(0), fmpq(0)
+        C1, C2, C3 = quadric.semi_axes(*self._constants)
+        return C1, C2, C3
+
+    @property
+    def centre(self) -> tuple[fmpq, fmpq, fmpq]:
+        """The centre -B' = (0, -B2, -B3)."""
+        return fmpq(0), -self.B2, -self.B3
+
+    @property
+    def axes(self) -> list[list[Real]]:
+        """The directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3)."""
+        s, c = self._angle()
+        zero, one = fmpq(0), fmpq(1)
+        return [[one, zero, zero], [zero, c, s], [zero, -s, c]]
+
+    def _angle(self) -> tuple[Real, Real]:
+        """Return sine and cosine of beta/2 + pi/4."""
+        check_beta(self.B2, self.B3)
+        c, s = quadric.half_angle(*self._constants)
+        return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
+
+    @property
+    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
+        """I2 = 1, I3 = I and the field, as formulas take them."""
+        return fmpq(1), self.I, self.B2, self.B3
+
+    def residual(self, omega: Any) -> fmpq:
+        """Return the left-hand side of (50) at a point."""
+        residual: fmpq = quadric.residual(*self._constants, *rationals(omega, "omega", 3))
+        return residual
+
+    def canonical(self, omega: Any) -> list[Real]:
+        """Return the coordinates omega'_1..3 of a point, (53)."""
+        w1, w2, w3 = rationals(omega, "omega", 3)
+        shifted = (w1, w2 + self.B2, w3 + self.B3)
+        return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]

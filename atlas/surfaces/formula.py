@@ -1,0 +1,50 @@
+"""The canonical form of the quadric of initial data, (53) to (57), from I2, I3, B2 and B3."""
+
+from atlas.arithmetic.numbers import Number, root, select
+
+
+def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
+    """Return tan(beta), for B2 != 0."""
+    return (I2 * B3) / (I3 * B2)
+
+
+def a2(*inputs: Number) -> Number:
+    """Return a2 of (54): with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
+    y, _, less, _ = _direction(*inputs)
+    return (y + y) / less
+
+
+def a3(*inputs: Number) -> Number:
+    """Return a3 of (54): 2 y/(h + y)."""
+    y, _, _, more = _direction(*inputs)
+    return (y + y) / more
+
+
+def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
+    """Return C1, C2, C3 of (55), (57), for B2 != 0."""
+    square = abs(I2 - I3) / I2 * B2 * B2
+    y, _, less, more = _direction(I2, I3, B2, B3)
+    twice = square * abs(y + y)
+    return root(square), root(twice / less), root(twice / more)
+
+
+def half_angle(*inputs: Number) -> tuple[Number, Number]:
+    """Return the sizes of cos and sin of beta/2 + pi/4, (53): their squares are (1 -+ sin beta)/2."""
+    _, h, less, more = _direction(*inputs)
+    return root(less / (h + h)), root(more / (h + h))
+
+
+def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:
+    """Return the left-hand side of (50)."""
+    times_I2 = B3 * (w1 * w1 + w2 * w2) * I2 + ((I2 + I2 - I3) * B3 * w2 - I3 * w3 * (w2 + B2)) * B2
+    return times_I2 / I2
+
+
+def _direction(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number, Number]:
+    """Return y, h, h - y and h + y of a vector (x, y) along I^-1 B' in the plane (e2, e3), h its length."""
+    x, y = I3 * B2, I2 * B3
+    square = x * x
+    h = root(square + y * y)
+    larger = h + abs(y)
+    smaller = square / larger  # the difference would cancel
+    return y, h, select(y, smaller, larger), select(y, larger, smaller)

@@ -1,0 +1,102 @@
+"""The constants, the quadric and the hyperbola of every symmetric top, theorem-top-quadric, in units of its moment I2.
+
+The inputs are those of the theorem: I = I3/I2; k2 and k3 over I2; (n2, n3) a unit vector; a0 and A0 over I2.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from atlas.arithmetic.numbers import Number, length, root
+from atlas.surfaces import formula as quadric
+
+
+def of_given(formula: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a formula of I2, I3, k2, k3, n2, n3, a0, A0 as they are given, n of any length, and of what follows."""
+
+    def of(*numbers: Number) -> Any:
+        I2, I3, k2, k3, n2, n3, a0, A0, *more = numbers
+        size = length(n2, n3)
+        return formula(I3 / I2, k2 / I2, k3 / I2, n2 / size, n3 / size, a0 / I2, A0 / I2, *more)
+
+    return of
+
+
+def constants(
+    I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number,
+    omega1: Number, omega2: Number, omega3: Number,
+) -> tuple[Number, Number, Number]:  # fmt: skip
+    """Return twice the energy, M3 along the axis and p = (M, n), M = I Omega + k b."""
+    pull, M3 = n3 * a0, n3 * k3 + I * omega3
+    energy = n3 * n3 * A0 + pull + pull + (omega1 * omega1 + omega2 * omega2 + I * omega3 * omega3)
+    return energy, M3, (n2 * k2 + omega2) * n2 + M3 * n3
+
+
+def centre(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> tuple[Number, Number]:
+    """Return the centre (omega2, omega3): w = v = 0 there."""
+    del a0, A0
+    turn = k3 / I
+    twist = k2 - turn
+    return -(n2 * turn), n3 / I * (twist + twist - k3)
+
+
+def excess(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> Number:
+    """Return n3 D, of which there is one for n3 = 0 too: it is in the place of (I - 1) B3 b."""
+    del n2
+    turn = k3 / I
+    return n3 * (turn * (k3 + turn - (k2 + k2)) + A0) + a0
+
+
+def D(*numbers: Number) -> Number:
+    """Return D, for n3 not zero."""
+    return excess(*numbers) / numbers[4]
+
+
+def semi_axes(*numbers: Number) -> tuple[Number, Number, Number]:
+    """Return the roots of |D| n2^2 (1, |a2|, |a3|)."""
+    I, _, _, n2, n3, *_ = numbers
+    square, body = abs(D(*numbers)) * n2 * n2, (n2 / n2, I, n2, n3)
+    return root(square), root(square * abs(quadric.a2(*body))), root(square * abs(quadric.a3(*body)))
+
+
+def residual(
+    I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number,
+    omega1: Number, omega2: Number, omega3: Number,
+) -> Number:  # fmt: skip
+    """Return n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D, the second rate of -nu at t = 0."""
+    top = I, k2, k3, n2, n3, a0, A0
+    second, third = centre(*top)
+    w, v = omega2 - second, omega3 - third
+    return n3 * (omega1 * omega1 + w * w) + n2 * (n2 * excess(*top) - I * w * v)
+
+
+def omega3(*top_and_omega2: Number) -> Number:
+    """Return omega3 at omega2 by v(w) of the hyperbola, theorem-top-hyperbola, for n2 and w not zero."""
+    *top, omega2 = top_and_omega2
+    I, _, _, n2, n3, *_ = top
+    second, third = centre(*top)
+    w = omega2 - second
+    return (n3 / n2 * w + n2 * excess(*top) / w) / I + third
+
+
+def frequencies(*top_and_omega2: Number) -> tuple[Number, Number]:
+    """Return the rates of precession about n, omega2/n2, and of the turn about the axis, omega3 - n3 omega2/n2."""
+    *top, omega2 = top_and_omega2
+    precession = omega2 / top[3]
+    return precession, omega3(*top, omega2) - top[4] * precession
+
+
+def stability(*top_and_omega2: Number) -> Number:
+    """Return the square of the frequency of small nutations, theorem-top-nutation, w of which is here u.
+
+    With x = u - kappa, M3 x = n3 u^2 + a0 + A n3 and (a + A n3)/u = (kappa n3 u + a0 + A n3)/x.
+    """
+    *(I, k2, k3, n2, n3, a0, A0), omega2 = top_and_omega2
+    turn = k3 / I
+    kappa, A = k2 - turn, A0 + turn * k3 - k2 * k2
+    u, x = omega2 / n2 + k2, omega2 / n2 + turn
+    force = a0 + A * n3
+    pull = (kappa * n3 * u + force) / x
+    M3 = (n3 * u * u + force) / x
+    linear = n3 * (kappa * M3 + a0)
+    square = n3 * n3
+    return u * u + pull * pull + A * (n2 * n2 - (square + square)) - (linear + linear)

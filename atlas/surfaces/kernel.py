@@ -1,0 +1,244 @@
+"""The quadric of initial data with constant Omega3, (51), its canonical form (54) to (57), and that of every top."""
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from atlas.arithmetic.dimensions import RATE
+from atlas.arithmetic.double_double import BLOCK, over
+from atlas.arithmetic.inputs import FloatArray, common_shape, components, kept, plain, vectors
+from atlas.arithmetic.numbers import rounded
+from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.formula_domain import check_a2, check_a3, check_beta, check_D
+from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
+from atlas.display import Shown
+from atlas.surfaces import formula as quadric
+from atlas.surfaces import formula_top as top
+
+if TYPE_CHECKING:
+    from atlas.surfaces.certified_top import TopQuadric as Exact
+
+KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
+
+
+class Quadric(Shown):
+    """The surface (51): omega1^2 + (omega2+B2)^2 - (I B2/B3)(omega2+B2)(omega3+B3) = (1-I) B2^2.
+
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
+    broadcast. The inputs are taken as exact, the scalars are rounded once. In the coordinates (53) about the centre,
+
+        omega'_1^2 - omega'_2^2/a2 + omega'_3^2/a3 = (1 - I) B2^2,                                               (54)
+
+    a2 and a3 as printed there. They have the sign of B3: the paper takes B3 > 0, and for B3 < 0 the axes 2 and 3
+    interchange their roles. The cone's semi-axes are their roots, (70); its C1, C2, C3 are zero.
+
+    Degenerate kinds: for B2 = 0 ("line") C1, C2, C3 are zero and the infinite one of a2, a3 raises DomainError; for
+    B = 0 ("all space") beta, a2, a3 and the axes do, since I^-1 B' has no direction. AtlasError is raised for what is
+    no number.
+
+        >>> atlas.Quadric(1.5, (1.0, 2.0)).kind
+        'two-sheet hyperboloid'
+    """
+
+    family = "quadric"
+
+    def __init__(self, ratio: Any, field: Any) -> None:
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
+        I2, I3 = moments(ratio)
+        self._inputs = (I2, I3, plain(B2), plain(B3))
+        self.shape = common_shape(*map(np.shape, self._inputs))
+        self.field = self._inputs[2:]
+        self.arguments = {"ratio": kept_ratio(ratio, I3), "field": self.field}
+
+    @classmethod
+    def of_top(
+        cls, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0
+    ) -> "TopQuadric":
+        """Return the quadric of any symmetric top, given as in `TopMotion`, theorem-top-quadric.
+
+        Raises AtlasError as `TopMotion` does.
+        """
+        return TopQuadric(inertia, coupling, direction, linear, quadratic)
+
+    @kept
+    def kind(self) -> Any:
+        """Kind of the surface, decided on the inputs as given: I3 against I2, never a rounded quotient.
+
+        One of "two-sheet hyperboloid" (I > 1), "cone" (I = 1), "one-sheet hyperboloid" (I < 1), "plane pair" (B3 = 0),
+        "line" (B2 = 0), "all space" (B = 0).
+        """
+        I2, I3, B2, B3 = np.broadcast_arrays(*self._inputs)
+        names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, I3 == I2, I3 > I2], KINDS[:-1], KINDS[-1])
+        return names if names.ndim else str(names)
+
+    @kept
+    def beta(self) -> Any:
+        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before.
+
+        Raises DomainError for B = 0.
+        """
+        I2, I3, B2, B3 = self._directed()
+        vertical = B2 == 0
+        slope = over(quadric.tangent, I2, I3, np.where(vertical, B3, B2), B3, unit=slice(2, None), degree=0)
+        return plain(np.arctan2(np.copysign(slope, B3), np.where(vertical, 0.0, np.copysign(1.0, B2))))
+
+    @kept
+    def a2(self) -> Any:
+        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54). Raises DomainError for B2 = 0, B3 >= 0."""
+        I2, I3, B2, B3 = self._directed()
+        check_a2(B2, B3)
+        return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
+
+    @kept
+    def a3(self) -> Any:
+        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54). Raises DomainError for B2 = 0, B3 <= 0."""
+        I2, I3, B2, B3 = self._directed()
+        check_a3(B2, B3)
+        return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
+
+    @kept
+    def semi_axes(self) -> Any:
+        """Semi-axes C1, C2, C3 of (55), (57): the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
+        I2, I3, B2, B3 = self._inputs
+        along = np.asarray(B2) == 0
+        found = over(quadric.semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, None), degree=(1, 1, 1))
+        C1, C2, C3 = (plain(np.where(along, 0.0, C)) for C in found)
+        return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
+
+    @kept
+    def centre(self) -> FloatArray:
+        """Centre -B' = (0, -B2, -B3), shape (..., 3)."""
+        _, I3, B2, B3 = self._inputs
+        return 0.0 - np.stack(np.broadcast_arrays(0.0, B2, B3, I3)[:3], -1)
+
+    @kept
+    def axes(self) -> FloatArray:
+        """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3).
+
+        Raises DomainError for B = 0.
+        """
+        I2, I3, B2, B3 = self._directed()
+        cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, None), degree=(0, 0))
+        cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
+        axes = np.zeros((*cos.shape, 3, 3))
+        rows, flat = axes.reshape(-1, 9), np.stack([cos, sin]).reshape(2, -1)
+        for i in range(0, len(rows), BLOCK):  # a part at a time stays in the cache
+            row, (c, s) = rows[i : i + BLOCK], flat[:, i : i + BLOCK]
+            row[:, 0] = 1.0
+            row[:, 4], row[:, 5], row[:, 7], row[:, 8] = c, s, 0.0 - s, c
+        return axes
+
+    def canonical(self, omega: Any) -> FloatArray:
+        """Coordinates omega'_1..3, (53), of points `omega` (..., 3); inf where one is beyond the largest float.
+
+        Raises AtlasError for what are no vectors.
+        """
+        omega = vectors(omega, "omega", RATE)
+        common_shape(self.shape, omega.shape[:-1])
+        # the difference and its turn may be larger than the coordinates: a quarter of each is not
+        power = -2 if max(np.abs(omega).max(initial=0.0), np.abs(self.centre).max(initial=0.0)) > 1.0 else 0
+        turned = np.matvec(self.axes, np.ldexp(omega, power) - np.ldexp(self.centre, power))
+        with np.errstate(over="ignore"):
+            return np.asarray(np.ldexp(turned, -power))
+
+    def residual(self, omega: Any) -> Any:
+        """Left-hand side of (50) at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
+
+        B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3. Raises AtlasError for what
+        are no vectors.
+        """
+        points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
+        return over(quadric.residual, *self._inputs, *points, unit=slice(2, None), degree=3)
+
+    def _directed(self) -> tuple[Any, ...]:
+        """Return the inputs as arrays; DomainError where I^-1 B' has no direction."""
+        I2, I3, B2, B3 = (np.asarray(x) for x in self._inputs)
+        check_beta(B2, B3)
+        return I2, I3, B2, B3
+
+
+def _exactly(row: Any) -> "Exact":
+    """Return one quadric in exact numbers, from its eight inputs."""
+    from atlas.surfaces.certified_top import TopQuadric as Exact
+
+    I2, I3, k2, k3, n2, n3, a0, A0 = (float(x) for x in row)
+    return Exact((I2, I3), (k2, k3), (n2, n3), a0, A0)
+
+
+class TopQuadric(Quadric):
+    """The surface n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D = 0 of starts of a top at which nu'' = 0.
+
+    The inputs are those of `TopMotion` without omega, and broadcast. In units of I2, with n a unit vector,
+
+        w = omega2 + n2 k3/I,    v = omega3 + n3 (k3 - 2 kappa)/I,    D = A + kappa^2 + a0/n3,
+
+    kappa = k2 - k3/I, A = A0 + k3^2/I - k2^2, a0 and A0 the `linear` and the `quadratic` potential. It is (51) for k2 =
+    b, k3 = I b, n = B'/b without a potential, and D is in the place of (I - 1) b^2. `beta`, `a2`, `a3` and `axes` are
+    those of (53) and (54) with n in the place of B', `semi_axes` the roots of |D| n2^2 (1, |a2|, |a3|). For omega1 != 0
+    that nu'' vanishes at the start is not enough for a steady motion: these have omega1 = 0, see `Hyperbola.of_top`.
+
+    Degenerate kinds: for n2 = 0 ("line") as in `Quadric`; for n3 = 0 ("plane pair", "hyperbolic cylinder") a linear
+    potential makes D and the semi-axes infinite: DomainError.
+    """
+
+    family = ""
+    made_by = "Quadric.of_top"
+
+    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> None:
+        self._top = inputs_of_top(inertia, coupling, direction, linear, quadratic)
+        self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
+        self.shape = common_shape(*map(np.shape, self._top))
+        self.direction = self._inputs[2:]
+        self.arguments = arguments_of(self._top)
+
+    @kept
+    def kind(self) -> Any:
+        """Kind of the surface, the sign of D: decided exactly on the inputs as given.
+
+        One of "two-sheet hyperboloid" (D > 0), "cone" (D = 0), "one-sheet hyperboloid" (D < 0); for n3 = 0 "plane pair"
+        or, with a linear potential, "hyperbolic cylinder"; "line" for n2 = 0.
+        """
+        rows = zip(*(x.flat for x in np.broadcast_arrays(*self._top)), strict=True)
+        names = np.array([_exactly(row).kind for row in rows]).reshape(self.shape)
+        return names if names.ndim else str(names)
+
+    @kept
+    def D(self) -> Any:
+        """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once."""
+        self._needs_finite()
+        return self._over(top.D, lambda exact: exact.D)
+
+    @kept
+    def semi_axes(self) -> Any:
+        """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
+        self._needs_finite()
+        found = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), along=True)
+        C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in found)
+        return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
+
+    @kept
+    def centre(self) -> FloatArray:
+        """Centre w = v = 0, shape (..., 3)."""
+        second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))
+        return np.stack(np.broadcast_arrays(0.0, second, third), -1)
+
+    def residual(self, omega: Any) -> Any:
+        """Left-hand side at points `omega` (..., 3), rounded once: -nu'' at the start, in 1/time^2.
+
+        Zero on the surface only. Raises AtlasError for what are no vectors.
+        """
+        points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
+        return self._over(top.residual, lambda exact, *w: exact.residual(w), *points)
+
+    def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:
+        """Return what a formula gives in two words, and where these leave a doubt, its exact value, rounded once."""
+        inputs = list(self._top)
+        if along:
+            inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])
+        alone = partial(rounded, lambda *row: exact(_exactly(row[:8]), *row[8:]))
+        return over(top.of_given(formula), *inputs, *more, degree=degree, alone=alone)
+
+    def _needs_finite(self) -> None:
+        """Raise DomainError where D is infinite."""
+        check_D(np.asarray(self._top[5]), np.asarray(self._top[6]))

@@ -1,0 +1,192 @@
+"""What can be swept: the columns of a table over parameters of a family, by kernels and by balls."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.errors import AtlasError, DomainError
+from atlas.families.family import TIME
+from atlas.lazy import cached_property
+from atlas.motions import register as families
+from atlas.motions.register import Family, Quantity
+
+Row = Mapping[str, Any]
+NAME = "U28"
+"""Text in a table: the names of cases and kinds, none of which is longer."""
+
+MISSING = "missing"
+"""Column that says why a quantity of a row has no value."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A quantity in a table: how to get it from objects of kernels, or of balls, and from the row's parameters.
+
+    `missing` says why it may have no value in a row; its cell is empty there: NaN, or no text.
+    """
+
+    of: Callable[[Any, Row], Any]
+    unit: str = ""
+    certified: bool = False
+    missing: str = ""
+    exact: Callable[[Any, Row], Any] | None = None
+
+
+@dataclass(frozen=True)
+class Swept:
+    """A family in a table, with columns `beside` those of the register."""
+
+    family: Family
+    beside: Mapping[str, Column] = field(default_factory=dict)
+
+    @cached_property
+    def needed(self) -> tuple[str, ...]:
+        """Parameters that every row has."""
+        return tuple(name for p in self.family.parameters if p.needed for name in p.names)
+
+    @cached_property
+    def optional(self) -> Mapping[str, float | None]:
+        """Parameters that may be left out, with the value that they have then (None: left out)."""
+        defaults = {name: p.omitted for p in self.family.parameters if not p.needed for name in p.names}
+        return defaults | ({"t": 0.0} if self.family.sampled else {})
+
+    @cached_property
+    def units(self) -> Mapping[str, str]:
+        """Units of all columns, parameters and quantities, by name."""
+        units = {name: p.unit for p in self.family.parameters for name in p.names} | {"t": TIME}
+        return units | {name: column.unit for name, column in self.quantities.items()}
+
+    @cached_property
+    def quantities(self) -> Mapping[str, Column]:
+        """Columns of the quantities by name."""
+        columns = {name: column for q in self.family.quantities for name, column in _columns(q)}
+        columns |= self.beside
+        for s in self.family.sampled:
+            columns |= {name: Column(partial(_at_time, get), s.unit) for name, get in s.columns.items()}
+        return columns
+
+    def make(self, row: Row, *, exact: bool = False) -> Any:
+        """Return the objects of parameters, arrays or numbers."""
+        values = []
+        for p in self.family.parameters:
+            parts: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
+            values.append((np.stack(parts, -1) if p.last else parts) if p.columns else parts[0])
+        return (self.family.balls if exact else self.family.kernels)()(*values)
+
+    def columns(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str]) -> dict[str, NDArray[Any]]:
+        """Return the quantities of rows of parameters, arrays of floats or of text."""
+        size, at_once = next(iter(parameters.values())).size, self.family.at_once
+        pieces: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
+        for start in range(0, size, at_once):
+            rows = {name: x[start : start + at_once] for name, x in parameters.items()}
+            motions, count = self.make(rows), min(at_once, size - start)
+            for name, column in pieces.items():
+                values = np.broadcast_to(self.quantities[name].of(motions, rows), count)
+                column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
+        return self._explained({name: np.concatenate(column) for name, column in pieces.items()})
+
+    def digits(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int) -> dict[str, Any]:
+        """Return the quantities as text with certified digits, row by row."""
+        from atlas.arithmetic.certified_digits import certified
+
+        texts: dict[str, list[str]] = {name: [] for name in names}
+        for values in zip(*(x.tolist() for x in parameters.values()), strict=True):
+            row = dict(zip(parameters, values, strict=True))
+            for name, text in certified(partial(self._balls, row, names), digits).items():
+                texts[name].append(text)
+        return self._explained({name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()})
+
+    def _balls(self, row: Row, names: Sequence[str]) -> dict[str, Any]:
+        motion = self.make(row, exact=True)
+        return {name: self._ball(self.quantities[name], motion, row) for name in names}
+
+    @staticmethod
+    def _ball(column: Column, motion: Any, row: Row) -> Any:
+        """Return a quantity as a ball, or as text where it is infinite or has no value."""
+        from flint import arb
+
+        try:
+            value = (column.exact or column.of)(motion, row)
+        except DomainError:
+            if not column.missing:
+                raise
+            return ""
+        return "inf" if isinstance(value, arb) and value == arb("inf") else value
+
+    def _explained(self, columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """Return the quantities, and beside those that may have no value a column that says why they have none."""
+        lacking = {name: self.quantities[name].missing for name in columns if self.quantities[name].missing}
+        if lacking:
+            reasons = np.zeros(next(iter(columns.values())).shape, dtype=NAME)
+            for reason in dict.fromkeys(column.missing for column in self.quantities.values() if column.missing):
+                gone = np.zeros(reasons.shape, dtype=bool)
+                for name, why in lacking.items():
+                    gone |= (why == reason) & empty(columns[name])
+                reasons[gone] = [f"{text}, {reason}" if text else reason for text in reasons[gone].tolist()]
+            columns[MISSING] = reasons
+        return columns
+
+    def check(self, parameters: Sequence[str], names: Sequence[str], digits: int | None) -> None:
+        """Raise AtlasError for parameters or quantities that the family does not have, or that are missing."""
+        known = (*self.needed, *self.optional)
+        certified = [name for name, column in self.quantities.items() if column.certified]
+        lists = (
+            ("parameter", [x for x in parameters if x not in known], known),
+            ("quantity", [x for x in names if x not in self.quantities], self.quantities),
+            (
+                "quantity with certified digits",
+                [x for x in names if digits and x not in certified],
+                certified,
+            ),
+        )
+        for what, refused, there in lists:
+            if refused:
+                raise AtlasError(f"There is no {what} {refused[0]!r} here; there is {', '.join(there) or 'none'}.")
+        missing = [name for name in self.needed if name not in parameters]
+        if missing:
+            raise AtlasError(f"The parameter {missing[0]} is missing; needed are {', '.join(self.needed)}.")
+        if not names:
+            raise AtlasError(f"Name at least one quantity: {', '.join(self.quantities)}.")
+
+
+def empty(column: NDArray[Any]) -> NDArray[np.bool]:
+    """Return where a column of a table has no value."""
+    return np.asarray(column == "" if column.dtype.kind == "U" else np.isnan(column))
+
+
+def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
+    """Go through the columns of a quantity: one, or one for each of its components."""
+    more = q.unit, q.certified, q.missing
+    for i, name in enumerate(q.names):
+        place = i if q.columns else None
+        yield name, Column(partial(_value, q, place, exact=False), *more, partial(_value, q, place, exact=True))
+
+
+def _value(q: Quantity, place: int | None, motion: Any, _: Row, *, exact: bool) -> Any:
+    value = q.value(motion, exact=exact)
+    if place is None:
+        return value
+    return value[place] if isinstance(value, tuple | list) else value[..., place]
+
+
+def _at_time(get: Callable[[Any, Any], Any], motion: Any, row: Row) -> Any:
+    return get(motion, row["t"])
+
+
+def _error(name: str, motion: Any, row: Row) -> Any:
+    from atlas.sweeps import rotation_errors
+
+    return getattr(rotation_errors, name)(motion, row)
+
+
+FAR = "phase beyond 2^50"
+BESIDE = {"elementary": {x: Column(partial(_error, x), missing=FAR) for x in ("error", "plain_error")}}
+"""Columns that compare two ways to compute."""
+
+FAMILIES: Mapping[str, Swept] = {
+    name: Swept(family, BESIDE.get(name, {})) for name, family in families.FAMILIES.items()
+}

@@ -1,0 +1,200 @@
+"""A sweep as data: the family, its parameters by name, the quantities; and any rows of its table."""
+
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.arithmetic.inputs import FloatArray, real
+from atlas.errors import AtlasError
+from atlas.families.family import TIME
+from atlas.sweeps.families import FAMILIES, MISSING
+
+Columns = dict[str, NDArray[Any]]
+
+LARGEST = 10**11
+"""Rows of a table: some 10 TB of them."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Rows of parameters of a family, and the quantities that each is to have.
+
+    `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
+    one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
+    time in headings. `first` is the number in the whole table of the first row.
+    """
+
+    family: str
+    parameters: Mapping[str, NDArray[np.float64]]
+    quantities: tuple[str, ...]
+    listed: bool = False
+    digits: int | None = None
+    time: str = TIME
+    first: int = 0
+
+    @classmethod
+    def of(
+        cls,
+        family: str,
+        parameters: Mapping[str, Any],
+        quantities: Sequence[str],
+        *,
+        listed: bool = False,
+        digits: int | None = None,
+        time: str = TIME,
+    ) -> "Plan":
+        """Check what a user gave. Raises AtlasError for what is unknown, missing, not a number or not of one length."""
+        if family not in FAMILIES:
+            raise AtlasError(f"There is no family {family!r} to sweep; there is {', '.join(FAMILIES)}.")
+        quantities = [quantities] if isinstance(quantities, str) else quantities
+        whole = {sampled.name: sampled.columns for sampled in FAMILIES[family].family.sampled}
+        quantities = [column for name in quantities for column in whole.get(name, (name,))]
+        FAMILIES[family].check(list(parameters), quantities, digits)
+        arrays = {name: np.atleast_1d(real(value, name)) for name, value in parameters.items()}
+        for name, array in arrays.items():
+            if array.ndim != 1:
+                raise AtlasError(f"The values of {name} must be one number or a list of them, not {array.shape}.")
+        if listed:
+            count = max(array.size for array in arrays.values())
+            for name, array in arrays.items():
+                if array.size not in {1, count}:
+                    raise AtlasError(f"{name} has {array.size} values, but the list has {count} rows.")
+        if digits is not None and digits < 1:
+            raise AtlasError(f"A number has at least one digit, not {digits}.")
+        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time)
+        if not 0 < plan.count <= LARGEST:
+            raise AtlasError(f"A table has from one row to {LARGEST:.0e}, not {plan.count}.")
+        return plan
+
+    @property
+    def count(self) -> int:
+        """How many rows the table has."""
+        sizes = [array.size for array in self.parameters.values()]
+        return max(sizes) if self.listed else prod(sizes)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the columns: parameters, quantities, and why one of these has no value, if one may have none."""
+        # an input that is also asked for, as omega3, stands once
+        names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
+        return names + [MISSING] * any(FAMILIES[self.family].quantities[name].missing for name in self.quantities)
+
+    @property
+    def headings(self) -> list[str]:
+        """Names of the columns as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
+        units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
+        return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
+
+    def list_of(self, start: int, stop: int) -> "Plan":
+        """Return some rows of the table as a list, to be sent."""
+        parameters = self._parameters(np.arange(start, stop))
+        arrays = {
+            name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
+        }
+        return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start)
+
+    def rows(self, start: int = 0, stop: int | None = None) -> Columns:
+        """Return the table or some rows of it. An AtlasError names the first that it is in, and its parameters."""
+        stop = self.count if stop is None else stop
+        try:
+            return self._columns(start, stop)
+        except AtlasError as error:
+            row = self._failing(start, stop)
+            values = ", ".join(f"{name} = {value.item()}" for name, value in self._parameters(np.array([row])).items())
+            reason = self._refusal(row, row + 1) or error
+            raise type(error)(f"In row {self.first + row + 1} of the table, {values}: {reason}") from error
+
+    def _failing(self, low: int, high: int) -> int:
+        """Return the first of some rows for which there is no answer, as there is none for all of them together."""
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if self._refusal(low, middle) else (middle, high)
+        return low
+
+    def _refusal(self, low: int, high: int) -> AtlasError | None:
+        """Return why there is no answer for some rows, if there is none."""
+        try:
+            self._columns(low, high)
+        except AtlasError as error:
+            return error
+        return None
+
+    def _columns(self, start: int, stop: int) -> Columns:
+        """Return some rows of the table."""
+        parameters, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
+        defaults = {name: value for name, value in family.optional.items() if value is not None}
+        full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | parameters
+        quantities = (
+            family.columns(full, self.quantities)
+            if self.digits is None
+            else family.digits(full, self.quantities, self.digits)
+        )
+        return {name: quantities[name] if name in quantities else parameters[name] for name in self.names}
+
+    def _parameters(self, rows: NDArray[np.int64]) -> Columns:
+        """Return the parameters of some rows."""
+        places = [rows * (array.size > 1) for array in self.parameters.values()]
+        if not self.listed:
+            places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
+        return {name: array[i] for (name, array), i in zip(self.parameters.items(), places, strict=True)}
+
+
+@dataclass(frozen=True)
+class Range:
+    """So many numbers from `start` to `stop`, both among them, at even steps or, with `log`, at those of the logarithm.
+
+    `str` writes START:STOP:COUNT or START:STOP:COUNT:log, as `atlas sweep` takes it.
+    """
+
+    start: float
+    stop: float
+    count: int
+    log: bool = False
+
+    @classmethod
+    def middles(cls, edges: FloatArray, *, log: bool = False) -> "Range":
+        """Return the middles of the cells between edges at even steps; the first and the last to seven digits."""
+        even = np.log(edges) if log else edges
+        start, stop = (float(f"{np.exp(x) if log else x:.7g}") for x in (even[1:] + even[:-1])[[0, -1]] / 2)
+        return cls(start, stop, len(edges) - 1, log)
+
+    @property
+    def values(self) -> FloatArray:
+        """The numbers, (count,)."""
+        return (np.geomspace if self.log else np.linspace)(self.start, self.stop, self.count)
+
+    def __str__(self) -> str:
+        return f"{_text(self.start)}:{_text(self.stop)}:{self.count}" + ":log" * self.log
+
+
+@dataclass(frozen=True)
+class Tabulation:
+    """Quantities of a family over all combinations of settings, the last one varying fastest."""
+
+    family: str
+    settings: Mapping[str, float | tuple[float, ...] | Range]
+    quantities: tuple[str, ...]
+
+    def columns(self) -> Columns:
+        """Return the columns of the table, each with an axis for every setting that has several values."""
+        parameters = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
+        plan = Plan.of(self.family, parameters, self.quantities)
+        sizes = [x.size for x in plan.parameters.values() if x.size > 1]
+        return {name: column.reshape(sizes) for name, column in plan.rows().items()}
+
+    def command(self, out: str) -> str:
+        """Return the command that writes the table into a file."""
+        words = ["atlas", "sweep", self.family]
+        for name, x in self.settings.items():
+            words += ["--set", f"{name}={','.join(map(_text, x)) if isinstance(x, tuple) else _text(x)}"]
+        return shlex.join([*words, *(word for name in self.quantities for word in ("--quantity", name)), "--out", out])
+
+
+def _text(x: float | Range) -> str:
+    """Return a number with the shortest digits that read back the same, or a range."""
+    return str(x) if isinstance(x, Range) else repr(float(x)).removesuffix(".0")

@@ -1,0 +1,88 @@
+"""Errors of R in a table: those of the atlas and of the plain formula (84), row by row against balls."""
+
+from collections.abc import Sequence
+from functools import lru_cache, partial
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.arithmetic.certified_digits import enclosed
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import workprec
+from atlas.errors import DomainError
+from atlas.motions.elementary import certified as exact
+from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.torus.rounded import REACH
+
+BITS = 110
+"""Relative accuracy of the true matrices, which are kept in two words."""
+
+
+def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
+    """Return B2hat, B3hat, k and phi, (79) and (72), of numbers or arrays, as anyone would compute them."""
+    b = np.hypot(B2, B3)
+    phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
+    return B2 / b, B3 / b, omega2 * b / B2, phi
+
+
+def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
+    """Evaluate (84) in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
+    h2, h3, k, phi = constants
+    c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
+    R = np.empty((*t.shape, 3, 3)) if out is None else out
+    m = h2**2 + h3**2 * c
+    v = h2 * h3 * (1 - c)
+    R[..., 0, 0] = c * C - h3 * s * S
+    R[..., 0, 1] = -c * S - h3 * s * C
+    R[..., 0, 2] = h2 * s
+    R[..., 1, 0] = h3 * s * C + m * S
+    R[..., 1, 1] = -h3 * s * S + m * C
+    R[..., 1, 2] = v
+    R[..., 2, 0] = -h2 * s * C + v * S
+    R[..., 2, 1] = h2 * s * S + v * C
+    R[..., 2, 2] = h3**2 + h2**2 * c
+    return R
+
+
+def error(motion: ElementaryMotion, p: Any) -> FloatArray:
+    """Largest error in any entry of R(t), (84), at most 1, which is no digit; NaN for phases beyond 2^50."""
+    rows, near = _rows(motion, p)
+    ratio, B2, B3, omega2, t, *omega3 = rows
+    return _against_balls(ElementaryMotion(ratio, (B2, B3), omega2, *omega3).rotation(t), rows, near)
+
+
+def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
+    """Largest error in any entry of R(t) by the formula as anyone would write it. DomainError for B2 = 0."""
+    if np.any(p["B2"] == 0):
+        raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")
+    rows, near = _rows(motion, p)
+    return _against_balls(formula(constants(*rows[:4]), rows[4]), rows, near)
+
+
+def _rows(motion: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
+    """Return the parameters of rows whose phases are within the limit, and which rows these are."""
+    near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= REACH
+    names = ("ratio", "B2", "B3", "omega2", "t", *(name for name in ("omega3",) if name in p))
+    return [p[name][near] for name in names], near
+
+
+def _against_balls(R: FloatArray, rows: list[FloatArray], near: Any) -> FloatArray:
+    errors = np.full(near.shape, np.nan)
+    high, low = _true(*(np.ascontiguousarray(x).tobytes() for x in rows))
+    errors[near] = np.fmin(abs((R.reshape(-1, 9) - high) - low).max(axis=1), 1.0)
+    return errors
+
+
+@lru_cache(maxsize=1)
+def _true(*parameters: bytes) -> FloatArray:
+    """Return the true matrices of rows in two words, (2, m, 9); for both errors of the same rows."""
+    words = []
+    for ratio, B2, B3, omega2, t, *omega3 in zip(*(np.frombuffer(x).tolist() for x in parameters), strict=True):
+        motion = exact.ElementaryMotion(ratio, (B2, B3), omega2, *omega3)
+        with workprec(BITS + 16):
+            balls = [*chain(*enclosed(partial(motion.rotation, t), BITS))]
+            high = [float(x) for x in balls]
+            words.append((high, [float(arb(x) - y) for x, y in zip(balls, high, strict=True)]))
+    return np.array(words, dtype=float).reshape(-1, 2, 9).swapaxes(0, 1)

@@ -1,0 +1,273 @@
+"""The sweep itself: parts of the table computed anywhere, kept as files until the table is whole."""
+
+import hashlib
+import json
+import os
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Future, wait
+from contextlib import closing, contextmanager, nullcontext
+from dataclasses import replace
+from functools import cache
+from math import inf
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any, TypeAlias, TypedDict, Unpack, cast, overload
+
+import numpy as np
+
+from atlas import files
+from atlas.arithmetic.machine import processors
+from atlas.errors import AtlasError
+from atlas.families.family import TIME
+from atlas.libraries import release
+from atlas.sweeps.families import FAMILIES
+from atlas.sweeps.plan import Columns, Plan
+from atlas.sweeps.store import Span, Table, span_of
+from atlas.sweeps.tables import PARTS, write
+
+SECONDS, MOST = 2.0, 2**18
+"""How long a part should take, and the most rows that it has, which a worker keeps in memory."""
+SHARES, SHORT = 16, 0.25
+"""Parts that each worker should still get, since some rows take longer; how long a part takes in any case."""
+FEW, EQUAL = 4096, 64
+"""Rows that are one part in any case, unless they have certified digits; twice as many after so many parts each, so
+that a table has hundreds of parts, whatever the time of a row is believed to be."""
+AHEAD = 4
+"""Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
+CODE = ("arithmetic", "bodies", "surfaces", "motions", "families", "sweeps")
+"""Folders of the code that computes rows and writes them."""
+LONG = 1.0
+"""Seconds of work from which on processes are worth their start."""
+
+Progress = Callable[[int, int], None]
+Made: TypeAlias = tuple[str, bytes | None, float]
+
+
+class _Options(TypedDict, total=False):
+    listed: bool
+    digits: int | None
+    rows: int | None
+    executor: Any
+    jobs: int | None
+    progress: Progress | None
+    time: str
+
+
+@overload
+def sweep(
+    family: str, parameters: Mapping[str, Any], quantities: Sequence[str], out: None = None, **how: Unpack[_Options]
+) -> Columns: ...
+@overload
+def sweep(
+    family: str,
+    parameters: Mapping[str, Any],
+    quantities: Sequence[str],
+    out: str | os.PathLike[str],
+    **how: Unpack[_Options],
+) -> Path | str: ...
+def sweep(
+    family: str,
+    parameters: Mapping[str, Any],
+    quantities: Sequence[str],
+    out: str | os.PathLike[str] | None = None,
+    *,
+    listed: bool = False,
+    digits: int | None = None,
+    rows: int | None = None,
+    executor: Any = None,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+    time: str = TIME,
+) -> Columns | Path | str:
+    """Compute quantities of a family for all combinations of parameters, or, if `listed`, for lists of them by row.
+
+    `family` is one of those that `atlas sweep --help` names; `parameters` numbers or sequences by name, the last
+    varying fastest. Without `out` returns the columns, parameters first. With `out` writes a table and returns where it
+    is: a file .csv, .npz or .parquet; or, if `out` ends in / or is an address that fsspec knows, as
+    s3://bucket/table.parquet, a Parquet data set, a folder that pandas and Dask read as one table.
+
+    The table is computed in parts of `rows` rows, or of some seconds and more, by `jobs` processes or an `executor`,
+    any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
+    the table is whole; a sweep that was stopped goes on from there, and makes damaged parts again. The workers write
+    the parts where they see the folder or the address. The bytes of a file do not depend on the
+    parts or on who computed them. With `digits` the quantities are text with so many certified digits.
+    `progress(rows done, rows)` is called after each part. `time` is what headings call the unit of time.
+
+    Where an angle a period, or the like, has no value, as on a separatrix, its cell is empty (NaN in the columns and
+    .npz, null in .parquet, no text), and the column `missing` says why. Any other row outside the domain, as on a pole
+    or the quadric's beta for B = 0, ends the sweep: DomainError has its number and the reason.
+
+    Raises AtlasError for what is unknown, missing or outside the domain of the family, with the row that it is in; for
+    a table that another sweep is writing, with who that is; for a folder that is not of a sweep; and for a file that is
+    not as it was written, which stays: the table is beside it then.
+    """
+    if rows is not None and rows < 1:
+        raise AtlasError(f"A part has at least one row, not {rows}.")
+    plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, time=time)
+    if out is None:
+        return plan.rows()
+    table = Table(out, key(plan, rows))
+    with table.held():
+        try:
+            names = _compute(plan, table, rows, executor, width(executor, jobs), progress)
+            beside: Mapping[str, str] = {}
+            if table.whole is None:
+                beside = write(Path(table.place), plan, [table.path(name) for name in names])
+            else:
+                table.move(names)
+            table.parts.clear(table.parts.names())
+        finally:
+            table.parts.clear([])
+    files.tell(Path(table.place).parent, beside)
+    return table.place
+
+
+def _compute(
+    plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
+) -> list[str]:
+    """Compute the parts that are not there yet, and keep each as soon as it is done; return all names in order."""
+    names = table.whole_parts()
+    spans = Spans(plan, names, rows, workers)
+    done = plan.count - spans.left
+    with closing(_parts(plan, spans, table, executor, workers)) as computed:
+        for name, data, seconds in computed:
+            if data is not None:
+                table.parts.write(name, data)
+            span = span_of(name)
+            names[span] = name
+            spans.learn(span, seconds)
+            done += span[1] - span[0]
+            if progress is not None:
+                progress(done, plan.count)
+    return [names[span] for span in sorted(names)]
+
+
+class Spans(Iterator[Span]):
+    """Rows of the parts that are missing, one part after the other, as many as the last one tells."""
+
+    def __init__(self, plan: Plan, spans: Iterable[Span], rows: int | None, workers: int) -> None:
+        ends = [0, *(row for span in spans for row in span), plan.count]
+        self.gaps = deque((start, stop) for start, stop in zip(ends[::2], ends[1::2], strict=True) if start < stop)
+        self.left = sum(stop - start for start, stop in self.gaps)
+        self.rows, self.workers = rows, workers
+        self.least = 1 if plan.digits else min(FEW, FAMILIES[plan.family].family.at_once)
+        self.given, self.pace = 0, inf
+
+    def __next__(self) -> Span:
+        if not self.gaps:
+            raise StopIteration
+        start, stop = self.gaps.popleft()
+        end = min(stop, start + (self.rows or self._size()))
+        if end < stop:
+            self.gaps.appendleft((end, stop))
+        self.left -= end - start
+        self.given += 1
+        return start, end
+
+    def _size(self) -> int:
+        """Return how many rows the next part has: SECONDS of them, fewer at the end, where all workers need some."""
+        least = self.least << min(self.given // EQUAL, 40)
+        share = self.left / (SHARES * self.workers)
+        return min(MOST, max(least, int(min(SECONDS / self.pace, max(SHORT / self.pace, share)))))
+
+    def learn(self, span: Span, seconds: float) -> None:
+        """Take a part's time for that of the next ones."""
+        self.pace = max(seconds, 1e-9) / (span[1] - span[0])
+
+    @property
+    def long(self) -> bool:
+        """Whether what is left is worth processes of its own."""
+        return self.left * self.pace > LONG
+
+
+def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
+    """Write a part of a table into its folder; return its name and the processor's seconds that it took.
+
+    Where the table's folder is out of reach, return the part itself, too.
+    """
+    begin = perf_counter(), process_time()
+    data = PARTS[table.ending](plan.rows(start, stop))
+    # without what others took of the machine, or other threads of this process
+    seconds = min(perf_counter() - begin[0], process_time() - begin[1])
+    name = table.name((plan.first + start, plan.first + stop), data)
+    if not table.seen():
+        return name, data, seconds
+    table.parts.write(name, data)
+    return name, None, seconds
+
+
+def width(executor: Any, jobs: int | None) -> int:
+    """Return how many parts are computed at a time."""
+    if executor is None:
+        return jobs or processors()
+    if hasattr(executor, "ncores"):
+        return max(1, int(sum(executor.ncores().values())))
+    return int(getattr(executor, "_max_workers", processors()))
+
+
+def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
+    """Call `make` for each part, here or, a few ahead of what is taken, elsewhere; yield the results in order.
+
+    `executor` is one, a client of Dask, or None: then the parts are made here, and from where it is worth it by so many
+    processes, if the system lets us have any. At the end nothing is under way any more, however it came.
+    """
+    own = None
+    if executor is None:
+        for span in spans:
+            yield make(plan, *span, table)
+            if workers > 1 and spans.long:
+                from atlas.processes import pool  # which loads multiprocessing
+
+                if own := pool(workers):  # if the system lets us have any
+                    break
+        else:
+            return
+    there, engine, waiting = None, cast("Any", executor or own), deque[Future[Made]]()
+    if hasattr(executor, "get_executor"):
+        engine = executor.get_executor(pure=False)
+        # the plan itself goes there once: a client keeps its last 1000 messages
+        there = None if plan.listed else executor.submit(replace, plan, pure=False)
+    with own or nullcontext(), _workers_lost():
+        try:
+            for start, stop in spans:
+                rows = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
+                waiting.append(engine.submit(make, *rows, table))
+                if len(waiting) > AHEAD * workers:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:
+            if own is None:  # which cancels what has not begun by itself
+                wait([future for future in waiting if not future.cancel()])
+
+
+@contextmanager
+def _workers_lost() -> Iterator[None]:
+    """Say what to do where workers, or the scheduler of a client, have come to an end."""
+    try:
+        yield
+    except (BrokenExecutor, CancelledError) as error:
+        reason = " ".join(str(error).split()).removesuffix(".") or type(error).__name__
+        raise AtlasError(
+            f"The processes that compute the table came to a sudden end ({reason}); parts that were made are kept: the "
+            "same call goes on from them."
+        ) from error
+
+
+def key(plan: Plan, rows: int | None) -> str:
+    """Return the digest of everything that the rows of a plan depend on, and of how many a part has."""
+    sha = hashlib.sha256(json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode())
+    for array in plan.parameters.values():
+        sha.update(np.ascontiguousarray(array).tobytes() + b"|")
+    return sha.hexdigest()[:16]
+
+
+@cache
+def code() -> str:
+    """Return the digest of the code that computes rows and of its libraries."""
+    package = Path(__file__).parents[1]
+    sha = hashlib.sha256(json.dumps([release(name) for name in ("numpy", "scipy", "python-flint")]).encode())
+    for file in sorted(file for folder in CODE for file in (package / folder).rglob("*.py")):
+        sha.update(f"{file.relative_to(package)}\n".encode() + file.read_bytes())
+    return sha.hexdigest()

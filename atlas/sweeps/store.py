@@ -1,0 +1,265 @@
+"""Where a table and its parts are: on this machine or at any address that fsspec knows, one sweep at a time.
+
+A part is a file whose name says all that is to be known of it: its rows, the sweep that it is of, and the digest of
+what it holds. So a part that is cut, altered or of another sweep is known as such, and no record is kept beside.
+"""
+
+import fcntl
+import hashlib
+import json
+import os
+import re
+import socket
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from tempfile import gettempdir
+from typing import IO, Any
+
+from atlas import files
+from atlas.errors import AtlasError
+from atlas.lazy import cached_property
+from atlas.places import own_folder
+from atlas.sweeps.tables import check_format
+
+PART = re.compile(r"part-(\d{12})-(\d{12})-([0-9a-f]{16})-([0-9a-f]{32})\.(csv|npz|parquet)", re.ASCII)
+"""First row, the one behind the last, key of the sweep; digest of these and of the contents."""
+MARK = "atlas sweep"
+MEMORY = "memory://"
+Span = tuple[int, int]
+"""A row and the one behind the last."""
+
+
+def span_of(name: str) -> Span:
+    """Return the rows of a part."""
+    _, start, stop, *_ = name.split("-")
+    return int(start), int(stop)
+
+
+@dataclass(frozen=True)
+class Folder:
+    """A folder that holds parts and nothing else. Raises AtlasError where fsspec has no way there."""
+
+    address: str
+
+    def __post_init__(self) -> None:
+        try:
+            _ = self._place
+        except (ImportError, ValueError) as error:
+            raise AtlasError(f"{self.address} cannot be reached: {error}.") from error
+
+    @cached_property
+    def is_local(self) -> bool:
+        """Whether it is on this machine."""
+        return "://" not in self.address
+
+    @property
+    def _place(self) -> tuple[Any, str]:
+        import fsspec
+
+        if self.is_local:
+            return fsspec.filesystem("file"), self.address
+        system, path = fsspec.core.url_to_fs(self.address)
+        return system, str(path).rstrip("/")
+
+    def names(self) -> set[str]:
+        """Return the names of the parts that it holds. Raises AtlasError for other files, a link and what is none."""
+        path = Path(self.address)
+        if self.is_local and (path.is_symlink() or (path.exists() and not path.is_dir())):
+            kind = "a symbolic link" if path.is_symlink() else "no folder"
+            raise AtlasError(f"{path} is {kind}; a sweep keeps its files in a folder of its own.")
+        system, there = self._place
+        system.invalidate_cache()
+        try:
+            names = {str(name).rsplit("/", 1)[-1] for name in system.ls(there, detail=False)}
+        except FileNotFoundError:
+            return set()
+        except Exception as error:
+            if self.is_local:
+                raise
+            reason = " ".join(str(error).split()).removesuffix(".") or type(error).__name__
+            raise AtlasError(f"{self.address} cannot be reached: {reason}.") from error
+        parts = {name for name in names if PART.fullmatch(name)}
+        strangers = [name for name in names - parts if not name.startswith(".")]
+        if strangers:
+            raise AtlasError(
+                f"{self.address} holds {min(strangers)}, which is of no sweep: move it away, or choose another --out."
+            )
+        return parts
+
+    def holds(self, name: str) -> bool:
+        """Return whether a part has the contents that its name says."""
+        rows, _, digest = name.rpartition(".")[0].rpartition("-")
+        with suppress(OSError), self.open(name) as file:
+            return hashlib.file_digest(file, partial(hashlib.sha256, rows.encode())).hexdigest()[:32] == digest  # type: ignore[arg-type]  # a file
+        return False
+
+    def open(self, name: str) -> IO[bytes]:
+        """Return a file to be read. Raises FileNotFoundError."""
+        system, path = self._place
+        file: IO[bytes] = system.open(f"{path}/{name}", "rb")
+        return file
+
+    def write(self, name: str, data: bytes) -> None:
+        """Write a file; the folder is made if need be."""
+        system, path = self._place
+        system.makedirs(path, exist_ok=True)
+        with files.named(Path(path, name)):
+            system.pipe_file(f"{path}/{name}", data)
+
+    def delete(self, name: str) -> None:
+        """Delete a file, if it is there."""
+        system, path = self._place
+        with suppress(FileNotFoundError):
+            system.rm_file(f"{path}/{name}")
+
+    def move(self, name: str, to: "Folder") -> None:
+        """Move a file into another folder of the same system, in place of one of that name."""
+        system, path = self._place
+        target = to._place[1]  # noqa: SLF001  of its own kind
+        system.makedirs(target, exist_ok=True)
+        system.mv(f"{path}/{name}", f"{target}/{name}")
+
+    def clear(self, names: Iterable[str]) -> None:
+        """Delete files, and the folder if it is empty then."""
+        for name in names:
+            self.delete(name)
+        system, path = self._place
+        with suppress(OSError):
+            system.rmdir(path)
+
+
+class Table:
+    """Where a table goes: a file .csv, .npz or .parquet; or a folder of Parquet files that is read as one table.
+
+    `place` is where, `ending` that of its parts, `parts` their folder until the table is whole, and `whole` the folder
+    of a table that is one, else None; `key` is that of its sweep. Raises AtlasError for a format that there is not or
+    that cannot be written here.
+    """
+
+    def __init__(self, out: str | os.PathLike[str], key: str) -> None:
+        text = os.fspath(out)
+        remote, path = "://" in text, Path(text)
+        self.key, self.mark = key, ""
+        self.whole: Folder | None = None
+        self.place: Path | str = text if remote else path
+        if remote or text.endswith(("/", os.sep)) or path.is_dir():
+            if path.suffix not in {"", ".parquet"}:
+                raise AtlasError(f"A table in a folder is of Parquet, as table.parquet/, not {text}.")
+            self.whole = Folder(text.rstrip("/") if remote else str(path.absolute()))
+            self.whole.names()  # what can't be reached is said before libraries are installed for it
+            check_format(Path("table.parquet"))
+        else:
+            check_format(path)
+        address = self.whole.address if self.whole else str(path.absolute())
+        self.ending = "parquet" if self.whole else path.suffix[1:]
+        self.parts = Folder(f"{address}.parts")
+        self.lock = path.absolute().with_name(f".{path.name}.lock")
+        if remote:  # it holds for the sweeps of this machine
+            name = hashlib.sha256(text.encode()).hexdigest()[:16]
+            self.lock = (own_folder() or Path(gettempdir())) / f"sweep-{name}.lock"
+
+    def name(self, span: Span, data: bytes) -> str:
+        """Return the name of a part."""
+        rows = f"part-{span[0]:012d}-{span[1]:012d}-{self.key}"
+        return f"{rows}-{hashlib.sha256(rows.encode() + data).hexdigest()[:32]}.{self.ending}"
+
+    def path(self, name: str) -> Path:
+        """Return where a part of a table on this machine is."""
+        return Path(self.parts.address, name)
+
+    def whole_parts(self) -> dict[Span, str]:
+        """Return the parts that are there and whole, by their rows, in order; what else is among them goes.
+
+        Those of a data set may be in its place already, if a sweep was stopped in its last steps.
+        """
+        whole: dict[Span, str] = {}
+        end = 0
+        places = {name: folder for folder in (self.whole, self.parts) if folder for name in folder.names()}
+        for name in sorted(places):
+            span = span_of(name)
+            if f"-{self.key}-" in name and name.endswith(self.ending) and span[0] >= end and places[name].holds(name):
+                whole[span], end = name, span[1]
+        self.parts.clear(self.parts.names() - {*whole.values()})
+        return whole
+
+    def move(self, names: list[str]) -> None:
+        """Put all parts of a data set into its place, after those of the old one went."""
+        if self.whole is not None:
+            self.whole.clear(self.whole.names() - {*names})
+            for name in sorted(self.parts.names() & {*names}):
+                self.parts.move(name, self.whole)
+
+    def seen(self) -> bool:
+        """Return whether this process sees the folder that the sweep sees: the lock beside it is the same.
+
+        What is at memory:// is seen by the process of the sweep alone.
+        """
+        if self.parts.address.startswith(MEMORY):
+            return bool(json.loads(self.mark)["pid"] == os.getpid())
+        try:
+            return not self.parts.is_local or self.lock.read_text(encoding="utf-8") == self.mark
+        except OSError:
+            return False
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Hold the table's lock, that of the system, which ends with this process; `mark` is what its file holds.
+
+        The file is removed at the end; one that a killed sweep left behind is no hindrance. Raises AtlasError that says
+        who holds it, that the file is of another kind, or that none can be written there.
+        """
+        if self.lock.is_symlink() or self._record() is None:
+            raise AtlasError(f"{self.lock} is needed for the lock of the sweep, but is something else.")
+        try:
+            self.lock.parent.mkdir(parents=True, exist_ok=True)
+            lock = self._locked()
+        except OSError as error:
+            raise AtlasError(f"{self.place} cannot be written: {error.strerror}.") from error
+        try:
+            since = datetime.now().astimezone().isoformat(" ", "seconds")
+            record = {MARK: str(self.place), "pid": os.getpid(), "host": socket.gethostname(), "since": since}
+            self.mark = json.dumps(record)
+            self.lock.write_text(self.mark, encoding="utf-8")
+            yield
+        finally:
+            with suppress(OSError):  # while it is held, so that nobody holds another file of this name
+                self.lock.unlink()
+            os.close(lock)
+
+    def _locked(self) -> int:
+        """Return the lock's file, opened and locked: one that its holder removed meanwhile is made anew."""
+        while True:
+            lock = os.open(self.lock, os.O_RDWR | os.O_CREAT, 0o644)
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                os.close(lock)
+                raise AtlasError(f"{self.place} is being written by another sweep{self._holder()}.") from error
+            if os.fstat(lock).st_nlink:
+                return lock
+            os.close(lock)
+
+    def _record(self) -> dict[str, Any] | None:
+        """Return what the lock says of its holder, nothing while it is empty; None for a file of another kind."""
+        try:
+            record = json.loads(self.lock.read_text(encoding="utf-8") or json.dumps({MARK: ""}))
+        except FileNotFoundError:
+            return {MARK: ""}
+        except (OSError, ValueError):
+            return None
+        return record if isinstance(record, dict) and MARK in record else None
+
+    def _holder(self) -> str:
+        """Return who holds the lock, as far as it is known: its record is written a moment after it is taken."""
+        for _ in range(10):
+            record = self._record() or {}
+            here = record.get("host") == socket.gethostname() and os.name == "posix"
+            if "pid" in record and (not here or files.alive(int(record["pid"]))):
+                return f" (process {record['pid']} on {record['host']}, since {record['since']})"
+            time.sleep(0.05)
+        return ""

@@ -1,0 +1,143 @@
+"""A table from its parts: CSV, NPZ or Parquet, written a part at a time, the same bytes whatever the parts are."""
+
+import io
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from math import isnan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.errors import AtlasError
+from atlas.files import settle, turn, unfinished
+from atlas.libraries import of_sweeps
+from atlas.sweeps.families import empty
+from atlas.sweeps.plan import Plan
+
+Columns = Mapping[str, NDArray[Any]]
+Parts = Sequence[Path]
+
+GROUP = 2**17
+"""Rows of a row group of Parquet."""
+
+
+def csv_part(columns: Columns) -> bytes:
+    """Return rows as text; floats with the shortest digits that read back the same, and nothing for NaN."""
+    cells = [map(_quoted, x.tolist()) if x.dtype.kind == "U" else _shortest(x) for x in columns.values()]
+    return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
+
+
+def _quoted(text: str) -> str:
+    """Return a name as it stands in a CSV file, between quotes if it holds a comma."""
+    return f'"{text}"' if "," in text else text
+
+
+def _shortest(column: NDArray[Any]) -> Iterable[str]:
+    """Return the numbers of a column as text."""
+    written = (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
+    # of a parameter there are few values, each in many rows; by their bits, which tell 0.0 from -0.0
+    bits, places = np.unique(np.ascontiguousarray(column).view(np.int64), return_inverse=True)
+    if 2 * bits.size > column.size:
+        return map(written, column.tolist())
+    texts = [*map(written, bits.view(np.float64).tolist())]
+    return [texts[i] for i in places.tolist()]
+
+
+def array_part(columns: Columns) -> bytes:
+    """Return columns as NumPy's arrays."""
+    buffer = io.BytesIO()
+    np.savez(buffer, **columns)  # type: ignore[arg-type]  # columns, not its options
+    return buffer.getvalue()
+
+
+def parquet_part(columns: Columns) -> bytes:
+    """Return rows as a Parquet file, null where they have no value."""
+    buffer = io.BytesIO()
+    with _pyarrow() as (arrow, parquet):
+        table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
+        parquet.write_table(table, buffer)
+    return buffer.getvalue()
+
+
+PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
+"""How the rows of a part are kept, by the ending of its file and of the table."""
+
+
+def write(out: Path, plan: Plan, parts: Parts) -> Mapping[str, str]:
+    """Write a table from its parts into its place, or beside what is there, see `atlas.files.settle`."""
+    with unfinished(out) as file:
+        WRITERS[out.suffix[1:]](file, plan, parts)
+        with turn(out.parent):
+            return settle({out.name: file}, out.parent)
+
+
+def write_csv(out: Path, plan: Plan, parts: Parts) -> None:
+    """Write the heading and the rows."""
+    with out.open("wb") as file:
+        file.write((",".join(plan.headings) + "\n").encode())
+        for rows in parts:
+            file.write(rows.read_bytes())
+
+
+def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
+    """Write one array a column, each from one part after the other."""
+    with zipfile.ZipFile(out, "w") as archive:
+        for name in plan.names:
+            with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
+                for rows in parts:
+                    # of a part no more is read than the column
+                    with np.load(rows) as columns:
+                        column = columns[name]
+                    if rows is parts[0]:
+                        descr = np.lib.format.dtype_to_descr(column.dtype)
+                        header = {"descr": descr, "fortran_order": False, "shape": (plan.count,)}
+                        np.lib.format.write_array_header_1_0(file, header)
+                    file.write(column.data)
+
+
+def write_parquet(out: Path, _: Plan, parts: Parts) -> None:
+    """Write row groups of GROUP rows, the last of fewer."""
+    with _pyarrow() as (arrow, parquet):
+        rows = parquet.read_schema(parts[0]).empty_table()
+        with parquet.ParquetWriter(out, rows.schema) as writer:
+            for part in parts:
+                rows = arrow.concat_tables([rows, parquet.read_table(part)])
+                full = rows.num_rows // GROUP * GROUP
+                if full:
+                    writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=GROUP)
+                    rows = rows.slice(full)
+            if rows.num_rows:
+                writer.write_table(rows.combine_chunks())
+
+
+@contextmanager
+def _pyarrow() -> Iterator[tuple[Any, Any]]:
+    """Give pyarrow and its module of Parquet. An error of theirs that is none of Python's becomes AtlasError."""
+    arrow, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
+    try:
+        yield arrow, parquet
+    except arrow.ArrowException as error:
+        if isinstance(error, MemoryError):
+            raise
+        raise AtlasError(
+            f"The table cannot be written as Parquet: {next(iter(str(error).splitlines()), '')}"
+        ) from error
+
+
+WRITERS: Mapping[str, Callable[[Path, Plan, Parts], None]] = {
+    "csv": write_csv,
+    "npz": write_npz,
+    "parquet": write_parquet,
+}
+
+
+def check_format(out: Path) -> None:
+    """Raise AtlasError for a file name that says no format, or one that cannot be written here."""
+    if out.suffix[1:] not in WRITERS:
+        raise AtlasError(f"A table ends in {', '.join(f'.{name}' for name in WRITERS)}, not in {out.suffix!r}: {out}.")
+    if out.suffix == ".parquet":
+        with _pyarrow():
+            pass

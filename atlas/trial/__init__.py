@@ -1,0 +1,1 @@
+"""The paper on trial: the ledger of its equations, and their proofs."""

@@ -1,0 +1,80 @@
+r"""The ledger: the equations of the paper, the claims that it makes in words, and our own theorems.
+
+The paper: A. A. Deriglazov, *Rotation matrix of a charged symmetrical body: one-parameter family of solutions in
+elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file holds one topic, in the paper's order.
+Data only: what is true of it is decided in `atlas.trial.proofs`.
+
+The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` or closes the environment takes a number
+unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from importlib import import_module
+from types import MappingProxyType
+
+from atlas.errors import AtlasError, unknown
+from atlas.trial.ledger.equation import Equation, Kind, Section, slug
+
+__all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topic"]
+
+_SECTIONS: Mapping[Section, tuple[str, ...]] = {
+    "II": ("lagrangian", "euler_poisson"),
+    "III": ("ball",),
+    "IV": ("pseudo_oscillator", "quadric"),
+    "V": ("hyperbola", "elementary"),
+    "VII": ("particle",),
+    "Atlas": ("theorems", "clebsch", "elliptic", "general", "separatrix", "closed", "top", "top_map"),
+}
+_KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
+
+
+def _entries() -> Iterator[tuple[str, Equation]]:
+    """Yield the entries in the paper's order, each with its topic, and its name, section and kind filled in."""
+    for section, topics in _SECTIONS.items():
+        for stem in topics:
+            for name, entry in import_module(f"atlas.trial.ledger.{stem}").EQUATIONS.items():
+                kind = entry.kind or _KINDS.get(name.partition("-")[0], "derivation step")
+                yield stem, replace(entry, name=name, section=section, kind=kind)
+
+
+_PLACED = tuple(_entries())
+_TOPICS = {entry.name: stem for stem, entry in _PLACED}
+EQUATIONS: Mapping[str, Equation] = MappingProxyType({entry.name: entry for _, entry in _PLACED})
+"""The entries by name: "(72)" for what has a number in print."""
+
+_ALIASES = {
+    alias: tuple(entry for entry in EQUATIONS.values() if entry.alias == alias)
+    for alias in {entry.alias: None for entry in EQUATIONS.values() if entry.alias}
+}
+_NUMBERS = [entry.number for entry in EQUATIONS.values() if entry.number is not None]
+
+
+def find(word: str) -> tuple[Equation, ...]:
+    """Return the entries that a user means by 72, (72), a name, or a LaTeX label of the paper's source.
+
+    It is one, but for a label that stands twice in the source. AtlasError with the nearest name if there is none.
+    """
+    number = slug(word)
+    name = f"({number})" if number.isdecimal() else word
+    found = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
+    if not found and number.isdecimal():
+        asked = min(float(number), max(_NUMBERS))  # of any number of digits
+        near = min(_NUMBERS, key=lambda known: abs(known - asked))
+        raise AtlasError(f"there is no equation ({number}) in the ledger; the nearest is ({near}).")
+    if not found:
+        raise unknown("equation", word, [*EQUATIONS, *_ALIASES], "in the ledger")
+    return found
+
+
+def equation(word: str) -> Equation:
+    """Return the one entry that is meant, as `find` does; AtlasError if it is one of two with the same label."""
+    found = find(word)
+    if len(found) > 1:
+        raise AtlasError(f"{word} is the label of {' and of '.join(entry.name for entry in found)}: say which.")
+    return found[0]
+
+
+def topic(name: str) -> str:
+    """Return the topic of an equation: the stem of its file here, and of the files about it on the other floors."""
+    return _TOPICS[equation(name).name]

@@ -1,0 +1,50 @@
+"""One line of the ledger: an equation of the paper, a claim that it makes in words, or a theorem of the atlas."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["definition", "derivation step", "claim", "theorem"]
+Section = Literal["II", "III", "IV", "V", "VII", "Atlas"]
+
+# what many entries take for granted
+SYMMETRIC = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
+FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
+OFF_LINES = r"$\omega_2$ differs from $-B'_2$"
+
+
+def slug(name: str) -> str:
+    """Return the name of an equation as it stands in a link or in the name of a file: 72, theorem-pair."""
+    return name.strip("()")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Equation:
+    r"""An equation: what it is called, what it says, and what it takes for granted.
+
+    name         the number that it has in print, "(72)"; one without, such as a claim made in words, has a name
+                 `text-...` of our own, a theorem that the paper doesn't have `theorem-...`: the key in its file
+    says         what it says, in one line
+    tex          the formula as printed, slips included, in modern TeX
+    alias        its LaTeX label in the paper's source; (53) and (55) share one there
+    assumptions  what must hold for it, each in a few words
+    quote        the words of the paper that make the claim, where it has no formula for it
+    kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours);
+                 where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
+                 claim
+    section      II to V, VII (the appendix, numbered as a section), or Atlas for what the paper doesn't have: that of
+                 its file, as `atlas.trial.ledger` has it
+    """
+
+    name: str = ""
+    says: str
+    tex: str
+    alias: str = ""
+    assumptions: tuple[str, ...] = ()
+    quote: str = ""
+    kind: Kind | Literal[""] = ""
+    section: Section = "Atlas"
+
+    @property
+    def number(self) -> int | None:
+        """The number that it has in print; None if it has none."""
+        return int(self.name[1:-1]) if self.name.startswith("(") else None

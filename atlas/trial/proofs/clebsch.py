@@ -1,0 +1,187 @@
+"""The structure behind the motion on trial: Larmor's frame, the bracket of e(3), and the integral of Clebsch."""
+
+import sympy
+
+from atlas.trial.proofs.model import Model, Value, cross, dot, hat, partial, rotation_symbols, symmetric, turn, vector
+from atlas.trial.proofs.pseudo_oscillator import state_model
+from atlas.trial.proofs.trial import Falsehood, Trial
+
+SIGNS = {
+    r"R_{\hat{\mathbf{B}}}": "about_B()",
+    "M": "M[]",
+    "K": "K[]",
+    r"\operatorname{rank}\frac{\partial(H,F,(\mathbf{M},\mathbf{K}),\mathbf{K}^2)}{\partial(\mathbf{M},\mathbf{K})}": (
+        "rank(H, F, dot(M, K), dot(K, K))"
+    ),
+}
+Omega, K, M = vector("Omega"), vector("K"), vector("M")
+J = symmetric("J")
+MASS = J.trace() / 2 * sympy.eye(3) - J
+I1, I2, I3 = MOMENTS = sympy.symbols("I1:4", positive=True)
+AXES = sympy.diag(*MOMENTS)
+
+
+def determinant(tensor: Value) -> Value:
+    """Return the determinant of a tensor without a division."""
+    return tensor.det(method="berkowitz")
+
+
+def tensor_model() -> Model:
+    """Model any state Omega, K of a body of any inertia tensor J, with the rates (16) and (35)."""
+    inverse = J.adjugate() / determinant(J)
+    spin, field = inverse * (cross(J * Omega, Omega) - 2 * cross(MASS * K, Omega)), cross(K, Omega)
+    letters = {"J": J, "Omega": Omega, "K": K, "W": Omega + K, "M": J * (Omega + K)}
+    letters |= {"inv": lambda tensor: tensor.adjugate() / determinant(tensor)}
+    letters["H"] = dot(Omega + K, J * (Omega + K)) / 2 + dot(K, J * K) / 2
+    return Model(letters, flow=dict(zip([*Omega, *K], [*spin, *field], strict=True)))
+
+
+def frame_model() -> Model:
+    """Model R with any spin, and turns about B' = b (0, sin, cos) of any inclination."""
+    R, where = rotation_symbols()
+    b, slope = sympy.Symbol("b", positive=True), sympy.Symbol("p", real=True)
+    c, s, q, t = sympy.symbols("c1 s1 q t", real=True)
+    cosine, sine = turn(slope)
+    axis = sympy.Matrix([0, sine, cosine])
+    flow = {c: -b * s, s: b * c} | dict(zip(R, R * hat(Omega), strict=True))
+    letters = {"R": R, "Omega": Omega, "Bp": b * axis, "K": R.T * (b * axis), "b": b, "t": t}
+    start = {c: 1, s: 0} | dict(zip(R, sympy.eye(3), strict=True))
+    model = Model(letters, [*where, (c, turn(q)[0]), (s, turn(q)[1])], flow, start, {b * t: (c, s)})
+    model.letters["about_B"] = model.about(axis)
+    return model
+
+
+def reversed_model() -> Model:
+    """Model the state at -t of a motion by (12), (16) and (35): its rates are minus those of the equations."""
+    whole, frame = tensor_model(), frame_model()
+    back = {symbol: -whole.flow[symbol] for symbol in (*Omega, *K)}
+    R = frame.letters["R"]
+    where = [*frame.where, *zip(K, frame.letters["K"], strict=True)]
+    flow = {**frame.flow, **back, **dict(zip(R, -R * hat(Omega), strict=True))}
+    letters = {**frame.letters, **whole.letters, "g": MASS}
+    return Model(letters, where, flow, frame.start, frame.phases)
+
+
+def poisson_model() -> Model:
+    """Model any M and K as coordinates of e(3), principal moments, the bracket, and the rates of (16), (35)."""
+    H = dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
+    spin = AXES.inv() * M - K
+    mass = AXES.trace() / 2 * sympy.eye(3) - AXES
+    torque = cross(AXES * spin, spin) - 2 * cross(mass * K, spin)
+
+    def bracket(f: Value, g: Value) -> Value:
+        """Return {f, g} = -(M, [f_M, g_M]) - (K, [f_M, g_K] + [f_K, g_M])."""
+        (fM, fK), (gM, gK) = ((partial(each, M), partial(each, K)) for each in (f, g))
+        return -dot(M, cross(fM, gM)) - dot(K, cross(fM, gK) + cross(fK, gM))
+
+    letters = {"M": M, "K": K, "J": AXES, "H": H, "br": bracket}
+    letters["F"] = dot(M, M) - determinant(AXES) * dot(K, AXES.inv() * K)
+    letters["rank"] = _rank
+    field = cross(K, spin)
+    flow = dict(zip([*M, *K], [*(torque + AXES * field), *field], strict=True))
+    return Model(letters, flow=flow)
+
+
+def _rank(*functions: Value) -> int:
+    """Return the rank of the gradients at M = (1, 2, 3), K = (4, 5, 6), with the moments 2, 3, 4."""
+    point = {s: n for n, s in enumerate([*M, *K], 1)} | dict(zip(MOMENTS, (2, 3, 4), strict=True))
+    return int(sympy.Matrix(functions).jacobian([*M, *K]).subs(point).rank())
+
+
+def symmetric_model() -> Model:
+    """Model the symmetric body, with c3 and c5 as they are at any state."""
+    whole = state_model()
+    tensor = sympy.diag(whole.letters["I2"], whole.letters["I2"], whole.letters["I3"])
+    W = whole.letters["Omega"] + whole.letters["K"]
+    letters = {**whole.letters, "J": tensor, "M": tensor * W, "M3": (tensor * W)[2]}
+    letters["H"] = dot(W, tensor * W) / 2 + dot(whole.letters["K"], tensor * whole.letters["K"]) / 2
+    letters["F"] = dot(tensor * W, tensor * W) - determinant(tensor) * dot(
+        whole.letters["K"], tensor.inv() * whole.letters["K"]
+    )
+    return Model(letters, flow=whole.flow)
+
+
+TRIALS = {
+    "theorem-larmor-frame": Trial(
+        model=frame_model,
+        follows="@(12)",
+        defines=("S",),
+        false=Falsehood(r"The frame turns with $+\mathbf{B}'$", "(Omega + K)[a]", "(Omega - K)[a]"),
+    ),
+    "theorem-larmor": Trial(
+        model=tensor_model,
+        follows="@(16) and @(35)",
+        note=r"Larmor's theorem, exact in the field and for every inertia tensor. The torque $[\mathbf{K}, J "
+        r"\mathbf{K}]$ is that of the potential $(\mathbf{K}, J \mathbf{K})/2$, quadratic in the field.",
+        false=Falsehood("In Larmor's frame every body is free", " + cross(K, J*K)", ""),
+    ),
+    "theorem-momentum-canonical": Trial(
+        also=("d(M) = cross(M,Omega) + cross(J*Omega,K)",),
+        model=tensor_model,
+        follows="@(16), with the Lagrangian @(104) summed over the body",
+        defines=("L",),
+        note=r"The last equation is that of Euler and Poincaré for $L$, in which $\mathbf{K}$ moves with the body.",
+        false=Falsehood(
+            r"The kinetic momentum $J\boldsymbol{\Omega}$ is the canonical one", "M = partial", "J*Omega = partial"
+        ),
+    ),
+    "theorem-lie-poisson": Trial(
+        model=poisson_model,
+        follows=r"@(16) and @(35) with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
+        defines=("H",),
+        also=("d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0",),
+        false=Falsehood(r"$\mathbf{M}^2$ is conserved", "d(dot(M,K)) = 0", "d(dot(M,M)) = 0"),
+    ),
+    "theorem-bracket": Trial(
+        also=(
+            (
+                "eps[i,j,k]*br(br(M[i],M[j]),M[k]) = 0;"
+                " eps[l,i,j]*br(br(M[i],M[j]),K[k]) + 2*eps[l,i,j]*br(br(M[j],K[k]),M[i]) = 0;"
+                " br(M[i],dot(K,K)) = 0; br(M[i],dot(M,K)) = 0; br(K[i],dot(M,K)) = 0"
+            ),
+        ),
+        model=poisson_model,
+        follows="the bracket with which $H$ generates the equations of @theorem-lie-poisson",
+        note=r"Jacobi's identity, here contracted with $\varepsilon$, which loses nothing since the bracket is "
+        "antisymmetric, for the coordinates is that for all functions, since a bracket is a derivation.",
+        false=Falsehood(r"$\mathbf{M}^2$ commutes with everything", "br(K[i],dot(M,K)) = 0", "br(K[i],dot(M,M)) = 0"),
+    ),
+    "theorem-kinetic-energy": Trial(
+        also=("d(1/2*dot(Omega,J*Omega)) = 0",),
+        model=tensor_model,
+        follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @(16) and @(35)",
+        note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
+        false=Falsehood("The kinetic energy is $H$", " - dot(M, K)", ""),
+    ),
+    "theorem-clebsch": Trial(
+        also=("cross(J*Omega,J*K) = det(J)*inv(J)*cross(Omega,K)",),
+        model=tensor_model,
+        follows=r"@(16) and @(35); $\det J J^{-1}$ is the matrix of cofactors",
+        defines=("F",),
+        note=r"The last identity is why: $(J \mathbf{W}, [\mathbf{K}, J \mathbf{K}]) = (\mathbf{K}, \det J J^{-1} "
+        r"[\mathbf{K}, \mathbf{W}])$.",
+        false=Falsehood(r"$\mathbf{M}^2$ is the further integral", " - det(J)*dot(K, J^(-1)*K)", ""),
+    ),
+    "theorem-involution": Trial(
+        model=poisson_model,
+        follows="the bracket of @theorem-bracket; the gradients at one point, moments 2, 3, 4",
+        note="Independent at one point, so at all but those of a set of measure zero.",
+        false=Falsehood("$F$ follows from $H$ and the Casimirs", "dot(K, K)) = 4", "dot(K, K)) = 3"),
+    ),
+    "theorem-clebsch-symmetric": Trial(
+        also=("M3 = I3*c3; E = 2/I2*(H - dot(M,K))",),
+        signs={"M_3": "M3"},
+        model=symmetric_model,
+        follows="@(36), @(40) and @(41) at any state",
+        false=Falsehood(r"$F$ is made of $H$ and $\mathbf{K}^2$ alone", " + (1 - I2/I3)*M3^2", ""),
+    ),
+    "theorem-pair": Trial(
+        signs={r"\boldsymbol{\Omega}(-t)": "Omega", r"\mathbf{K}(-t)": "K", "R(-t)": "R"},
+        defines=("tildeOmega", "tildeR"),
+        solves="J*d(tildeOmega) = cross(J*tildeOmega,tildeOmega) - 2*cross(g*K,tildeOmega); T(tildeR)*Bp = K;"
+        " d(tildeR[i,j]) = -eps[j,a,b]*tildeOmega[a]*tildeR[i,b]; at0(tildeR) = one",
+        model=reversed_model,
+        follows="@(12), @(16) and @(35) by substitution, time reversed",
+        false=Falsehood("The two motions run in the same sense", "about_B(-2*b*t)", "about_B(2*b*t)"),
+    ),
+}

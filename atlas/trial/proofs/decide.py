@@ -1,0 +1,387 @@
+"""Decides whether a line holds in a model: an exact identity, an exact counterexample, or undecided.
+
+Every model is made of rational functions of free parameters, so that `left = right` is a polynomial identity, which
+`identity` decides. One exact rational point where the sides differ refutes it.
+"""
+
+import ast
+import random
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from atlas.trial.proofs.identity import ordered, positive, resolved, vanishes
+from atlas.trial.proofs.model import COMMON, Model, functions
+from atlas.trial.proofs.notation import NoMeaningError, Reader, Relation, is_zero, letters_of, parse, write
+from atlas.trial.proofs.verdict import Decision
+
+Value = Any
+
+SAMPLES = 5
+
+_small = [Fraction(n, d) for d in (1, 2, 3, 4, 5) for n in range(1, 6)]
+DOMAINS: dict[str, Callable[[random.Random], Fraction]] = {
+    "real": lambda r: r.choice(_small) * r.choice((-1, 1)),
+    "positive": lambda r: r.choice(_small),
+    "unit": lambda r: Fraction(r.randint(1, 8), 9),
+    "oblique": lambda r: Fraction(r.randint(9, 19), 20),  # tan(delta/2) for pi/4 < delta < pi/2
+}
+_SIMPLE: dict[str, tuple[Fraction | int, ...]] = {
+    "real": (0, 1, 2),
+    "positive": (1, 2, 3),
+    "unit": (Fraction(1, 2), Fraction(1, 3)),
+    "oblique": (Fraction(1, 2), Fraction(2, 3)),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What the trial of one line found."""
+
+    decision: Decision
+    method: str = ""
+    counterexample: dict[str, str] = field(default_factory=dict)
+
+
+def decide(
+    line: str,
+    cases: Model | Sequence[Model],
+    *,
+    defines: Sequence[str] = (),
+    solves: str = "",
+    sample_only: bool = False,
+    shrink: bool = False,
+) -> Outcome:
+    """Try a line in a model, or in each of several cases.
+
+    defines      names on the left of `=` that the line defines: they are taken from it, not checked against the model
+    solves       a second line that must hold with what the first one defines
+    sample_only  look for a counterexample only, and say `supported` if there is none
+    shrink       make the counterexample as simple as possible
+    """
+    models = [cases] if isinstance(cases, Model) else list(cases)
+    methods: list[str] = []
+    for model in models:
+        try:
+            relations, letters, where = understood(line, model, tuple(defines), solves)
+        except NoMeaningError as reason:
+            return Outcome("refuted", "indices", reason.example)
+        here = replace(model, letters=letters, where=where)
+        trees = parse(f"{line}; {solves}" if solves else line)
+        example = _counterexample(
+            relations, here, tuple(name for tree in trees for name in letters_of(tree)), shrink=shrink
+        )
+        if example:
+            return Outcome("refuted", "exact counterexample", example)
+        idle = (
+            _unknown(trees, model, defines)
+            or next((why for tree in trees if (why := _empty(tree, here))), "")
+            or _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
+        )
+        if idle:
+            return Outcome("undecided", idle)
+        methods += [] if sample_only else [_prove(relation, here) for relation in relations]
+    if sample_only:
+        return Outcome("supported", f"{SAMPLES * len(models)} exact points")
+    if methods and all(methods):
+        return Outcome("proved", ", ".join(dict.fromkeys(methods)))
+    return Outcome("undecided", "neither proved nor refuted")
+
+
+def understood(
+    line: str, model: Model, defines: tuple[str, ...], solves: str
+) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
+    """Return the relations to be checked, and the model's letters and `where` with what the line defines."""
+    try:
+        return _understand(line, model, defines, solves)
+    except NoMeaningError:
+        raise
+    except (TypeError, AttributeError, IndexError, KeyError, ValueError, SyntaxError) as reason:
+        raise NoMeaningError(f"the formula has no meaning: {reason}") from reason
+
+
+def _understand(
+    line: str, model: Model, defines: tuple[str, ...], solves: str
+) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
+    letters, where = dict(model.letters), list(model.where)
+    kept, already = [], set[str]()
+    for tree in parse(line):
+        letters |= _function(tree, defines, Reader(letters, model.ranges))
+        name = defined(tree, defines)
+        if name in already:
+            raise NoMeaningError(f"{name} is defined twice")
+        if name:
+            already.add(name)
+            tree.left, tree.ops = tree.comparators.pop(0), tree.ops[1:]
+            value = Reader(letters, model.ranges).value(tree.left, {})
+            where, letters[name] = _meant(name, value, letters) + where, value
+        if tree.comparators:
+            kept.append(tree)
+    reader = Reader(letters, model.ranges)
+    relations = reader.relations(write(kept)) if kept else []
+    new = [entry for place, entry in enumerate(where) if entry[0] not in {symbol for symbol, _ in where[:place]}]
+    return relations + (reader.relations(solves) if solves else []), letters, new
+
+
+def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
+    """Return the letter that a relation defines, which is put on its left; empty if it defines none."""
+    every = [tree.left, *tree.comparators]
+    if not all(isinstance(sign, ast.Eq) for sign in tree.ops):
+        return ""
+    if getattr(tree.left, "id", None) not in defines and getattr(every[-1], "id", None) in defines:
+        tree.left, *tree.comparators = reversed(every)
+    name = getattr(tree.left, "id", "")
+    return name if name in defines and tree.comparators else ""
+
+
+def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
+    """Return what the symbols of a letter are that a line defines, so that it may stand before its definition."""
+    known = letters.get(name, sympy.Symbol(name, real=True))
+    if isinstance(known, sympy.MatrixBase):
+        pairs = list(zip(known, value, strict=True))
+    else:
+        pairs = [(known, value)] if isinstance(value, sympy.Expr) else []
+    return pairs if all(isinstance(symbol, sympy.Symbol) for symbol, _ in pairs) else []
+
+
+def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> dict[str, Value]:
+    """Return the function that d(u)^2 = Q(u) = u^4 + a defines, with its derivatives, and leave d(u)^2 = u^4 + a."""
+    every = [tree.left, *tree.comparators] if all(isinstance(sign, ast.Eq) for sign in tree.ops) else []
+    for place, side in enumerate(every):
+        match side:
+            case ast.Call(func=ast.Name(id=name), args=[ast.Name(id=variable)]) if name in defines:
+                del every[place]
+                value = reader.value(every[min(place, len(every) - 1)], {})
+                tree.left, *tree.comparators = every
+                tree.ops = tree.ops[1:]
+                symbol = reader.letters.get(variable, sympy.Symbol(variable, real=True))
+                if not isinstance(symbol, sympy.Symbol) or not value.has(symbol):
+                    raise NoMeaningError(f"{name} does not depend on {variable}")
+                return functions(name, value, symbol)
+    return {}
+
+
+def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> str:
+    """Say which letters of a line have no meaning in the model, and what the line says twice; empty if all is well."""
+    known = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.where}
+    known |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
+    strange = {name for tree in trees for name in letters_of(tree)} - known
+    if strange:
+        return f"unreadable: {', '.join(sorted(strange))} means nothing here"
+    calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    pairs = [call.args for call in calls if _name(call) in {"br", "cross"}]  # zero, whatever stands in them
+    every: list[Sequence[ast.AST]] = [trees, *([tree.left, *tree.comparators] for tree in trees), *pairs]
+    if any(len(set(map(ast.dump, indices))) < len(indices) for indices in every):
+        return "it says the same twice, or of something that it is itself"
+    return ""
+
+
+def _empty(tree: ast.Compare, model: Model) -> str:
+    """Say why a bracket or a derivative that is zero says less than it seems to; empty if it does not.
+
+    What is zero for every index is so for each one, and letters that are independent have no derivatives.
+    """
+    if not is_zero(tree.comparators[-1]) or not isinstance(tree.ops[-1], ast.Eq):
+        return ""
+    if isinstance(tree.left, ast.Call) and _name(tree.left) == "d2":
+        rate = ast.Compare(ast.Call(ast.Name("d"), tree.left.args, []), [ast.Eq()], [ast.Constant(0)])
+        if all(_prove(relation, model) for relation in Reader(model.letters, model.ranges).relations(write([rate]))):
+            return f"{ast.unparse(tree.left)} is the rate of what is zero itself"
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _name(node) in {"br", "partial"}]
+    for call in calls:
+        if any(isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant) for node in ast.walk(call)):
+            return f"{ast.unparse(call)} is said of one index only"
+        first = getattr(call.args[0], "value", call.args[0])
+        value = model.letters.get(getattr(first, "id", ""))
+        vectors = list(value.values()) if isinstance(value, dict) else [value]
+        bare = isinstance(vectors[0], sympy.MatrixBase) and all(entry.is_Symbol for entry in vectors[0])
+        if _name(call) == "partial" and bare:
+            return f"{ast.unparse(first)} depends on nothing"
+    return ""
+
+
+def _name(call: ast.Call) -> str:
+    return getattr(call.func, "id", "")
+
+
+def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
+    """Say what is wrong with a line that checks nothing, or defines a letter on which nothing that is checked depends.
+
+    Such a line would hold whatever stands on its right: it is not a claim. Empty if all is well.
+    """
+    if not relations:
+        return "nothing in it is checked"
+    named = {name for relation in relations for name in relation.letters}
+    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    all_reached = reached(values, [*model.where, *model.flow.items()])
+    named |= {str(symbol) for symbol, _ in model.where if symbol in all_reached}
+    for tree in reversed(parse(line)):  # a letter may be used in the definition of another one
+        name = getattr(tree.left, "id", None)
+        if name in defines and name not in named:
+            return f"nothing that is checked depends on {name}"
+        if name in defines:
+            named |= {name for side in tree.comparators for name in letters_of(side)}
+    return ""
+
+
+def reached(values: Iterable[Value], rules: Sequence[tuple[Value, Value]]) -> set[Value]:
+    """Return the symbols on which values depend, also through rules that say what a symbol is, or its rate."""
+    symbols: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
+    while True:
+        more = symbols | {s for symbol, value in rules if symbol in symbols for s in sympy.sympify(value).free_symbols}
+        if more == symbols:
+            return symbols
+        symbols = more
+
+
+def parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
+    """Return the free parameters on which the relations and the letters with these names depend."""
+    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    values += [
+        model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
+    ]
+    return sorted(reached(values, model.where) - {symbol for symbol, _ in model.where}, key=str)
+
+
+def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
+    """Add what the symbols of `where` are at a point; each may use any other that doesn't depend on it."""
+    point = dict(values)
+    for symbol, value in ordered(model.where):
+        value_there = sympy.sympify(value).xreplace(point)
+        if not value_there.free_symbols:
+            point[symbol] = value_there
+    return point
+
+
+def points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
+    """Yield exact values of the free parameters at a few points of their domain, the same ones in every run."""
+    chance = random.Random(20240)  # noqa: S311  points of a proof, not secrets
+    for _ in range(SAMPLES):
+        yield {s: sympy.Rational(DOMAINS[_domain(s, model)](chance)) for s in parameters}
+
+
+def _domain(symbol: Value, model: Model) -> str:
+    return model.domains.get(str(symbol), "positive" if symbol.is_positive else "real")
+
+
+def _violated(sign: str, difference: Value) -> bool | None:
+    """Say whether left - right = difference breaks the relation; None if it has no value."""
+    if difference.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
+        return None
+    if not difference.is_Rational:
+        number = sympy.N(sympy.expand(difference) if difference.has(sympy.I) else difference, 40)
+        if not number.is_number or not number.is_finite:
+            return None
+        if not number.is_real and abs(number) > sympy.Float("1e-30"):
+            return True
+        difference = sympy.Integer(0) if abs(number) < sympy.Float("1e-30") else number
+    broken = {
+        "=": difference != 0,
+        "!=": difference == 0,
+        "<": difference >= 0,
+        "<=": difference > 0,
+        ">": difference <= 0,
+        ">=": difference < 0,
+    }
+    return bool(broken[sign])
+
+
+def _counterexample(relations: list[Relation], model: Model, names: tuple[str, ...], *, shrink: bool) -> dict[str, str]:
+    """Return an exact point that breaks a relation, or one where a relation has no value at any; {} if there is none.
+
+    names  the letters to be shown, where they have a value at that point
+    """
+    valued = [False] * len(relations)
+    free: dict[Value, Value] = {}
+    for free in points(parameters(relations, model, names), model):
+        values = completed(free, model)
+        for number, relation in enumerate(relations):
+            for entry in range(len(relation.left)):
+                broken = breaks(relation, entry, values)
+                valued[number] |= broken is not None
+                if broken:
+                    if shrink:
+                        values = simplest(relation, entry, free, model)
+                    return _describe(relation, entry, model, names, values)
+    for number, relation in enumerate(relations):
+        if not valued[number] and relation.left:
+            ones = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in free}
+            shown = _describe(relation, 0, model, names, completed(ones, model))
+            return {**shown, "left": "no value: 0/0", "right": "no value: 0/0"}
+    return {}
+
+
+def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
+    """Say whether one component of a relation is broken at a point; None if it has no value there."""
+    difference = sympy.sympify(relation.left[entry]).xreplace(values) - sympy.sympify(relation.right[entry]).xreplace(
+        values
+    )
+    return _violated(relation.sign, difference)
+
+
+def simplest(relation: Relation, entry: int, free: dict[Value, Value], model: Model) -> dict[Value, Value]:
+    """Replace the parameters of a counterexample one by one by 0, 1, 2, as far as it stays one."""
+    for symbol in free:
+        for value in _SIMPLE[_domain(symbol, model)]:
+            simpler = {**free, symbol: sympy.Rational(value)}
+            if breaks(relation, entry, completed(simpler, model)):
+                free = simpler
+                break
+    return completed(free, model)
+
+
+def _describe(
+    relation: Relation, entry: int, model: Model, names: tuple[str, ...], values: dict[Value, Value]
+) -> dict[str, str]:
+    """Return the letters of a relation and its two sides at a point; of a family, those that aren't 0."""
+    texts: dict[str, str] = {}
+    for name in dict.fromkeys((*relation.letters, *names)):
+        value = model.letters.get(name, sympy.Symbol(name, real=True))
+        if isinstance(value, dict):
+            plain = any(isinstance(key, int) for key in value)
+            family = {key: _show(v, values) for key, v in value.items() if isinstance(key, int) or not plain}
+            not_zero = {key: shown for key, shown in family.items() if shown.strip("[]0, ")}
+            texts |= {f"{name}[{str(key).strip('()').replace(' ', '')}]": shown for key, shown in not_zero.items()}
+            if len(not_zero) < len(family):
+                texts[f"any other {name}"] = "0"
+        elif isinstance(value, sympy.MatrixBase | sympy.Expr) and value.free_symbols <= set(values):
+            texts[name] = _show(value, values)
+    own = set(model.letters) - set(COMMON) - set(texts)
+    texts |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in own}
+    sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.left, relation.right)]
+    component = f" (component {entry + 1})" if len(relation.left) > 1 else ""
+    return {**texts, "relation": relation.text + component, "left": sides[0], "right": sides[1]}
+
+
+def _text(value: Value) -> str:
+    if value.is_Rational:
+        return str(value)
+    return "no value" if value.has(sympy.nan, sympy.zoo, sympy.oo) else str(sympy.N(value, 17))
+
+
+def _show(value: Value, values: dict[Value, Value]) -> str:
+    if isinstance(value, sympy.MatrixBase):
+        rows = [[_text(entry.xreplace(values)) for entry in row] for row in value.tolist()]
+        return str([row[0] for row in rows] if value.shape[1] == 1 else rows).replace("'", "")
+    return _text(sympy.sympify(value).xreplace(values))
+
+
+def _prove(relation: Relation, model: Model) -> str:
+    """Prove a relation and return how; empty if it can't."""
+    how = "identity"
+    where = resolved(model.where)
+    for left, right in zip(relation.left, relation.right, strict=True):
+        difference = sympy.sympify(left) - sympy.sympify(right)
+        if relation.sign == "=":
+            how = "polynomial identity" if vanishes(difference, where) else ""
+        else:
+            value = difference.xreplace(where)
+            signs = {">": [value], ">=": [value], "<": [-value], "<=": [-value], "!=": [value, -value]}[relation.sign]
+            strict = relation.sign not in {"<=", ">="}
+            how = "one sign throughout" if any(positive(sign, strict=strict) for sign in signs) else ""
+        if not how:
+            return ""
+    return how

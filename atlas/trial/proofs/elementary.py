@@ -1,0 +1,426 @@
+"""Section V, second half, on trial: the rotation matrix in elementary functions, (73) to (88)."""
+
+from dataclasses import replace
+
+import sympy
+
+from atlas.trial.proofs.model import Model, Value, cross, direction, hat, rodrigues, turn, vector
+from atlas.trial.proofs.notation import sides
+from atlas.trial.proofs.quadric import SIGNS as QUADRIC_SIGNS
+from atlas.trial.proofs.quadric import I, constant_omega3, omega1, omega2, omega3
+from atlas.trial.proofs.tex import UnreadableError
+from atlas.trial.proofs.trial import Falsehood, Part, Trial, mended, read
+
+b, I2 = sympy.symbols("b I2", positive=True)
+B2, B3 = sympy.symbols("B2 B3", positive=True)
+hB2, hB3, k, phi, t, k0, c, amplitude, u, p, q, h = sympy.symbols("hB2 hB3 k phi t k0 c amplitude u p q h", real=True)
+ck, sk, cf, sf, c0, s0 = sympy.symbols("ck sk cf sf c0 s0", real=True)
+gamma = g1, g2, g3 = vector("g")
+
+SIGNS = QUADRIC_SIGNS | {
+    r"\hat{\mathbf{B}}": "hat_B",
+    r"\phi_B": "phiB",
+    "k_B": "kB",
+    r"R_{\hat{\mathbf{B}}}(t,k)": "P",
+    r"R_{OZ}(t,\phi)": "Q",
+    r"\lvert\mathbf{B}'\rvert": "b",
+}
+
+PHASES = {k * t: (ck, sk), phi * t: (cf, sf), k0: (c0, s0)}
+FLOW = {ck: -k * sk, sk: k * ck, cf: -phi * sf, sf: phi * cf}
+START = {ck: 1, sk: 0, cf: 1, sf: 0}
+ANGLES = [(ck, turn(p)[0]), (sk, turn(p)[1]), (cf, turn(q)[0]), (sf, turn(q)[1]), (c0, turn(h)[0]), (s0, turn(h)[1])]
+# the unit vector of the field by the tangent u of half its angle with e3, its length b
+FIELD = [(B2, b * hB2), (B3, b * hB3), (hB2, turn(u)[1]), (hB3, turn(u)[0])]
+K_OF_OMEGA2 = (k, omega2 / hB2)
+ON_HYPERBOLA = [(omega3, constant_omega3().subs(omega1, 0))]
+PHI = (phi, omega3 - B3 / B2 * omega2)
+CONSTANTS = {"hB2": hB2, "hB3": hB3, "B2": B2, "B3": B3, "k": k, "phi": phi, "t": t, "k0": k0, "c": c}
+CONSTANTS |= {"amp": amplitude, "I": I, "I2": I2, "omega2": omega2, "omega3": omega3}
+SPIN = sympy.Matrix([omega2 * sf, omega2 * cf, omega3])
+TENSOR, MASS = I2 * sympy.diag(1, 1, I), I2 * sympy.diag(I, I, 2 - I) / 2
+DOMAINS = {"u": "unit"}
+
+
+def precession() -> Value:
+    """Rotation about the field by the angle k t, as (85) writes it."""
+    return sympy.Matrix(
+        [
+            [ck, -hB3 * sk, hB2 * sk],
+            [hB3 * sk, hB2**2 + hB3**2 * ck, hB2 * hB3 * (1 - ck)],
+            [-hB2 * sk, hB2 * hB3 * (1 - ck), hB3**2 + hB2**2 * ck],
+        ]
+    )
+
+
+PROPER = sympy.Matrix([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
+
+
+def _model(
+    letters: dict[str, Value], where: list[tuple[Value, Value]], flow: dict[Value, Value] | None = None
+) -> Model:
+    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS)
+
+
+def velocity_model() -> Model:
+    """K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for it."""
+    letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
+    return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
+
+
+def row_model() -> Model:
+    """Model A row of any turning matrix: dR/dt = R hat(Omega)."""
+    Omega, row = vector("Omega"), vector("gamma")
+    rate = (row.T * hat(Omega)).T
+    return Model({"gamma": row, "Omega": Omega, "dgamma": rate, "omega3": Omega[2]})
+
+
+def integral_model() -> Model:
+    """Any row that obeys (75) with Omega of (73); c is what (76) says at that state."""
+    rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
+    letters = {"Omega": SPIN, "gamma": gamma}
+    letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
+    return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD], {**FLOW, **rows})
+
+
+def ratio_model() -> Model:
+    """B = (2c/mu) B', and its unit vector."""
+    mu, light = sympy.symbols("mu light", positive=True)
+    letters = {"Bl2": 2 * light / mu * b * hB2, "Bl3": 2 * light / mu * b * hB3}
+    return _model(letters, [*FIELD])
+
+
+def rows_model() -> Model:
+    """Model the constant c of (76) for the three rows of R(0) = 1."""
+    value = SPIN.subs(START)
+    return _model({"c": sympy.Matrix([value[0], value[1], hB3 * omega2 / hB2])}, [*FIELD])
+
+
+def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
+    """Return A row by (78) and (80)."""
+    third = size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
+    rate = -k * size * (sk * phase[0] + ck * phase[1])
+    rest = constant - hB3 * omega2 / hB2 * third
+    return (
+        sympy.Matrix([SPIN[0] * rest + SPIN[1] * rate, SPIN[1] * rest - SPIN[0] * rate, omega2**2 * third]) / omega2**2
+    )
+
+
+def solution_model() -> Model:
+    """Model the row of (78) and (80), for any constants."""
+    row = _row(c, amplitude, (c0, s0))
+    letters = {"gamma": row, "Omega1": SPIN[0], "Omega2": SPIN[1]}
+
+    def begin(constant: Value, size: Value, angle: Value) -> Value:
+        return _row(constant, size, (sympy.cos(angle), sympy.sin(angle))).subs(START)
+
+    letters["row"] = begin
+    return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
+
+
+def matrix_model() -> Model:
+    """Omega of (73), the field B', and the moments of the body."""
+    letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
+    letters |= {
+        "rod": rodrigues,
+        "hat_B": sympy.Matrix([0, hB2, hB3]),
+        "P": precession(),
+        "Q": PROPER,
+        "e3": sympy.Matrix([0, 0, 1]),
+    }
+    letters["m"] = precession() * PROPER * TENSOR * SPIN
+    letters["dm"] = -2 * cross(letters["R"] * MASS * letters["R"].T * letters["Bp"], letters["R"] * SPIN)
+    return _model(letters, [*ON_HYPERBOLA, PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
+
+
+def steady_momentum_model() -> list[Model]:
+    """Model the same for a ball, and at rest."""
+    whole = matrix_model()
+    known = (I, sympy.Integer(1)), (omega2, sympy.Integer(0))
+    return [replace(whole, where=[*whole.where, pair]) for pair in known]
+
+
+def resting_row_model() -> Model:
+    """Model A row of the matrix of a body at rest."""
+    whole = row_model()
+    rest = dict.fromkeys(whole.letters["Omega"], sympy.Integer(0))
+    return Model({f"dgamma{n}": whole.letters[f"dgamma{n}"].xreplace(rest) for n in (1, 2, 3)})
+
+
+def frequencies_model() -> Model:
+    """Phi of (72) with omega2 = k_B hat B2."""
+    kB = sympy.Symbol("kB", real=True)
+    I3 = sympy.Symbol("I3", positive=True)
+    letters = {"phiB": omega3 - B3 / B2 * omega2, "kB": kB, "b": b, "I3": I3}
+    return _model(letters, [*ON_HYPERBOLA, (omega2, kB * hB2), (I, I3 / I2), *FIELD])
+
+
+def free_model() -> Model:
+    """Model the free body launched with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is whatever (87) says."""
+    I3 = sympy.Symbol("I3", positive=True)
+    spin = sympy.Matrix([omega2 * sf, omega2 * cf, I2 * omega2 * B3 / (I3 * B2)])
+    body = sympy.diag(I2, I2, I3)
+    letters = {"Omega": spin, "R": precession() * PROPER, "J": body, "I3": I3, "kB": k, "Bp": sympy.Matrix([0, B2, B3])}
+    letters["Omega0"] = spin.subs(START)
+    where = [K_OF_OMEGA2, *ANGLES, *FIELD]
+    return _model(letters, where)
+
+
+def free_frequency_model() -> list[Model]:
+    """Model launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
+    speed, hB2 = sympy.symbols("speed hB2", positive=True)
+    cases = []
+    for sign in (1, -1):
+        k = sign * speed / hB2
+        letters = {"size": I2 * speed / hB2, "omega2": sign * speed, "k": k, "kB": k, "hB2": hB2, "I2": I2}
+        cases.append(Model(letters, [(hB2, turn(u)[1])], domains=DOMAINS))
+    return cases
+
+
+POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
+MOTION = f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
+_AT_REST = r"At $\omega_2 = 0$ it reads $0/0$: the body is at rest, and @(84) says so."
+
+
+def hidden_model() -> Model:
+    """Model the field B = (2c/mu) B' for any mu > 0, and its length."""
+    mu, light = sympy.symbols("mu light", positive=True)
+    scale = 2 * light / mu * b
+    return _model({"Bl2": scale * hB2, "Bl": scale}, [K_OF_OMEGA2, *FIELD])
+
+
+def free_body_model() -> Model:
+    """Model any motion of the free symmetrical body: third axis a, angular velocity omega, in the laboratory."""
+    a, m = vector("a"), vector("m")
+    I3 = sympy.Symbol("I3", positive=True)
+    omega = m / I2 + (1 / I3 - 1 / I2) * a.dot(m) * a
+    where = list(zip(a, direction(), strict=True))
+    return Model(
+        {"a": a, "m": m, "omega": omega, "I2": I2, "I3": I3, "B": hat},
+        where,
+        dict(zip(a, cross(omega, a), strict=True)),
+    )
+
+
+def free_proper_model() -> Model:
+    """Model the free body of the affirmation: its rate of proper rotation is Omega3 less the part of m/I2 along e3."""
+    model = free_model()
+    I3 = model.letters["I3"]
+    m = sympy.Matrix([0, I2 * omega2, I3 * model.letters["Omega0"][2]])
+    letters = {"m3": m[2], "I3": I3, "phi": model.letters["Omega0"][2] - m[2] / I2, "kB": k}
+    return _model(letters, [K_OF_OMEGA2, *FIELD])
+
+
+def _rows(line: str) -> str:
+    """Return what the constants c, b, k0 of three rows say of them: row(c, b, k0) is the row at t = 0."""
+    letters, values = zip(*((sides(row)[0], sides(row)[1:]) for row in line.split("; ")), strict=True)
+    if letters != ("c", "amp", "k0") * 3:
+        raise UnreadableError("three rows of the constants c, b, k0 are not what stands here")
+    first = [value[0] for value in values]
+    rows = [f"row({', '.join(first[3 * n : 3 * n + 3])}) = {[int(n == m) for m in range(3)]}" for n in range(3)]
+    return "; ".join(rows + [" = ".join(value) for value in values if len(value) > 1])
+
+
+TRIALS = {
+    "(73)": Trial(
+        model=velocity_model,
+        follows=r"@(34), @(35) by substitution, with $\mathbf{K}$ of @(62), $\omega_3$ of @(71), $\phi$ of @(72)",
+        defines=("Omega",),
+        solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K)",
+    ),
+    "text-body-precession": Trial(
+        model=matrix_model,
+        follows="@(73)",
+        note=r"Clockwise for $\phi > 0$.",
+        false=Falsehood(r"It precesses counter-clockwise for $\phi > 0$", "-phi*cross", "phi*cross"),
+    ),
+    "(74)": Trial(model=row_model, signs={r"\dot{\boldsymbol{\gamma}}": "dgamma"}, follows="@(12) for one row"),
+    "(75)": Trial(
+        model=row_model,
+        signs={rf"\dot\gamma_{n}": f"dgamma{n}" for n in (1, 2, 3)},
+        follows="@(74) in components",
+    ),
+    "(76)": Trial(
+        model=integral_model,
+        defines=("c",),
+        solves="d(c) = 0",
+        follows=r"@(75) with $\boldsymbol{\Omega}$ of @(73)",
+    ),
+    "(77)": Trial(model=ratio_model, signs={"B_2": "Bl2", "B_3": "Bl3"}, follows="@(32)"),
+    "text-row-constants": Trial(
+        model=rows_model,
+        follows="@(76) at $t = 0$ for the rows of $R(0) = 1$",
+        false=Falsehood(r"The constant of the second row is the spin $\omega_3$", "c2 = omega2", "c2 = omega3"),
+    ),
+    "(78)": Trial(
+        model=integral_model,
+        follows="@(75) and @(76)",
+        grade="missing case",
+        corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
+        corrected_signs={r"\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0": ""},
+        corrected_tex=r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
+        r"\gamma_3)+\Omega_2\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}"
+        r"\gamma_3)-\Omega_1\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad"
+        r"\omega_2=0} \end{aligned}",
+        note=_AT_REST,
+    ),
+    "(79)": Trial(model=integral_model, follows="@(75), @(76) and @(78)"),
+    "(80)": Trial(
+        model=solution_model,
+        signs={"b": "amp"},
+        follows="@(79) by substitution, with two constants",
+        solves=read("(79)", SIGNS),
+        slip="(78)",
+        corrected_solves="",
+        corrected_tex=r"\boxed{k^2}\gamma_3(t)=bk^2\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
+        note=_AT_REST,
+    ),
+    "(81)": Trial(
+        model=solution_model,
+        signs={"b": "amp"},
+        follows=r"@(75) by substitution, with $\gamma_3$ of @(80)",
+        defines=("gamma1", "gamma2"),
+        solves=read("(75)", SIGNS),
+        slip="(78)",
+        corrected_defines=(),
+        corrected_solves="",
+        corrected_tex=r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt"
+        r"+k_0)-c\hat{B}_3^2]\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}"
+        r"\gamma_2&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi t+\boxed{\omega_2}"
+        r"\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t \end{aligned}",
+        note=_AT_REST,
+    ),
+    "(82)": Trial(
+        model=solution_model,
+        signs={"b": "amp"},
+        follows="@(80) and @(81) at $t = 0$",
+        slip="(78)",
+        corrected_tex=r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3"
+        r"\omega_2}{\hat{B}_2}"
+        r"\cos k_0-c\hat{B}_3^2,\quad\boxed{\omega_2}\gamma_3(0)=\omega_2b\cos k_0+c\hat{B}_2\hat{B}_3",
+        note=_AT_REST,
+    ),
+    "(83)": Trial(
+        model=solution_model,
+        signs={"b": "amp"},
+        follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
+        "with these constants",
+        slip="(78)",
+        corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
+        corrected_signs={r"\text{if}\quad\omega_2\ne0": ""},
+        form=_rows,
+        corrected_tex=mended("(83)", {"1-\\hat{B}_3^2=": ""}, r"\qquad\boxed{\text{if}\quad\omega_2\ne0}"),
+        note=r"At $\omega_2 = 0$ all three constants $c$ are 0, and @(80) and @(81) do not reach the second and the "
+        "third row: the body is at rest, and @(84) says so.",
+    ),
+    "(84)": Trial(
+        model=matrix_model,
+        signs={"": "R"},
+        follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
+        defines=("R",),
+        solves=MOTION,
+    ),
+    "text-hidden": Trial(
+        model=hidden_model,
+        signs={r"\lvert\mathbf{B}\rvert": "Bl", "B_2": "Bl2"},
+        follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
+        false=Falsehood(r"$k$ is $\omega_2$ times $\hat{B}_2$", "omega2*Bl/Bl2", "omega2*Bl2/Bl"),
+    ),
+    "(85)": Trial(model=matrix_model, follows="@(84)", defines=("R",), solves=POISSON),
+    "text-precession": Trial(
+        model=matrix_model,
+        also=("Q = rod(e3,cos(phi*t),sin(phi*t))",),
+        signs={r"[\hat{\mathbf{B}},\cdot\,]": "hat(hat_B)"},
+        follows="Rodrigues' formula",
+        false=Falsehood(
+            r"The second factor turns by $-\phi t$", "rod(e3,cos(phi*t),sin(phi*t))", "rod(e3,cos(phi*t),-sin(phi*t))"
+        ),
+    ),
+    "text-axis-precesses": Trial(
+        model=matrix_model,
+        signs={r"\mathbf{R}_3": "(R*e3)"},
+        follows="@(84)",
+        false=Falsehood(r"The third inertia axis precesses about $\mathbf{e}_3$", "k*cross(hat_B", "k*cross(e3"),
+    ),
+    "text-ball-limit": Trial(
+        model=lambda: _model({}, [*ON_HYPERBOLA, PHI, (I, sympy.Integer(1)), *FIELD]),
+        signs={r"I_2=I_3\implies": ""},
+        follows="@(71), @(72) with $I = 1$",
+        false=Falsehood("There is no proper rotation, whatever the moments", model=velocity_model),
+    ),
+    "(86)": Trial(model=frequencies_model, follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$"),
+    "text-free-general": Trial(
+        model=free_body_model,
+        signs={r"\mathbf{R}_3": "a"},
+        follows=r"$\dot{\mathbf{a}} = [\boldsymbol{\omega}, \mathbf{a}]$ for the third axis $\mathbf{a}$,"
+        r" $\mathbf{m}$ constant, $\boldsymbol{\omega}= \mathbf{m}/I_2+(1/I_3-1/I_2)(\mathbf{a},\mathbf{m})\mathbf{a}$",
+        false=Falsehood(r"The axis turns with the frequency $|\mathbf{m}|/I_3$", "1/I2*cross", "1/I3*cross"),
+    ),
+    "(87)": Trial(
+        model=free_model,
+        follows="the free Euler and Poisson equations by substitution",
+        defines=("phi",),
+        solves=f"{POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
+    ),
+    "text-affirmation-free": Trial(
+        model=free_model,
+        signs={r"\mathbf{m}": "J*at0(Omega)", r"\mathbf{B}": "Bp", "B_2": "B2", "B_3": "B3"},
+        follows="the launch of the free body",
+        false=Falsehood(
+            r"The free body is launched with an angular velocity along $\mathbf{B}$",
+            "I2*omega2*B3/(I3*B2)]",
+            "omega2*B3/B2]",
+        ),
+    ),
+    "text-free-frequency": Trial(
+        model=lambda: free_frequency_model()[0],
+        signs={r"\lvert\mathbf{m}\rvert": "size", "k_B": "kB"},
+        follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for positive $\omega_2$",
+        corrected_model=free_frequency_model,
+        false=Falsehood(r"It holds for negative $\omega_2$ as it stands", "abs(k)", "k"),
+        corrected_tex=r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}="
+        "k_B",
+        grade="missing case",
+        note=r"For $\omega_2 < 0$ the length $|\mathbf{m}|$ loses the sign; @(87) holds with $k = \omega_2/\hat{B}_2$.",
+    ),
+    "text-free-proper": Trial(
+        model=free_proper_model,
+        follows=r"@text-free-general: what is left of $\Omega_3$ when the precession is taken away",
+        false=Falsehood(
+            "A body longer than a ball turns back about its axis", "= (I2 - I3)/(I2*I3)*m3", "= (I3 - I2)/(I2*I3)*m3"
+        ),
+    ),
+    "text-momentum-moves": Trial(
+        model=matrix_model,
+        signs={r"\dot{\mathbf{m}}\ne0": "dot(dm, dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2"},
+        follows=r"@(17): the length of $d\mathbf{m}/dt$",
+        grade="missing case",
+        corrected_also=(Part(line="dm = 0", model=steady_momentum_model),),
+        corrected_signs={r"\text{if}\quad I\ne1,\ \omega_2\ne0": ""},
+        corrected_tex=mended("text-momentum-moves", {}, r"\quad\boxed{\text{if}\quad I\ne1,\ \omega_2\ne0}"),
+        note="For a ball, whose elementary motion is a steady turn about the field, and at rest it is conserved.",
+        false=Falsehood("The angular momentum is conserved", "(I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2", "0"),
+    ),
+    "text-constant-omega3": Trial(
+        model=matrix_model,
+        signs={r"\Omega_3": "Omega[3]"},
+        follows="@(73)",
+        corrected_tex=mended("text-constant-omega3", {r"\omega_2": r"\omega_3"}),
+        grade="misprint",
+        note="A wrong index.",
+    ),
+    "(88)": Trial(
+        model=matrix_model,
+        signs={r"\mathbf{B}": "Bp"},
+        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$ by substitution",
+    ),
+    "text-momentum-plane": Trial(
+        model=matrix_model,
+        signs={r"\mathbf{B}": "Bp"},
+        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$",
+        corrected_tex=mended("text-momentum-plane", {"(t)": r"(t)\boxed{-\mathbf{m}(0)}"}),
+        grade="wording",
+        note=r"The projection is constant, not zero: only the tip of $\mathbf{m}$ stays in a plane orthogonal to "
+        r"$\mathbf{B}$.",
+    ),
+}

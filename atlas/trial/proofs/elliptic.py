@@ -1,0 +1,189 @@
+"""The paper's family for a body with any three moments of inertia, on trial."""
+
+import sympy
+from sympy.polys.matrices import DomainMatrix
+
+from atlas.trial.proofs.clebsch import AXES, MOMENTS, K, M, determinant
+from atlas.trial.proofs.model import Model, Value, cross, dot
+from atlas.trial.proofs.notation import sides
+from atlas.trial.proofs.trial import Falsehood, Part, Trial, read
+
+SIGNS = {
+    "M": "M[]",
+    "K": "K[]",
+    "I_i": "I[i]",
+    "x": "x[]",
+    "b^2": "dot(K, K)",
+    r"\sum_i": "sum over i",
+    "P'": "P1",
+    # x_i (x_j + x_k) - x_j x_k, with i, j, k all different
+    "x_ix_j+x_ix_k-x_jx_k": "(x[i]*(x[1] + x[2] + x[3] - x[i]) - x[1]*x[2]*x[3]/x[i])",
+}
+z = sympy.Symbol("z", positive=True)
+v, D, ONE = sympy.Symbol("v", real=True), determinant(AXES), sympy.eye(3)
+X = sympy.diag(*(z + D / moment for moment in MOMENTS))
+P = sympy.expand(X.det())
+LETTERS = {"M": M, "K": K, "J": AXES, "D": D, "z": z, "v": v, "P": P, "P1": P.diff(z), "P2": P.diff(z, 2)}
+LETTERS |= {"I": dict(enumerate(MOMENTS, 1)), "x": dict(enumerate(X.diagonal(), 1)), "one": ONE}
+LETTERS |= {"e2": sum(D / moment for moment in MOMENTS), "s": dot(K, X.inv() * K), "elliptic": -v * X.inv() * K}
+LETTERS |= {f"I{n}": moment for n, moment in enumerate(MOMENTS, 1)} | {"g": AXES.trace() / 2 * ONE - AXES}
+
+
+def energy(momentum: Value) -> Value:
+    """Return H of theorem-lie-poisson."""
+    return dot(momentum, AXES.inv() * momentum) / 2 + dot(K, AXES * K) / 2
+
+
+def clebsch(momentum: Value) -> Value:
+    """Return F of theorem-clebsch."""
+    return dot(momentum, momentum) - D * dot(K, AXES.inv() * K)
+
+
+def elliptic_model() -> Model:
+    """Model any K of a body with principal moments, any z and v, with K turned as the theorem says."""
+    return Model(LETTERS, flow=dict(zip(K, cross(K, -v * (z * AXES + D * ONE).inv() * K), strict=True)))
+
+
+def integrals_model() -> Model:
+    """Model any M and K of a body with principal moments, and any z and v."""
+    letters = {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
+    letters["normal"] = X.inv() * (LETTERS["P1"] * ONE - 2 * P * X.inv()) * K
+    return Model({**LETTERS, **letters, "X": X})
+
+
+def root_model(*, elliptic: bool = False) -> Model:
+    """Model the same for v^2 = P, with the integrals at M, or at the elliptic motion's own."""
+    momentum = LETTERS["elliptic"] if elliptic else M
+    letters = {"H": energy(momentum), "F": clebsch(momentum), "c": dot(momentum, K)}
+    return Model({**LETTERS, **letters}, [(v, sympy.sqrt(P))], ranges={"i": (1, 2, 3)})
+
+
+def edge_model() -> list[Model]:
+    """Model any M and K of a body whose third moment is the largest."""
+    first, second = sympy.symbols("first second", nonnegative=True)
+    (I1, I2, I3), cases = MOMENTS, []
+    for order in ({I2: I1 + first, I3: I1 + first + second}, {I1: I2 + first, I3: I2 + first + second}):
+        letters = {**LETTERS, "H": energy(M), "F": clebsch(M)}
+        swapped = {name: value.xreplace(order) for name, value in letters.items() if isinstance(value, sympy.Basic)}
+        cases.append(Model({**letters, **swapped}, domains={"first": "positive", "second": "positive"}))
+    return cases
+
+
+def critical_model() -> Model:
+    """Model the values of F and 2 D H on the elliptic motions as functions of z, with v' = P'/2v, at any b and c."""
+    b, c = sympy.symbols("b c", real=True)
+    letters = {name: LETTERS[name] for name in ("z", "v", "D", "e2", "P1", "P2")} | {"b": b, "c": c, "P": v**2}
+    letters["C"] = 4 * b**2 * v**2 - c / v * (LETTERS["P1"] ** 2 - 2 * v**2 * LETTERS["P2"])
+    return Model(letters, flow={z: sympy.Integer(1), v: LETTERS["P1"] / (2 * v)})
+
+
+def linear_model() -> Model:
+    """Model the flow of half the sum of squares, linear about x_i M_i = -v K_i.
+
+    Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, which makes all of it polynomials.
+    """
+    w, k, lam = sympy.symbols("w1:4"), sympy.symbols("k1:4"), sympy.Symbol("lam")
+    first, second, third = (root**2 for root in w)
+    x, y = sympy.diag(first, second, third), sympy.diag(second * third, first * third, first * second)
+    letters = {"lam": lam, "x": {1: first, 2: second, 3: third}, "K": sympy.Matrix([k[i] * w[i] for i in range(3)])}
+    rates = sympy.Matrix([*(cross(M, x * M) + cross(K, y * K)), *cross(K, x * M)])
+    start = {M[i]: -k[i] * w[i - 1] * w[i - 2] for i in range(3)} | {K[i]: k[i] * w[i] for i in range(3)}
+    flow = DomainMatrix.from_Matrix(rates.jacobian([*M, *K]).subs(start, simultaneous=True))
+    letters["rates"] = rates.subs(start, simultaneous=True)
+    letters["char"] = sum(flow.domain.to_sympy(c) * lam**n for n, c in enumerate(reversed(flow.charpoly())))
+    return Model(letters)
+
+
+_SPLITTING = read("theorem-splitting", SIGNS | {r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"})
+_C = sides(_SPLITTING.split("; ")[3])[1]
+
+TRIALS = {
+    "theorem-elliptic": Trial(
+        model=elliptic_model,
+        follows=r"@(16) and @(35), for any $v$",
+        signs={
+            "x": "x",
+            r"v^2=P": "P",
+            r"(zJ+D)^{-1}": "inv(z*J + D*one)",
+            r"[1+v(zJ+D)^{-1}]": "(one + v*inv(z*J + D*one))",
+        },
+        defines=("Omega", "E", "P"),
+        solves="d(K) = cross(K,Omega); J*d(Omega) - cross(J*Omega,Omega) + 2*cross(g*K,Omega)"
+        " = (1 - v^2/P)*cross(J*K,K)",
+        note=r"What is left of @(16) vanishes for $v^2=P$, and from a start there is but one solution. For another $v$ "
+        r"it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
+        false=Falsehood("The moments add, with no $z$", "z + D/I[1]", "D/I[1]"),
+    ),
+    "theorem-splitting": Trial(
+        model=root_model,
+        follows="$H$ and $F$, and the characteristic polynomial of the linear flow",
+        signs={r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"},
+        defines=("C",),
+        elsewhere={2: linear_model, 3: linear_model},
+        also=(
+            Part(line="rates[n] = 0", model=linear_model),
+            Part(
+                line=f"4*dot(K,K)*P + s*(P1^2 - 2*P*P2) = {_C};"
+                " P1^2 - 2*P*P2 = (x[2]*x[3])^2 - 2*x[2]*x[3]*x[1]*(x[2] + x[3]) + x[1]^2*(x[2] - x[3])^2",
+                model=integrals_model,
+            ),
+            Part(
+                line="dot(normal,X*m + v*k) = 2*v*(dot(elliptic,m) - D*dot(K,inv(J)*k)) + P1*(dot(elliptic,k)"
+                " + dot(K,m)) + 2*v*(2*z + e2)*dot(K,k) + 2*(v^2 - P)*dot(K,inv(X)*m);"
+                " dot(normal,X*normal) = 4*dot(K,K)*P + s*(P1^2 - 2*P*P2)",
+                model=integrals_model,
+            ),
+        ),
+        note="The sum of squares is conserved, whatever the motion, because $H$, $F$ and the Casimirs are. If all "
+        "$x_i>0$, on the unbounded oval, it is small only near the motions with $x_iM_i=-vK_i$, so that neighbours "
+        r"stay near the curves that $\mathbf{K}$ draws on them. The motion itself is stable where it is all of its "
+        r"curve: not for $z=0$, where $\mathbf{K}$ stands still at a place of a whole curve, and not where "
+        r"$\mathbf{K}$ is on a separatrix or at its middle axis. On the bounded oval "
+        "let $x_1>0>x_2,x_3$: there $P'^2-2PP''$ has positive terms only, and $C=4b^2P+s(P'^2-2PP'')>0$ wherever "
+        r"$s=-(\mathbf{M},\mathbf{K})/v>0$. For $C>0$ the squares are of one sign across the curve of the motion: if "
+        r"$F$ and the Casimirs do not change, the last line but one says for a small change $(\mathbf{m},\mathbf{k})$ "
+        r"that $y_i=x_im_i+vk_i$ is across a vector $\mathbf{n}$, and the last one that $\sum x_in_i^2=C$. On the "
+        r"plane across $\mathbf{n}$ the form $\sum y_i^2/x_i$ has the discriminant $\sum x_in_i^2/P$, but for a "
+        "square, and so is definite if $C>0$, and has both signs if $C<0$, where the flow of $DH+zF/2$ has a saddle. "
+        "Not proved is that neighbours leave *in time* at those single places of an unstable stretch "
+        "where the rate in time is zero.",
+        false=Falsehood(
+            "The flow of $DH+zF/2$ has no eigenvalue but 0, so that stability is never decided by it",
+            "lam^4*(lam^2 + C)",
+            "lam^6",
+        ),
+    ),
+    "theorem-bifurcation": Trial(
+        model=critical_model,
+        follows=r"$v^2=P$, of which $dv/dz=P'/2v$ is used; $G=2DH$",
+        signs={
+            "b^2": "b^2",
+            "2DH": "G",
+            r"\frac{dF}{dz}": "d(F)",
+            r"\frac{dH}{dF}": "d(G)/(2*D*d(F))",
+            r"\frac{d^2H}{dF^2}": "d(d(G)/(2*D*d(F)))/d(F)",
+        },
+        defines=("F", "G"),
+        also=(
+            Part(
+                line="; ".join(read("theorem-bifurcation", SIGNS).split("; ")[:2]),
+                model=lambda: root_model(elliptic=True),
+            ),
+        ),
+        note="The second line is that an elliptic motion has these $F$ and $H$. The curve turns back in a cusp where "
+        "$C=0$, and is convex, as $H$ over $F$, where $C>0$.",
+        false=Falsehood("The slope does not depend on the place on the curve", " = -z/(2*D)", " = -e2/(2*D)"),
+    ),
+    "theorem-edge": Trial(
+        model=edge_model,
+        follows=r"$H$ and $F$",
+        note=r"For $I_3$ the largest moment the right side is not negative, and it is 0 for $\mathbf{M}=(0,0,M_3)$, "
+        r"$\mathbf{K}=(K_1,K_2,0)$, which is as $(\mathbf{M},\mathbf{K})=0$ asks: the body swings or turns about its "
+        r"third axis, which stays across the field, as a plane pendulum.",
+        false=Falsehood(
+            "The bound is the energy of the spin about the axis of the largest moment along the field",
+            "(I1 + I2)*K^2",
+            "I3*K^2",
+        ),
+    ),
+}

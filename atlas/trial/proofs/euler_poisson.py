@@ -1,0 +1,360 @@
+"""Section II, second half, on trial: Euler-Poisson equations for any rotation and any inertia tensor, (10) to (18)."""
+
+from functools import cache
+
+import sympy
+
+from atlas.trial.proofs.model import (
+    Model,
+    Value,
+    cross,
+    dot,
+    hat,
+    matrix,
+    rotation,
+    rotation_symbols,
+    symmetric,
+    vector,
+)
+from atlas.trial.proofs.notation import sides
+from atlas.trial.proofs.trial import Falsehood, Trial, mended, read
+
+SIGNS = {
+    "c": "light",
+    "B": "Bf[]",
+    r"\mathbf{B}": "Bf",
+    r"\lambda": "Lam[]",
+    r"\dot R": "dR[]",
+    r"\ddot R": "ddR[]",
+    r"I\dot{\boldsymbol{\Omega}}": "IdOmega",
+    r"I_{ka}\dot\Omega_a": "IdOmega[k]",
+    r"(\mathbf{B}R\boldsymbol{\Omega})": "dot(Bf, R*Omega)",
+    r"(\mathbf{B}R)_a": "(T(R)*Bf)[a]",
+}
+RIGHT_OF_11 = sides(read("(11)", SIGNS))[1]
+
+(R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
+mu, c = sympy.symbols("mu c", positive=True)
+g = symmetric("g")
+moments = g.trace() * sympy.eye(3) - g
+COMMON = {"R": R, "Omega": Omega, "Bf": Bf, "mu": mu, "light": c}
+
+
+def _antisymmetric(S: Value) -> Value:
+    return sympy.Matrix([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
+
+
+@cache
+def multiplier_model() -> Model:
+    """(10) with any matrix A, and Lam, the multipliers that it needs: (10) holds if and only if Lam is symmetric.
+
+    R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is what the symmetry of Lam makes of I w.
+    """
+    A, w = matrix("A"), vector("w")
+    Lam = -(hat(Omega) ** 2 + hat(w) + R.T * A) * g
+    skew = _antisymmetric(Lam)
+    slope = skew.jacobian(w)
+    rest = skew.xreplace(dict.fromkeys(w, 0))
+    solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * rest
+    letters = {"A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved}
+    return Model({**COMMON, **letters, "ddR": R * (hat(Omega) ** 2 + hat(w))}, ROTATION)
+
+
+def mirrored_model() -> Model:
+    """Model the same for minus a rotation: every orthogonal matrix of the determinant -1."""
+    whole = multiplier_model()
+    minus = {entry: -entry for entry in R}
+    letters = {
+        name: value.xreplace(minus) for name, value in whole.letters.items() if isinstance(value, sympy.MatrixBase)
+    }
+    return Model({**whole.letters, **letters}, ROTATION)
+
+
+def magnetic_model() -> Model:
+    """Model the magnetic force of (7) as the matrix A, and I times the rate of Omega from (11)."""
+    letters, dR = multiplier_model().letters, R * hat(Omega)
+    force = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
+    return Model({**letters, "dR": dR}, [*zip(letters["A"], force, strict=True), *ROTATION])
+
+
+def euler(tensor: Value, mass: Value, field: Value) -> Value:
+    """I times the rate of Omega, (16) as proved, with the field seen from the body."""
+    return cross(tensor * Omega, Omega) - mu / c * cross(mass * field, Omega)
+
+
+def momentum_model() -> Model:
+    """Angular momentum in both frames, with the rates that (16) and (12) give them.
+
+    M is any vector and J any symmetric matrix, the inverse of I: Omega = J M. More isn't needed of them.
+    """
+    M, J = vector("M"), symmetric("J")
+    spin = J * M
+    rate = cross(M, spin) - mu / c * cross(g * R.T * Bf, spin)
+    letters = {
+        "I": sympy.ImmutableMatrix(moments),
+        "inv": {sympy.ImmutableMatrix(moments): J}.__getitem__,
+        "g": g,
+        "M": M,
+        "m": R * M,
+    }
+    return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION)
+
+
+def poisson_model() -> Model:
+    """Any moving rotation: R changes with its three parameters; Omega is read off R^T dR/dt."""
+    R = rotation()
+    parameters = sympy.symbols("q1:4", real=True)
+    flow = dict(zip(parameters, sympy.symbols("p1:4", real=True), strict=True))
+    dR = R.applyfunc(lambda entry: sum((entry.diff(q) * p for q, p in flow.items()), sympy.Integer(0)))
+    W = (R.T * dR).applyfunc(sympy.cancel)
+    start = dict.fromkeys(parameters, sympy.Integer(0))
+    return Model({"R": R, "Omega": sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])}, flow=flow, start=start)
+
+
+def matrix_flow_model() -> Model:
+    """Any matrix that obeys (12)."""
+    free = matrix("R")
+    return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)))
+
+
+def diagonal_model() -> Model:
+    """Principal axes: I and g are diagonal, made of three masses on the axes."""
+    g1, g2, g3 = sympy.symbols("g1:4", positive=True)
+    diagonal = sympy.diag(g1, g2, g3)
+    tensor = diagonal.trace() * sympy.eye(3) - diagonal
+    K = vector("K")
+    letters = {"g": diagonal, "I": tensor, "K": K, "Omega": Omega, "g1": g1, "g2": g2, "g3": g3}
+    letters |= {f"I{n + 1}": tensor[n, n] for n in range(3)}
+    return Model(letters)
+
+
+def axes_model() -> Model:
+    """Three masses on the principal axes, turned by R: their inertia tensor in the laboratory."""
+    masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", positive=True)
+    turned = [R.col(n) * x for n, x in enumerate(places)]
+    tensor = sum((m * (dot(x, x) * sympy.eye(3) - x * x.T) for m, x in zip(masses, turned, strict=True)), R * 0)
+    moments = [m * x**2 for m, x in zip(masses, places, strict=True)]
+    letters = {"R": R, "turned": tensor, "I": sympy.diag(*(sum(moments) - moment for moment in moments))}
+    letters |= {"column": {n + 1: R.col(n) for n in range(3)}, "e": {n + 1: sympy.eye(3).col(n) for n in range(3)}}
+    letters["moment"] = {n + 1: letters["I"][n, n] for n in range(3)}
+    start = dict(zip(R, sympy.eye(3), strict=True))
+    return Model(letters, ROTATION, start=start, ranges={"i": (1, 2, 3)})
+
+
+def inertia_model() -> Model:
+    """Model the inertia tensor from the kinetic energy of four particles that turn with Omega."""
+    masses = sympy.symbols("m1:5", positive=True)
+    places = [vector(f"x{n}_") for n in range(1, 5)]
+    energy = sum(m * Omega.cross(x).dot(Omega.cross(x)) for m, x in zip(masses, places, strict=True)) / 2
+    mass = sum((m * x * x.T for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 3))
+    return Model({"I": sympy.hessian(sympy.expand(energy), list(Omega)), "g": mass})
+
+
+def grioli_model() -> Model:
+    """B along e3; G3 is the third row of R."""
+    b = sympy.Symbol("b", positive=True)
+    field = sympy.Matrix([0, 0, b])
+    return Model(
+        {**COMMON, "I": moments, "g": g, "Bf": field, "G3": R.row(2).T, "IdOmega": euler(moments, g, R.T * field)},
+        ROTATION,
+    )
+
+
+def algebraic_model() -> Model:
+    """Principal axes, any matrix A; IdOmega is what (11) makes of the rate of Omega."""
+    whole = multiplier_model()
+    swap = {g[i, j]: 0 for i in range(3) for j in range(3) if i != j}
+    letters = {**whole.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
+    return Model({**letters, "IdOmega": whole.letters["IdOmega"].xreplace(swap)}, ROTATION)
+
+
+def moments_model() -> list[Model]:
+    """Any body with its three moments of mass, and a plane one."""
+    g1, g2, g3 = sympy.symbols("g1:4", positive=True)
+    cases = []
+    for third in (g3, sympy.Integer(0)):
+        letters = {"g1": g1, "g2": g2, "g3": third, "I1": g2 + third, "I2": g1 + third, "I3": g1 + g2}
+        letters |= {"g": sympy.diag(g1, g2, third), "I": sympy.diag(g2 + third, g1 + third, g1 + g2)}
+        cases.append(Model(letters))
+    return cases
+
+
+def covariance_model(sign: int = 1) -> Model:
+    """Model another rotation S of the laboratory, or minus one: what vectors and tensors of Section II are there."""
+    symbols, where = rotation_symbols("S")
+    letters = {"S": sign * symbols, "I": symmetric("I"), "g": symmetric("g"), "K": vector("K")}
+    return Model({**letters, "Omega": Omega, "mu": mu, "light": c}, where)
+
+
+def flight_model() -> Model:
+    """Four particles about their centre of mass; w is the rate of Omega, IdOmega that of (16) times I."""
+    masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))
+    places = {N: vector(f"x{N}_") for N in (1, 2, 3)}
+    places[4] = -sum((masses[N] * places[N] for N in places), sympy.zeros(3, 1)) / masses[4]
+    mass = sum((masses[N] * places[N] * places[N].T for N in masses), sympy.zeros(3, 3))
+    inertia = mass.trace() * sympy.eye(3) - mass
+    E, y0, velocity, w = vector("E"), vector("y"), vector("v"), vector("w")
+    letters = {**COMMON, "m": masses, "x": places, "E": E, "y0": y0, "w": w, "I": inertia}
+    letters["moved"] = {N: R * place for N, place in places.items()}
+    letters |= {
+        "y": {N: y0 + place for N, place in letters["moved"].items()},
+        "IdOmega": euler(inertia, mass, R.T * Bf),
+    }
+    rates = [*velocity, *(mu * E + mu / c * cross(velocity, Bf)), *(R * hat(Omega)), *w]
+    flow = dict(zip([*y0, *velocity, *R, *Omega], rates, strict=True))
+    start = dict(zip(R, sympy.eye(3), strict=True))
+    return Model(letters, ROTATION, flow, start, ranges={"N": (1, 2, 3, 4)})
+
+
+_LEFT, _RIGHT = r"R_{ia}(\mathbf{B}R\boldsymbol{\Omega})", r"(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a"
+_AFFIRMED = f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({RIGHT_OF_11})"
+
+TRIALS = {
+    "(10)": Trial(
+        model=multiplier_model,
+        follows="@(6) about the centre of mass, solved for the multipliers",
+        definition=True,
+        note="It leaves out the $R(0) = 1$ of @(6), see @text-affirmation.",
+    ),
+    "text-affirmation": Trial(
+        signs={r"\text{(10)}\iff\text{(11), (12)}": _AFFIRMED},
+        corrected_signs={r"\text{(10)},\ R_{ij}(0)=\delta_{ij}\iff\text{(11), (12)}": _AFFIRMED},
+        model=multiplier_model,
+        follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
+        note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
+        "every rotation, every symmetric mass matrix and every matrix $A$. That $g$ be non-degenerate is not needed, "
+        "only $I$. But @(10) says nothing of $R(0)$, where @(12) has 1: it admits any other orthogonal matrix at the "
+        "start, one of the determinant $-1$ among them, for which the identity holds too.",
+        grade="missing case",
+        corrected_model=lambda: (multiplier_model(), mirrored_model()),
+        corrected_tex=mended("text-affirmation", {r"\iff": r",\ \boxed{R_{ij}(0)=\delta_{ij}}\iff"}),
+        false=Falsehood(
+            "The Euler equations hold without their last term", " - 1/2*I[k, a]*eps[a, i, j]*A[b, i]*R[b, j]", ""
+        ),
+    ),
+    "text-multipliers-algebraic": Trial(
+        signs={
+            r"\lambda": "lam",
+            r"\hat\Omega": "hat(Omega)",
+            r"\hat w": "hat(w)",
+            r"\{\text{right side of (11)}\}": "IdOmega",
+        },
+        model=algebraic_model,
+        follows=r"@(10) with the rate of $\boldsymbol{\Omega}$ of @(11), for any matrix $A$",
+        defines=("lam", "w"),
+        solves="R*(hat(Omega)^2 + hat(w))*g = -R*lam - A*g",
+        false=Falsehood(
+            "The multipliers do not hold the centrifugal force: they are made of the angular acceleration and $A$",
+            "hat(Omega)^2 + ",
+            "",
+        ),
+    ),
+    "text-nondegenerate": Trial(
+        model=lambda: moments_model()[0],
+        follows="the moments of mass of a body that is not plane",
+        corrected_model=moments_model,
+        corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
+        slip="text-rigid",
+        false=Falsehood(
+            "The mass matrix of a plane body is not degenerate", "det(I) = I1*I2*I3 != 0", "det(g) = g1*g2*g3 != 0"
+        ),
+        note="For a plane body, the loop of Section IV, $g_3 = 0$. The Affirmation needs only that the inertia "
+        "tensor be non-degenerate, which it is for every body that is no rod.",
+    ),
+    "(11)": Trial(model=multiplier_model, follows="the symmetry of the multipliers in @(10)"),
+    "(12)": Trial(
+        signs={r"\dot R": "d(R)"},
+        model=poisson_model,
+        follows="any moving rotation, by its Cayley parameters",
+    ),
+    "text-inertia-tensor": Trial(
+        model=inertia_model,
+        follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
+        false=Falsehood("The inertia tensor is the mass matrix", "g[a, a]*delta[i, j] - g[i, j]", "g[i, j]"),
+    ),
+    "text-mass-moments": Trial(
+        model=diagonal_model,
+        follows=r"$I = \operatorname{tr}(g) - g$",
+        false=Falsehood("A moment of mass is half the sum of all moments of inertia", "I2 + I3 - I1", "I2 + I3 + I1"),
+    ),
+    "text-inertia-axes": Trial(
+        signs={r"\mathbf{R}": "column[]", r"\mathbf{e}": "e[]", "I_i": "moment[i]"},
+        also=("turned = R*I*T(R)",),
+        model=axes_model,
+        follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
+        false=Falsehood("The rows of $R$ are the axes of inertia", "turned = R*I*T(R)", "turned = T(R)*I*R"),
+    ),
+    "text-orthogonal": Trial(
+        model=matrix_flow_model,
+        follows="@(12) for any matrix $R$",
+        false=Falsehood("$R^T R$ stays what it is as well, for any matrix $R(0)$", "R*T(R)", "T(R)*R"),
+    ),
+    "text-covariance": Trial(
+        defines=("Ip", "gp", "Omegap", "Kp"),
+        also=("hat(S*Omega) = S*hat(Omega)*T(S)",),
+        model=covariance_model,
+        follows="the right side of @(16) and that of @(12), for any rotation $S$",
+        note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
+        false=Falsehood("The system is covariant under reflections as well", model=lambda: covariance_model(-1)),
+    ),
+    "text-force-matrix": Trial(
+        model=magnetic_model,
+        follows="@(12) and $R R^T = 1$",
+        corrected_tex=mended(
+            "text-force-matrix", {r"=\epsilon": r"=\boxed{-}\epsilon", f"{_LEFT}-{_RIGHT}": f"{_RIGHT}-{_LEFT}"}
+        ),
+        grade="misprint",
+        note="The minus of @(12) is lost at the first step and back in @(13).",
+    ),
+    "(13)": Trial(model=magnetic_model, follows="@(7) and @(12)"),
+    "(14)": Trial(model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
+    "(15)": Trial(
+        signs={r"R^T\mathbf{B}": "K"},
+        model=diagonal_model,
+        follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$",
+    ),
+    "text-other-components": Trial(
+        signs={r"R^T\mathbf{B}": "K"},
+        model=diagonal_model,
+        follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
+        false=Falsehood(
+            "The mass matrix may act on the angular velocity instead", "2*cross(g*K, Omega)", "2*cross(K, g*Omega)"
+        ),
+    ),
+    "(16)": Trial(model=magnetic_model, follows="@(11) with the matrix $A$ of @(7)"),
+    "(17)": Trial(
+        signs={r"\dot{\mathbf{m}}": "dm"},
+        model=momentum_model,
+        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @(12) and @(16)",
+    ),
+    "(18)": Trial(
+        signs={r"\dot{\mathbf{M}}": "dM"},
+        model=momentum_model,
+        follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @(16)",
+    ),
+    "text-grioli": Trial(
+        signs={"I'": "I", "g'": "g", r"I'\dot{\boldsymbol{\Omega}}": "IdOmega"},
+        model=grioli_model,
+        follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
+        note="What is tried is the form. That Grioli deduced these equations is history, and not tried.",
+        false=Falsehood(
+            "The torque holds the third column of $R$", "cross(g*G3, Omega)", "cross(g*[R[1,3], R[2,3], R[3,3]], Omega)"
+        ),
+    ),
+    "text-flight": Trial(
+        signs={r"\mathbf{y}_0": "y0", r"\mathbf{y}": "y[]", r"\mathbf{x}": "moved[]"},
+        model=flight_model,
+        follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "
+        "force and the torque that are not those of the constraints",
+        also=(
+            "R*(I*w - IdOmega) = m[N]*cross(R*x[N], d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))",
+            "0 = m[N]*(d2(y[N]) - mu*E - mu/light*cross(d(y[N]),Bf))",
+        ),
+        note=r"Both vanish if @(4) holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @(16), and only then. "
+        "A force that is for all particles in proportion to their masses has no torque about the centre of "
+        "mass, and is left out of it.",
+        false=Falsehood(
+            "The magnetic force has no torque about the centre of mass", "mu/light*cross(d(y[N]),Bf)", "mu*E"
+        ),
+    ),
+}

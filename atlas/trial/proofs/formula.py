@@ -1,0 +1,68 @@
+"""The true form of an equation as something to compute with, so that other floors can be held against the ledger."""
+
+import ast
+from itertools import product
+from typing import Any
+
+import sympy
+
+from atlas.errors import AtlasError
+from atlas.trial.ledger import equation
+from atlas.trial.proofs.model import COMMON
+from atlas.trial.proofs.notation import Reader, letters_of, parse
+from atlas.trial.proofs.run import trial
+
+
+def value(name: str, side: str, /, **letters: Any) -> Any:
+    """Evaluate what an equation says that one of its sides is, in the form that has been proved.
+
+    side     a letter, or a whole side as the trial writes it: "omega3", "d(Omega1)", "0"
+    letters  the values of the letters on the other side: numbers (floats are taken as exact), sequences as vectors and
+             nested ones as matrices, SymPy objects, functions such as d
+
+        value("(71)", "omega3", omega2=0.7, I=1.5, B2=1.0, B3=2.0)
+
+    The corrected form is read first; the printed one where that only adds cases. Of a chain a = b = c the last side
+    counts that has no other letters. Returns an exact SymPy number; a vector or a matrix of such where the side is
+    one, or has one or two free indices. AtlasError if the equation has no such side or lacks a value.
+    """
+    case = trial(equation(name).name)
+    known = {**COMMON, **{name: _exact(number) for name, number in letters.items()}}
+    wanted = ast.dump(parse(f"{side} = 0")[0].left)
+    lacking: list[str] = []
+    for tree in [tree for piece in (*case.corrected_parts, *case.parts) for tree in parse(piece.line)]:
+        sides = [tree.left, *tree.comparators]
+        if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or wanted not in map(ast.dump, sides):
+            continue
+        for other in reversed([other for other in sides if ast.dump(other) != wanted]):
+            missing = sorted({*letters_of(other), *_functions(other)} - set(known))
+            if not missing:
+                return _components(Reader(known), other)
+            lacking = lacking or missing
+    if lacking:
+        raise AtlasError(f"{name} needs the value of {', '.join(lacking)} too")
+    raise AtlasError(f"{name} does not say what {side!r} is; it reads {case.corrected or case.printed}")
+
+
+def _components(reader: Reader, side: ast.expr) -> Any:
+    """Evaluate a side for all values of its free indices."""
+    free = sorted(reader.free(side))
+    if not free:
+        return reader.value(side, {})
+    entries = [
+        reader.value(side, dict(zip(free, places, strict=True))) for places in product((1, 2, 3), repeat=len(free))
+    ]
+    return sympy.Matrix(3, 3 ** (len(free) - 1), entries)
+
+
+def _functions(side: ast.expr) -> set[str]:
+    """Return the names of the functions in a formula."""
+    return {node.func.id for node in ast.walk(side) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
+
+
+def _exact(number: Any) -> Any:
+    if isinstance(number, sympy.Basic | sympy.MatrixBase) or callable(number):
+        return number
+    if hasattr(number, "__len__"):
+        return sympy.Matrix([[_exact(x) for x in row] if hasattr(row, "__len__") else [_exact(row)] for row in number])
+    return sympy.Rational(number)

@@ -1,0 +1,181 @@
+"""The general motion of the symmetric body on trial: the top of Larmor's frame, and its sigma functions."""
+
+import sympy
+
+from atlas.trial.proofs.clebsch import symmetric_model
+from atlas.trial.proofs.model import Model, Value, direction, dot, functions
+from atlas.trial.proofs.trial import Falsehood, Trial, evaluated
+
+SIGNS = {
+    "E'": "E",
+    "q": "q()",
+    "Q": "Q()",
+    "Q'": "dQ()",
+    "Q''": "ddQ()",
+    r"\dot\psi": "psi1",
+    r"\dot\chi": "chi1",
+    r"\zeta": "zeta()",
+    r"\sigma": "sigma()",
+    r"\lambda": "lam[]",
+    r"\lambda_-": "lam_minus",
+    r"\lambda_+": "lam_plus",
+    "z_-": "z_minus",
+    r"\wp(t)": "P",
+}
+I, b = sympy.symbols("I b", positive=True)
+nu, c3, H, p, M3, e, A, g, u, t = sympy.symbols("nu c3 H p M3 e A g u t", real=True)
+P, P1 = sympy.symbols("P P1", real=True)
+QUARTIC = (1 - nu**2) * (g - A * nu**2) - (p - M3 * nu) ** 2
+"""The quartic of the top, with A = (I - 1) b^2 and g = 2H - M3^2/I - b^2."""
+G_AND_A = [(A, (I - 1) * b**2), (g, 2 * H - M3**2 / I - b**2)]
+
+
+def top_model() -> Model:
+    """Model any state of the symmetric body in units of I2, K = b times a unit vector in stereographic coordinates."""
+    whole = symmetric_model()
+    K = sympy.Matrix([whole.letters[f"K{n}"] for n in (1, 2, 3)])
+    where = list(zip(K, b * direction(), strict=True))
+    I2, M, energy = (whole.letters[name] for name in ("I2", "M", "H"))
+    turn = (whole.letters["Omega1"] * K[0] + whole.letters["Omega2"] * K[1]) / b / (1 - nu**2)
+    letters = {**whole.letters, "b": b, "nu": nu, "M3": M[2] / I2, "p": dot(M, K) / (I2 * b), "H": energy / I2}
+    letters |= {"psi1": turn, "chi1": whole.letters["Omega3"] - nu * turn}
+    flow = {**whole.flow, nu: whole.flow[K[2]] / b}
+    return Model(letters, [*where, (nu, K[2] / b)], flow)
+
+
+def letters_model() -> Model:
+    """Model the constants of the top as free letters, and u, with the quartics of the two theorems."""
+    names = ("E", "c5", "Bsquare")
+    letters = {name: sympy.Symbol(name, real=True) for name in names}
+    letters |= {"I": I, "b": b, "c3": c3, "H": H, "p": p, "u": u, "M3": I * c3, "nu": nu}
+    letters |= functions("Q", evaluated("theorem-quartic", SIGNS | {"b^2": "Bsquare"}, letters, 2), u)
+    letters |= functions("q", evaluated("theorem-top", SIGNS, letters, 2), nu)
+    return Model(letters, [(letters["Bsquare"], b**2)])
+
+
+def weierstrass_model() -> Model:
+    """Model any quartic with a root e, and P, P1 for the function of Weierstrass and its rate, P1^2 = 4P^3-g2 P-g3."""
+    a = sympy.symbols("a0:4", real=True)
+    last = -(a[0] * e**4 + 4 * a[1] * e**3 + 6 * a[2] * e**2 + 4 * a[3] * e)
+    letters = {f"a{n}": value for n, value in enumerate((*a, last))} | {"e": e, "P": P, "P1": P1}
+    whole = a[0] * u**4 + 4 * a[1] * u**3 + 6 * a[2] * u**2 + 4 * a[3] * u + last
+    return Model({**letters, **functions("Q", whole, u)}, flow={P: P1})
+
+
+def curve_model() -> Model:
+    """Model nu on its curve, dnu = w, w^2 = q(nu), and the Cayley-Klein parameters up to a steady turn."""
+    w, a, eta = sympy.symbols("w a eta", real=True)
+    letters = {"nu": nu, "p": p, "M3": M3, "I": I, "b": b, "A": A, "a": a, "eta": eta}
+    letters |= {"H": (g + M3**2 / I + b**2) / 2, "C": (g + M3**2) / 4}
+    where = [(A, (I - 1) * b**2), (g, (w**2 + (p - M3 * nu) ** 2) / (1 - nu**2) + A * nu**2)]
+    turn = (p - M3 * nu) / (1 - nu**2)
+    flow = {nu: w, w: QUARTIC.diff(nu) / 2}
+    flow |= {a: a / 2 * (w / (1 + nu) + sympy.I * ((1 - nu) * turn + M3))}
+    flow |= {eta: eta / 2 * (-w / (1 - nu) + sympy.I * ((1 + nu) * turn - M3))}
+    return Model(letters, where, flow)
+
+
+def residue_model() -> list[Model]:
+    """Model the place nu = -1, with a rate of nu of either sign, and the logarithmic rate of xi there."""
+    w, cases = sympy.Symbol("w", real=True), []
+    rate = (w + sympy.I * (p - M3 * nu)) / 2  # times 1/(1 + nu): what is not finite there, by theorem-cayley-klein
+    for sign in (1, -1):
+        letters = {"nu": sympy.Integer(-1), "w": w, "p": p, "M3": M3, "sign": sympy.Integer(sign)}
+        letters |= {"residue": (rate / w).subs(nu, -1), **functions("q", QUARTIC, nu)}
+        cases.append(Model(letters, G_AND_A))
+    return cases
+
+
+def sigma_model() -> Model:
+    """Model q with a root e, and P, P1 as in `weierstrass_model`; zeta and sigma by their addition theorem and rates.
+
+    zeta(t - z) is zeta(t) - zeta(z) + (P'(t) + P'(z))/(P(t) - P(z))/2; at the zero z of xi nu is -1, and P'(z) is i Y.
+    """
+    root = A * e**2 + (p - M3 * e) ** 2 / (1 - e**2)
+    q = functions("q", QUARTIC.subs(g, root), nu)
+    slope, bend = sympy.factor(q["dq"](e)), sympy.factor(q["ddq"](e))
+    zt, zminus, z0, logarithm = sympy.symbols("zt z_minus z0 zeta_z", real=True)
+    Z, Y = bend / 24 - slope / 4 / (1 + e), -(p + M3) * slope / 4 / (1 + e) ** 2
+    W, w0 = bend / 24, sympy.Symbol("w0", real=True)
+    known = {zminus: (logarithm, Z, sympy.I * Y), z0: (zt, W, w0)}
+    factors: dict[Value, Value] = {}
+
+    def zeta(at: Value) -> Value:
+        """Return zeta of a place, or of t and a place."""
+        if at.coeff(t) == -1:
+            return -zeta(-at)
+        place = next((symbol for symbol in known if at.has(symbol)), t)
+        value, height, rate = known[place]
+        sign = at.coeff(place)
+        if sign**2 != 1 or at not in {sign * place, t + sign * place}:
+            raise ValueError(f"the addition theorem does not give zeta of {at}")
+        if not at.has(t):
+            return sign * value
+        return sympy.Symbol("zeta_t", real=True) + sign * value + (P1 - sign * rate) / (P - height) / 2
+
+    def sigma(place: Value) -> Value:
+        """Return sigma of t and a place: a letter whose logarithmic rate is zeta."""
+        return factors.setdefault(place, sympy.Symbol(f"sigma{len(factors)}", positive=True))
+
+    x = e + slope / 4 / (P - bend / 24)
+    a = [sympy.Poly(q["q"](nu), nu).coeff_monomial(nu**n) / sympy.binomial(4, n) for n in (4, 3, 2, 1, 0)]
+    letters: dict[str, Value] = {"p": p, "M3": M3, "c3": c3, "b": b, "e": e, "x": x, "Z": Z, "Y": Y, "t": t}
+    letters |= {"z_minus": zminus, "z0": z0, "zeta": zeta, "sigma": sigma, "xi0": sympy.Symbol("xi0", positive=True)}
+    letters["g2"] = a[0] * a[4] - 4 * a[1] * a[3] + 3 * a[2] ** 2
+    letters["g3"] = sympy.Matrix([[a[0], a[1], a[2]], [a[1], a[2], a[3]], [a[2], a[3], a[4]]]).det(method="berkowitz")
+    letters["lam_minus"] = (c3 - M3 - b + (p + M3) / (1 + e)) / 2
+    letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - e)) / 2
+    for at in (t - zminus, t - z0, t + z0):
+        sigma(at)
+    rates = {symbol: zeta(at) * symbol for at, symbol in factors.items()}
+    return Model(letters, flow={P: P1, t: sympy.Integer(1), **rates})
+
+
+TRIALS = {
+    "theorem-top": Trial(
+        model=top_model,
+        follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
+        defines=("q",),
+        also=("d(M3) = 0; d(p) = 0; d(H) = 0; M3 = I*c3",),
+        false=Falsehood("The potential is linear, as that of the heavy top", "(I - 1)*b^2*nu^2", "(I - 1)*b^2*nu"),
+    ),
+    "theorem-top-quartic": Trial(
+        model=letters_model,
+        follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$",
+        defines=("E", "c5"),
+        false=Falsehood("The two quartics are equal", "= b^2*q(", "= q("),
+    ),
+    "theorem-weierstrass": Trial(
+        model=weierstrass_model,
+        follows="$P' = P_1$ with $P_1^2 = 4 P^3 - g_2 P - g_3$, the equation of Weierstrass",
+        defines=("u", "g2", "g3"),
+        solves="(d(u)/P1)^2*(4*P^3 - g2*P - g3) = Q(u)",
+        false=Falsehood("The function of Weierstrass is shifted the other way", "(P - ddQ(e)/24)", "(P + ddQ(e)/24)"),
+    ),
+    "theorem-lame": Trial(
+        model=curve_model,
+        follows="@theorem-cayley-klein in Larmor's frame, and @theorem-top",
+        note=r"The potentials have no pole where $\nu = -1$ or 1. So $\xi$ and $\eta$ are regular there, and their "
+        "zeros are simple.",
+        false=Falsehood("Both parameters obey the same equation", "3/4*A*nu^2 + 1/2*A*nu", "3/4*A*nu^2 - 1/2*A*nu"),
+    ),
+    "theorem-residues": Trial(
+        model=residue_model,
+        signs={r"\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}": "residue", r"\dot\nu": "w"},
+        follows="@theorem-top, and @theorem-cayley-klein in Larmor's frame",
+        defines=("w",),
+        note=r"The logarithmic rate of $\xi$ is $[\dot\nu + i(p - M_3\nu)]/(2\dot\nu(t - z))$ there, but for what is "
+        r"finite; at $\nu = 1$ that of $\eta$ is so with the opposite sign of $M_3$.",
+        false=Falsehood(r"The rate of $\nu$ is real there", "= -(p + sign*M3)^2", "= (p + sign*M3)^2"),
+    ),
+    "theorem-sigma": Trial(
+        model=sigma_model,
+        follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
+        defines=("xi",),
+        solves="d(xi)/xi = 1/2*d(x)/(1 + x) + i/2*((p - M3*x)/(1 + x) + c3 - b)",
+        also=("-Y^2 = 4*Z^3 - g2*Z - g3",),
+        note="The addition theorem is taken from the textbooks. Tried for "
+        r"$\xi$; $\eta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
+        false=Falsehood("The zero lies on the opposite half period", "sigma(t - z_minus)", "sigma(t + z0)"),
+    ),
+}

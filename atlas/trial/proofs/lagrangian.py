@@ -1,0 +1,364 @@
+"""Section II, first half, on trial: six constrained particles, varied from the action, (1) to (9).
+
+Six particles are the fewest for which every sum of the paper has more than one term: particle 1, the frame 2, 3, 4, and
+two more. Nothing in the derivation depends on their number.
+"""
+
+import ast
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import sympy
+
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs.model import Model, Value, cross, dot, matrix, partial, vector
+from atlas.trial.proofs.notation import equations
+from atlas.trial.proofs.trial import Falsehood, Part, Trial, mended
+
+ALL, FRAME, REST = (1, 2, 3, 4, 5, 6), (2, 3, 4), (5, 6)
+RANGES = {"N": ALL, "A": FRAME, "B": FRAME, "alpha": REST, "beta": REST}
+SIGNS = {
+    r"\mathbf{B}": "Bf",
+    "m": "m[]",
+    r"\mathbf{y}": "y[]",
+    r"\dot{\mathbf{y}}": "dy[]",
+    r"\ddot{\mathbf{y}}": "ddy[]",
+    r"\dot{\mathbf{y}}_0": "dy0",
+    r"\ddot{\mathbf{y}}_0": "ddy0",
+    r"\mathbf{y}_0": "y0",
+    r"\mathbf{x}": "x[]",
+    r"\dot{\mathbf{x}}": "dx[]",
+    r"\ddot{\mathbf{x}}": "ddx[]",
+    "x": "x[]",
+    "a": "a[]",
+    r"\lambda": "lam[]",
+    r"\dot R": "dR[]",
+    # the limits of sums, which are those of RANGES
+    r"\sum_{N=1}^{n}": r"\sum_N",
+    r"\sum_{N=1}^n": r"\sum_N",
+    r"\sum_{A=2}^{4}": r"\sum_A",
+    r"\sum_{A=2}^4": r"\sum_A",
+    r"\sum_{B=2}^4": r"\sum_B",
+    r"\sum_{A,B=2}^{4}": r"\sum_{AB}",
+    r"\sum_{A,B=2}^4": r"\sum_{AB}",
+    r"\sum_{\beta=5}^{n}": r"\sum_\beta",
+    r"\sum_{\alpha=5}^n": r"\sum_\alpha",
+}
+
+m = {N: sympy.Symbol(f"m{N}", positive=True) for N in ALL}
+y = {N: vector(f"y{N}_") for N in ALL}
+dy = {N: vector(f"v{N}_") for N in ALL}
+lam = {(A, C): sympy.Symbol(f"lam{min(A, C)}{max(A, C)}", real=True) for A in FRAME for C in FRAME}
+lam |= {(A, N): sympy.Symbol(f"lam{A}{N}", real=True) for A in FRAME for N in REST}
+held = {key: sympy.Symbol(f"a{min(key)}{max(key)}", real=True) for key in lam}
+E, Bf = vector("E"), vector("B")
+mu, c = sympy.symbols("mu c", positive=True)
+COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
+
+
+def potential_energy(*, equal: bool = True) -> Value:
+    """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m.
+
+    The charge-to-mass ratio is the same for all, as the paper supposes, or another for each.
+    """
+    charges = {N: (mu if equal else sympy.Symbol(f"mu{N}", real=True)) * m[N] for N in ALL}
+    return sum(charges[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
+
+
+def free_action() -> Value:
+    """Kinetic energy, and each constraint with its multiplier."""
+    kinetic = sum(m[N] * dot(dy[N], dy[N]) for N in ALL) / 2
+    inner = {key: dot(y[key[0]] - y[1], y[key[1]] - y[1]) - held[key] for key in lam}
+    return kinetic + sum(lam[key] * inner[key] for key in lam) / 2
+
+
+@cache
+def forces(*, equal: bool = True) -> dict[int, Value]:
+    """Return m times acceleration of each particle: the variation of the action, d/dt dL/dv = dL/dy."""
+    L = sympy.expand(free_action() + potential_energy(equal=equal))
+    sums = {}
+    for N in ALL:
+        momentum = partial(L, dy[N])
+        drift = sum((momentum.jacobian(y[M]) * dy[M] for M in ALL), sympy.zeros(3, 1))
+        sums[N] = (partial(L, y[N]) - drift).applyfunc(sympy.expand)
+    return sums
+
+
+def action_model() -> Model:
+    """Letters of the action."""
+    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges=RANGES)
+
+
+def potential_model() -> Model:
+    """Letters of the potential energy."""
+    A0 = {N: dot(y[N], E) for N in ALL}
+    A = {N: cross(Bf, y[N]) / 2 for N in ALL}
+    e = {N: mu * m[N] for N in ALL}
+    return Model({**COMMON, "y": y, "dy": dy, "U": -potential_energy(), "A0": A0, "A": A, "e": e}, ranges=RANGES)
+
+
+def particles_model() -> Model:
+    """Model the particles with accelerations from the action."""
+    forces_on_particles = forces()
+    ddy = {N: forces_on_particles[N] / m[N] for N in ALL}
+    mass = sum(m.values())
+    centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
+    centre["ddy0"] = sum(forces_on_particles.values(), sympy.zeros(3, 1)) / mass
+    return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES)
+
+
+@cache
+def relative_model(*, equal: bool = True) -> Model:
+    """Model the particles about the centre of mass, whose acceleration is that of (4).
+
+    Where each has a charge-to-mass ratio of its own, that acceleration is the mean of theirs. Places and velocities are
+    letters of the centre and of all particles but the last, whose own follow from these.
+    """
+    mass = sum(m.values())
+    y0, v0 = vector("y0_"), vector("v0_")
+    x, dx = _about(y), _about(dy)
+    swap = {old: new for N in ALL for old, new in zip([*y[N], *dy[N]], [*(y0 + x[N]), *(v0 + dx[N])], strict=True)}
+    relative_forces = {N: force.xreplace(swap) for N, force in forces(equal=equal).items()}
+    whole = sum(relative_forces.values(), sympy.zeros(3, 1))
+    a0 = mu * E + mu / c * cross(v0, Bf) if equal else whole / mass
+    # what keeps the sum of m_N x_N zero in (5): the sum of its equations, in which the other multipliers cancel
+    push = mu * mass * E + mu / c * cross(sum((m[N] * dx[N] for N in ALL), sympy.zeros(3, 1)), Bf)
+    letters = {"ddx": _components({N: relative_forces[N] / m[N] - a0 for N in ALL}), "x": _components(x), "dx": dx}
+    letters |= {"y0": y0, "dy0": v0, "ddy0": whole / mass}
+    letters["lami"] = {i + 1: sympy.cancel(component / mass) for i, component in enumerate(whole - mass * a0 - push)}
+    return Model({**COMMON, **letters}, ranges=RANGES)
+
+
+def _about(places: dict[int, Value]) -> dict[int, Value]:
+    """Return places about the centre of mass: those of all particles but the last are free."""
+    rest = -sum((m[N] * places[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
+    return {**places, ALL[-1]: rest}
+
+
+def free_model(*, equal: bool = True) -> Model:
+    """Model the same with N for the particles whose places and velocities are letters."""
+    whole = relative_model(equal=equal)
+    return replace(whole, ranges={**RANGES, "N": ALL[:-1]})
+
+
+def _push(x: dict[int, Value]) -> dict[int, Value]:
+    """Return forces of the constraints on particles at x."""
+    no_field = dict.fromkeys((*E, *Bf), 0)
+    places = {s: value for N in ALL for s, value in zip(y[N], x[N], strict=True)}
+    return {N: forces()[N].xreplace(no_field).xreplace(places) for N in ALL}
+
+
+def _components(x: dict[int, Value]) -> dict[Any, Value]:
+    return {**dict[Any, Value](x), **{(N, i): x[N][i - 1] for N in ALL for i in (1, 2, 3)}}
+
+
+def rotation_model() -> Model:
+    """Model the particles at x_N(t) = R x_N(0); R and its rate are any matrices, as linear algebra needs no more."""
+    x = y
+    R, dR = matrix("R"), matrix("W")
+    push = _push(x)
+    spun = {N: R * push[N] + mu * m[N] * E + mu / c * m[N] * cross(dR * x[N], Bf) for N in ALL}
+    letters = {
+        "x": _components(x),
+        "moved": _components({N: R * x[N] for N in ALL}),
+        "R": R,
+        "dR": dR,
+        "total": sum((m[N] * x[N] for N in ALL), sympy.zeros(3, 1)),
+        "g": sum((m[N] * x[N] * x[N].T for N in ALL), sympy.zeros(3, 3)),
+        "lamM": -sum((x[N] * push[N].T for N in ALL), sympy.zeros(3, 3)),
+        "ddRg": sum((spun[N] * x[N].T for N in ALL), sympy.zeros(3, 3)),
+        "A": sympy.Matrix.hstack(*(-mu / c * cross(dR.col(a), Bf) for a in range(3))),
+    }
+    return Model({**COMMON, **letters}, start=dict(zip(R, sympy.eye(3), strict=True)), ranges=RANGES)
+
+
+def rigid_model() -> Model:
+    """Model the frame of particles 2, 3, 4 seen from particle 1, as columns of X at t and X0 at 0; R X0 = X."""
+    X, X0 = matrix("X"), matrix("Y")
+    letters = {"X": X, "X0": X0, "R": X * X0.adjugate() / X0.det(), "inverse": X0.adjugate() / X0.det()}
+    letters["x"] = {N: X.col(N - 2) for N in FRAME}
+    return Model(letters, start=dict(zip(X, X0, strict=True)), ranges={"N": FRAME})
+
+
+def plane_model() -> Model:
+    """Model a frame whose vectors X lie in one plane, a particle x0 in it, and x, lifted out of it by a height."""
+    X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
+    x0, height = sympy.Matrix([*sympy.symbols("p1:3", real=True), 0]), sympy.Symbol("height", positive=True)
+    return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height]), "height": height})
+
+
+def spatial_model() -> Model:
+    """Model a frame of three independent vectors, a particle x0, and x, solved from the products that are kept."""
+    X, x0 = matrix("X"), vector("p")
+    return Model({"X": X, "x0": x0, "x": (X.T.adjugate() / X.det()) * (X.T * x0)})
+
+
+def _equivalent(line: str) -> str:
+    """Return that X = 0 if and only if P = Q, as one is a multiple of the other: (1 + delta) X = P - Q."""
+    slope, held_ = equations(line)
+    left, right = (ast.unparse(side) for side in (held_.left, held_.comparators[0]))
+    zero = ast.unparse(slope.comparators[0])
+    return f"(1 + delta[A,B])*({ast.unparse(slope.left)} - {zero}) = {left} - {right}"
+
+
+TRIALS = {
+    "(1)": Trial(
+        signs={r"S=\int dt": "L ="},
+        model=action_model,
+        follows="kinetic energy of six particles, and each constraint with its multiplier",
+        definition=True,
+    ),
+    "text-constraints": Trial(
+        also=("2*partial(L,lam[A,beta]) = dot(y[A] - y[1], y[beta] - y[1]) - a[A,beta]",),
+        model=action_model,
+        form=_equivalent,
+        follows="the action @(1) for six particles, differentiated",
+        false=Falsehood(
+            "The constraints fix how far the further particles are from particle 1",
+            "dot(y[A] - y[1], y[beta] - y[1])",
+            "dot(y[beta] - y[1], y[beta] - y[1])",
+        ),
+    ),
+    "(2)": Trial(
+        signs={r"A_0(\mathbf{y}_N)": "A0[N]", r"\mathbf{A}(\mathbf{y}_N)": "A[N]"},
+        model=potential_model,
+        follows="the sum of @(103) over the particles, with the potentials @(102)",
+        definition=True,
+    ),
+    "(3)": Trial(model=particles_model, follows="the variation of the action @(1), @(2) for six particles"),
+    "(4)": Trial(model=particles_model, follows="the sum of @(3) over six particles"),
+    "text-translation": Trial(
+        model=free_model,
+        follows="@(3) summed over six particles, at two states with the same centre of mass",
+        false=Falsehood(
+            "The flight does not depend on the rotation, whatever the charges of the particles",
+            model=lambda: free_model(equal=False),
+        ),
+    ),
+    "text-rigid": Trial(
+        signs={
+            r"R^TR=\mathbf{1}": "T(R)*R - one = T(inverse)*(T(X)*X - T(X0)*X0)*inverse",
+            r"\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0\implies": "",
+        },
+        model=rigid_model,
+        follows="the constraints keep the products $X^T X$ of the frame, so that $R = X X_0^{-1}$ is orthogonal",
+        grade="missing case",
+        corrected_also=(
+            Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)", model=spatial_model),
+            Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0) + height^2", model=plane_model),
+        ),
+        corrected_tex=(
+            r"\boxed{\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0}\implies"
+            + EQUATIONS["text-rigid"].tex
+        ),
+        note="Three fixed products with an independent frame fix every further particle in it. Particles 1 to 4 must "
+        "not lie in one plane, as they do in the loop of Section IV: there @(1) leaves every further particle free to "
+        "rise out of the plane, by any height. One particle beside the plane, however light, mends it.",
+        false=Falsehood(
+            "The matrix that carries the frame along is orthogonal, constraints or not",
+            "T(R)*R - one = T(inverse)*(T(X)*X - T(X0)*X0)*inverse",
+            "T(R)*R = one",
+        ),
+    ),
+    "(5)": Trial(
+        signs={
+            r"\mathbf{E}": "E[i]",
+            "E^i": "E[i]",
+            r"\ddot x": "ddx[]",
+            r"\lambda^i": "lami[i]",
+            "x^i_1": "x[1,i]",
+            **{
+                rf"[\dot{{\mathbf{{x}}}}_{N},\mathbf{{B}}]{up}": f"cross(dx[{N.strip(chr(92))}], Bf)[i]"
+                for N in ("1", "A", r"\alpha")
+                for up in ("", "{}^i")
+            },
+        },
+        model=relative_model,
+        follows="@(3) less $m_N$ times @(4), for six particles",
+        corrected_tex=mended(
+            "(5)",
+            {r"\mathbf{E}": "E^i", r"\mathbf{B}]": r"\mathbf{B}]\boxed{{}^i}"},
+            r",\\ &\boxed{\lambda^i=-\mu E^i}",
+        ),
+        grade="wording",
+        note=r"The letter $\lambda^i$ is defined nowhere. As the multiplier that keeps the sum of $m_N \mathbf{x}_N$ "
+        r"zero it is $-\mu \mathbf{E}^i$, and then the printed form is right: the two terms cancel, and the "
+        "electric field is gone already here. The vectors of the last two terms lack the index that the others have.",
+    ),
+    "(6)": Trial(
+        signs={
+            "E": "E[]",
+            r"\ddot R_{ik}g_{kj}": "ddRg[i,j]",
+            r"\lambda": "lamM[]",
+            r"R^TR=\mathbf{1}": "",
+            r"R(0)=\mathbf{1}": "",
+        },
+        corrected_signs={"x": "moved[]"},
+        model=rotation_model,
+        follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
+        "summed; the electric force kept",
+        corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j(0)}\Bigr)"
+        r"-A_{ia}g_{aj}",
+        grade="misprint",
+        note="The second term lacks its index $j$, and its places are those at $t = 0$. It vanishes "
+        "about the centre of mass, so nothing later suffers.",
+    ),
+    "(7)": Trial(
+        signs={"B": "Bf[]"},
+        model=rotation_model,
+        follows=r"the magnetic force on six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$",
+        definition=True,
+    ),
+    "(8)": Trial(
+        signs={"x": "moved[]"},
+        model=rotation_model,
+        follows="the matrix that multiplies the second derivative of $R$ in @(6)",
+        definition=True,
+    ),
+    "(9)": Trial(
+        signs={
+            r"\lambda_{jk}": "lamM[j,k]",
+            **{
+                f"x_{N}^{{(j}}x_{M}^{{k)}}": f"(x[{n},j]*x[{m},k] + x[{n},k]*x[{m},j])"
+                for N, M, n, m in (
+                    ("B", "1", "B", "1"),
+                    (r"\alpha", "A", "alpha", "A"),
+                    (r"\alpha", "1", "alpha", "1"),
+                    ("A", "1", "A", "1"),
+                )
+            },
+        },
+        model=rotation_model,
+        follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
+        corrected_tex=mended("(9)", {"-2x_1^{j}": r"\boxed{+}2x_1^{j}"}),
+        grade="misprint",
+        note=r"The last sign is wrong: the products of $\mathbf{x}_1$ with itself add.",
+    ),
+    "text-multipliers-symmetric": Trial(
+        signs={r"\lambda": "lamM[]"},
+        model=rotation_model,
+        follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
+        false=Falsehood(
+            "With the magnetic force added the matrix is symmetric as well",
+            "lamM[j, k] = lamM[k, j]",
+            "lamM[j, k] + (T(R)*A*g)[j, k] = lamM[k, j] + (T(R)*A*g)[k, j]",
+        ),
+    ),
+    "text-electric-field": Trial(
+        model=free_model,
+        follows="@(3) less @(4) for six particles, in two electric fields",
+        false=Falsehood(
+            "The electric field does not affect the rotation, whatever the charges of the particles",
+            model=lambda: free_model(equal=False),
+        ),
+    ),
+    "text-rotation-apart": Trial(
+        model=free_model,
+        follows="@(3) less @(4) for six particles, at two states that differ by a shift and a velocity",
+        false=Falsehood(
+            "The rotation does not depend on the flight, whatever the charges of the particles",
+            model=lambda: free_model(equal=False),
+        ),
+    ),
+}

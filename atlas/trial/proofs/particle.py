@@ -1,0 +1,445 @@
+"""The appendix on trial: a point particle in constant fields, (89) to (104)."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import sympy
+
+from atlas.trial.proofs.model import Model, Value, cross, dot, partial, turn, vector
+from atlas.trial.proofs.trial import Falsehood, Trial, evaluated, mended
+
+SIGNS = {
+    r"\mathbf{B}": "Bf",
+    r"\dot{\mathbf{y}}": "dy",
+    r"\dot{\mathbf{O}}": "drift",
+    **{
+        rf"{letter}_{{\{mark}}}": plain
+        for mark, index in (("bot", "perp"), ("Vert", "par"))
+        for letter, plain in (
+            (r"\mathbf{C}", f"C{index}"),
+            (r"\mathbf{E}", f"E{index}"),
+            (r"\mathbf{y}", f"y{index}"),
+            (r"\dot{\mathbf{y}}", f"dy{index}"),
+        )
+    },
+    r"\ddot{\mathbf{y}}_{\Vert}": "d2(ypar)",
+    r"\mathbf{y}_{\Vert 0}": "ypar0",
+}
+_LAGRANGIAN = {r"\dot{\mathbf{y}}": "v", r"\ddot{\mathbf{y}}": "ddy"}
+
+E, B, y, v = vector("E"), vector("B"), vector("y"), vector("v")
+m, c, b, E2 = sympy.symbols("m c b E2", positive=True)
+e, mu, t, a, omega, omega0 = sympy.symbols("e mu t a omega omega0", real=True)
+cw, sw, c0, s0, p, q = sympy.symbols("cw sw c0 s0 p q", real=True)
+strength = sympy.Symbol("strength", positive=True)
+
+E3 = sympy.Symbol("E3", real=True)
+ALONG_Z, PARALLEL, ACROSS = sympy.Matrix([0, 0, b]), sympy.Matrix([0, 0, E3]), sympy.Matrix([0, E2, 0])
+e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
+
+
+def euler(lagrangian: Value) -> Value:
+    """Acceleration that a Lagrangian gives: d/dt dL/dv = dL/dy, solved."""
+    momentum = partial(lagrangian, v)
+    force = partial(lagrangian, y) - momentum.jacobian(y) * v
+    return (momentum.jacobian(v).inv() * force).applyfunc(sympy.cancel)
+
+
+def lagrangian_model() -> Model:
+    """Model the Lagrangian of (104) with the potentials of (102), mu = e/m; its acceleration by variation."""
+    A0, A = dot(y, E), cross(B, y) / 2
+    L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
+    letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
+    letters |= {f"B{n + 1}": B[n] for n in range(3)}
+    letters |= {"K": m * dot(v, v) / 2, "U": -(e * A0 + e / c * dot(A, v)), "acceleration": euler}
+    letters["force"] = lambda U: -partial(U, y) + partial(U, v).jacobian(y) * v
+    letters["grad"] = lambda scalar: partial(scalar, y)
+    letters["curl"] = lambda field: sympy.Matrix(
+        [
+            field[2].diff(y[1]) - field[1].diff(y[2]),
+            field[0].diff(y[2]) - field[2].diff(y[0]),
+            field[1].diff(y[0]) - field[0].diff(y[1]),
+        ]
+    )
+    return Model(letters)
+
+
+def potentials_model() -> Model:
+    """Model the potentials (102), or any part of E taken from A0 to A, which then changes in time."""
+    base, share = lagrangian_model().letters, sympy.Symbol("share", real=True)
+    letters = {**base, "A0": (1 - share) * base["A0"], "A": base["A"] - share * c * t * E}
+    return Model({**letters, "partial_t": lambda field: field.diff(t)})
+
+
+def velocity_model() -> Model:
+    """Model A particle whose velocity is what the line says."""
+    C = vector("C")
+    letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
+    flow = {t: sympy.Integer(1), **dict(zip(y, v, strict=True))}
+    return Model(letters, flow=flow, start={t: sympy.Integer(0)})
+
+
+def fall_model() -> Model:
+    """B = 0."""
+    C, y0 = vector("C"), vector("yo")
+    letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
+
+
+def _split() -> dict[str, Value]:
+    C, place = vector("C"), vector("y")
+    flat = sympy.diag(1, 1, 0)
+    up = sympy.diag(0, 0, 1)
+    rate = mu * (ACROSS + PARALLEL) * t + mu / c * cross(place, ALONG_Z) + C
+    parts = {"Cpar": up * C, "Cperp": flat * C, "ypar": up * place, "yperp": flat * place, "y": place}
+    parts |= {"dypar": up * rate, "dyperp": flat * rate, "Epar": PARALLEL, "Eperp": ACROSS, "Bf": ALONG_Z}
+    parts["ypar0"] = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])
+    return {**parts, "mu": mu, "c": c, "t": t, "b": b, "E2": E2}
+
+
+def split_model() -> Model:
+    """(90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
+    parts = _split()
+    flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
+    start = {t: sympy.Integer(0), parts["y"][2]: parts["ypar0"][2]}
+    return Model(parts, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"})
+
+
+def parallel_model() -> Model:
+    """Constants of the motion along B."""
+    letters = _split()
+    del letters["ypar"]
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
+
+
+def fall_along_model() -> Model:
+    """(93)."""
+    parts = _split()
+    ypar = parts["ypar0"] + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
+    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)})
+
+
+def helix_model() -> Model:
+    """E = 0: the part across B, from its centre, and the part along B."""
+    place, rise = vector("y"), sympy.Symbol("C3", real=True)
+    across = sympy.diag(1, 1, 0) * place
+    flow = dict(zip(place, mu / c * cross(across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
+    return Model({"y2": across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
+
+
+def along_field_model() -> list[Model]:
+    """B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
+    C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
+    cases = []
+    for mu in (strength, -strength):
+        letters = {"mu": mu, "E": field, "y": y0 + C * t + mu * field * t**2 / 2}
+        cases.append(Model(letters, flow={t: sympy.Integer(1)}))
+    return cases
+
+
+def shifted_model() -> Model:
+    """Model the shifted variables y1 and y2 of the part across B, with the rates that (92) gives them."""
+    parts = _split()
+    drift = c * cross(ACROSS, ALONG_Z) / b**2
+    second = (c * cross(parts["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
+    y1 = parts["yperp"]
+    rate1 = mu / c * cross(y1 + drift * t, ALONG_Z) + parts["Cperp"] + mu * ACROSS * t - drift
+    y2 = sympy.diag(1, 1, 0) * vector("z")
+    rate2 = rate1.xreplace(dict(zip(parts["y"], y2 + second, strict=True)))
+    flow = dict(zip([*y1[:2], *y2[:2]], [*rate1[:2], *rate2[:2]], strict=True))
+    letters = {name: value for name, value in parts.items() if name not in {"y", "yperp"}}
+    return Model({**letters, "y1": y1, "y2": y2}, flow=flow)
+
+
+def charges_model(choice: str = "any") -> list[Model]:
+    """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
+
+    choice: what C_perp is: any vector across B, or what the text chooses for (99) or for (100).
+    """
+    cases = []
+    for sign in (1, -1):
+        angles = [(cw, turn(p)[0]), (sw, turn(p)[1]), (c0, turn(q)[0]), (s0, turn(q)[1])]
+        flow = {t: sympy.Integer(1), cw: -omega * sw, sw: omega * cw}
+        letters = {**_split(), "a": a, "omega": omega, "omega0": omega0, "mu": sign * strength, "e1": e1, "e2": e2}
+        del letters["yperp"], letters["y"]
+        drift = c * cross(ACROSS, ALONG_Z) / b**2
+        chosen = {"any": letters["Cperp"], "origin": drift, "trochoid": drift - sign * strength * E2 / omega * e1}
+        letters["Cperp"] = chosen[choice]
+        letters |= {"O": sign * strength * E2 / omega * t * e1, "P": a * (e1 * sw + e2 * cw)}
+        where = [(omega, strength * b / c), *angles]
+        start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
+        phases = {omega * t: (cw, sw), omega0: (c0, s0)}
+        cases.append(Model(letters, where, flow, start, phases))
+    return cases
+
+
+def drift_model() -> list[Model]:
+    """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
+    cases = []
+    for case in charges_model():
+        rest = sympy.symbols("rest1:3", real=True)
+        velocity = sympy.Matrix([*rest, 0])
+        rate = case.letters["mu"] * (case.letters["Eperp"] + cross(velocity, case.letters["Bf"]) / case.letters["c"])
+        solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
+        letters = {**case.letters, "drift": velocity.subs(solved), "E": ACROSS + PARALLEL}
+        cases.append(Model(letters, case.where))
+    return cases
+
+
+def signed_model(choice: str = "any") -> list[Model]:
+    """Model the same with a frequency that has the sign of the charge."""
+    first, second = charges_model(choice)
+    return [first, replace(second, where=[(omega, -strength * b / c), *second.where[1:]])]
+
+
+def _general(model: Model, **letters: Value) -> Value:
+    """Return the right side of (98) with other letters in it."""
+    return evaluated("(98)", SIGNS, {**model.letters, **letters})
+
+
+def start_model() -> list[Model]:
+    """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
+    return [
+        replace(model, letters={**model.letters, "yperp": _general(model, omega0=sympy.Integer(0))})
+        for model in signed_model("origin")
+    ]
+
+
+_TURNING = "at0(d({})[2]) = -omega*a*sin(omega0)"
+_SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
+SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
+_SENSE = (
+    r"Said for any charge, it holds for $\mu > 0$ only; with $\omega = \mu |\mathbf{B}|/c$, of the sign of the "
+    "charge, it holds for both."
+)
+
+
+def trajectory_model(*, signed: bool = True) -> list[Model]:
+    """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
+    cases = []
+    for model in signed_model("origin") if signed else charges_model("origin"):
+        letters = {**model.letters, "E": PARALLEL + ACROSS}
+        letters |= {"ypar": evaluated("(93)", SIGNS, letters), "yperp": evaluated("(99)", SIGNS, letters)}
+        where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
+        cases.append(replace(model, letters=letters, where=where))
+    return cases
+
+
+def later_model() -> list[Model]:
+    """Model (98) as corrected, as a function of time, of C_perp and of omega0."""
+
+    def place(model: Model) -> Callable[..., Value]:
+        return lambda at, constant, angle: _general(model, t=at, Cperp=constant, omega0=angle)
+
+    return [replace(model, letters={**model.letters, "place": place(model)}) for model in signed_model()]
+
+
+def rolling_model() -> list[Model]:
+    """Model (100) as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
+    cases = []
+    for model in signed_model("trochoid"):
+        mu_ = model.letters["mu"]
+        place = {"x": mu_ * E2 / omega * t + a * sw, "y": mu_ * E2 / omega**2 + a * cw}
+        letters = {**model.letters, **place, "r": mu_ * E2 / omega**2}
+        cases.append(Model(letters, model.where, phases=model.phases))
+    return cases
+
+
+TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
+"""What the place of a charged particle obeys, (89)."""
+
+TRIALS = {
+    "(89)": Trial(signs=_LAGRANGIAN, model=lagrangian_model, follows="the variation of the Lagrangian @(104)"),
+    "(90)": Trial(
+        model=velocity_model,
+        follows="its rate is @(89)",
+        defines=("dy",),
+        solves="d(dy) = mu*E + mu/c*cross(dy,Bf); at0(dy) - mu/c*cross(y,Bf) = C",
+    ),
+    "text-no-magnetic-field": Trial(
+        model=fall_model,
+        follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
+        defines=("y",),
+        solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
+        false=Falsehood(r"The particle falls with the acceleration $2\mu\mathbf{E}$", "1/2*mu*E*t^2", "mu*E*t^2"),
+    ),
+    "text-along-field": Trial(
+        solves="d2(y) = mu*E",
+        corrected_solves="",
+        signs={r"\ddot{\mathbf{y}}": "d2(y)"},
+        model=along_field_model,
+        follows="@text-no-magnetic-field, for either sign of the charge",
+        corrected_tex=r"\ddot{\mathbf{y}}=\boxed{\mu\mathbf{E}}",
+        slip="(97)",
+        note=r"A negative charge is accelerated against $\mathbf{E}$.",
+    ),
+    "text-helix": Trial(
+        also=("d2(y2) = -(mu*b/c)^2*y2",),
+        model=helix_model,
+        follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
+        false=Falsehood("It turns with Larmor's frequency", "-(mu*b/c)^2*y2", "-(mu*b/(2*c))^2*y2"),
+    ),
+    "(91)": Trial(model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
+    "(92)": Trial(model=split_model, follows=r"@(90) projected across $\mathbf{B}$"),
+    "(93)": Trial(
+        model=parallel_model,
+        follows="@(91) by substitution",
+        defines=("ypar",),
+        solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0",
+    ),
+    "text-parallel-acceleration": Trial(
+        solves="d2(ypar) = mu*Epar",
+        model=fall_along_model,
+        follows="@(93)",
+        corrected_tex=mended("text-parallel-acceleration", {r"\bot": r"\boxed{\Vert}"}),
+        grade="misprint",
+        note=r"The wrong part of $\mathbf{E}$.",
+    ),
+    "text-double-product": Trial(
+        model=lambda: Model({"Eperp": cross(B, vector("w")), "Bf": B}),
+        follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
+        false=Falsehood("The identity holds for any vector", model=lambda: Model({"Eperp": vector("w"), "Bf": B})),
+    ),
+    "(94)": Trial(model=split_model, follows="@(92)"),
+    "(95)": Trial(
+        model=shifted_model,
+        follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
+    ),
+    "(96)": Trial(model=shifted_model, follows="@(92) for the twice shifted variable"),
+    "(97)": Trial(
+        model=charges_model,
+        follows="@(96) by substitution, for either sign of the charge",
+        defines=("y2", "omega"),
+        solves="d(y2) = -mu/c*cross(Bf,y2); " + _TURNING.format("y2"),
+        corrected_tex=mended("(97)", {r"\frac{\lvert \mu\mathbf{B}\rvert}{c}": r"\frac{\mu\lvert\mathbf{B}\rvert}{c}"}),
+        grade="sign of the charge",
+        note=f"{_SENSE} A negative charge turns the other way.",
+    ),
+    "text-drift-direction": Trial(
+        model=charges_model,
+        follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
+        false=Falsehood(
+            r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{E}_\bot$", "norm(Bf)*e1", "norm(Bf)*e2"
+        ),
+    ),
+    "(98)": Trial(
+        model=charges_model,
+        follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
+        defines=("yperp",),
+        solves=f"{_SOLVES}; {_TURNING.format('yperp')}",
+        corrected_model=signed_model,
+        corrected_tex=mended("(98)", {}, SIGNED),
+        slip="(97)",
+        note=_SENSE,
+    ),
+    "text-time-shift": Trial(
+        signs={r"\mathbf{y}_{\bot}": "place()", r"\mathbf{C}'_{\bot}": "Clater"},
+        defines=("Clater",),
+        model=later_model,
+        follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
+        r"\mathbf{E}_\bot \omega_0/\omega$",
+        note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
+        false=Falsehood(r"$\mathbf{C}_\bot$ stays what it is", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
+    ),
+    "text-first-two-terms": Trial(
+        signs={r"\implies": ""},
+        defines=("Cperp",),
+        model=lambda: signed_model("origin"),
+        follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
+        corrected_tex=r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
+        r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}",
+        grade="wording",
+        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @(99) has it.",
+    ),
+    "text-initial-position": Trial(
+        model=start_model,
+        follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
+        false=Falsehood(r"The particle starts at $a\mathbf{e}_1$", "a*e2", "a*e1"),
+    ),
+    "(99)": Trial(
+        model=lambda: charges_model("origin"),
+        follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
+        defines=("yperp",),
+        solves=f"{_SOLVES}; at0(yperp) = a*e2",
+        corrected_model=lambda: signed_model("origin"),
+        corrected_tex=mended("(99)", {}, SIGNED),
+        slip="(97)",
+        note=_SENSE,
+    ),
+    "text-drift": Trial(
+        model=drift_model,
+        follows=r"@(89) solved for the velocity that does not change, for either sign of the charge, $\omega$ of @(97)",
+        corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
+        slip="(97)",
+        note=r"The drift doesn't depend on the charge; with the positive $\omega$ of @(97) a negative one would drift "
+        "backwards.",
+    ),
+    "text-trochoid-constant": Trial(
+        model=lambda: signed_model("trochoid"),
+        follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
+        corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
+        slip="(100)",
+        note=r"An acceleration is taken from a velocity. What is meant is $\mathbf{C}_\bot = 0$: the acceleration over "
+        r"$\omega$ is the drift, and nothing is left.",
+    ),
+    "(100)": Trial(
+        model=lambda: charges_model("trochoid"),
+        follows="@(98) with the constant chosen there",
+        defines=("x", "y"),
+        solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
+        corrected_model=lambda: signed_model("trochoid"),
+        corrected_tex=mended("(100)", {r"\omega}+a": r"\omega^{\boxed{2}}}+a"}, SIGNED),
+        grade="misprint",
+        note=r"The shift of $y$ must be a length, $\mu |\mathbf{E}_\bot|/\omega^2$, as $\mathbf{C}_\bot$ must be a "
+        r"velocity; and, as in @(97), $\omega$ takes the sign of the charge.",
+    ),
+    "text-trochoid": Trial(
+        model=rolling_model,
+        follows="@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
+        "turns by one radian",
+        false=Falsehood("The circle rolls along the line through its middle", "y = r + a*cos", "y = a*cos"),
+    ),
+    "(101)": Trial(
+        model=lambda: trajectory_model(signed=False),
+        follows="@(89) by substitution, the parts of @(93) and @(99), for either sign of the charge",
+        defines=("y",),
+        solves=TRAJECTORY,
+        corrected_model=trajectory_model,
+        corrected_tex=mended("(101)", {}, SIGNED),
+        slip="(97)",
+        note="The sum is right; @(99), which it sends to, holds for a positive charge.",
+    ),
+    "(102)": Trial(
+        signs={r"\mathbf{A}(\mathbf{y})": "A", r"A_0(\mathbf{y})": "A0"},
+        model=lagrangian_model,
+        follows="the vector product in components",
+        corrected_tex=mended("(102)", {"b_1": "B_1"}),
+        grade="misprint",
+        note="A lower-case $b_1$ that means nothing here stands for $B_1$.",
+    ),
+    "text-potentials": Trial(
+        signs={
+            r"\frac{\partial\mathbf{A}}{\partial t}": "partial_t(A)",
+            r"\nabla A_0": "grad(A0)",
+            r"[\nabla,\mathbf{A}]": "curl(A)",
+        },
+        model=potentials_model,
+        follows="the potentials @(102)",
+        note=r"With $\mathbf{E} = +\nabla A_0$ the paper has the opposite of the sign that is customary; $A_0$ is "
+        "minus the usual potential, and @(103) agrees with it.",
+        false=Falsehood(r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$", "+ grad(A0)", "- grad(A0)"),
+    ),
+    "(103)": Trial(
+        signs=_LAGRANGIAN,
+        model=lagrangian_model,
+        follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
+        solves="force(U) = e*E + e/c*cross(v,Bf)",
+    ),
+    "(104)": Trial(
+        signs=_LAGRANGIAN,
+        model=lagrangian_model,
+        follows="the potentials @(102), and @(89) by variation",
+        defines=("L",),
+        solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)",
+    ),
+}

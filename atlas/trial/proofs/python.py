@@ -1,0 +1,295 @@
+"""A line of `notation` in a model, written as Python with SymPy's own names."""
+
+import ast
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import sympy
+from sympy.printing.str import StrPrinter
+
+from atlas.trial.proofs.decide import defined, parameters, points, reached, understood
+from atlas.trial.proofs.model import COMMON, Model
+from atlas.trial.proofs.notation import Reader, Relation, factors, is_sum, is_zero, letters_of, names, parse
+
+Value = Any
+
+_METHODS = {"cross": "cross", "dot": "dot", "inv": "inv", "det": "det", "tr": "trace", "hat": "hat"}
+_CALLED = {"eps": "LeviCivita", "delta": "KroneckerDelta", "ln": "log", "abs": "Abs", "sqrt": "sqrt"}
+_CALLED |= {name: name for name in ("sin", "cos", "tan", "atan", "diag")}
+_TAKEN = {"at0", "check", "d", "flow", "left", "point", "right", "start", "where", "x", "C", "lambda", "in", "is", "as"}
+
+
+class _NoFormulaError(Exception):
+    """A function of the model's own over indices stands in a formula, so that its components are written out."""
+
+
+class _Printer(StrPrinter):  # type: ignore[misc]  # SymPy has no types
+    """Prints an expression as Python: fractions exact, each symbol by its identifier, matrices on one line."""
+
+    def __init__(self, identifier: Callable[[Value], str]) -> None:
+        super().__init__()
+        self.identifier = identifier
+
+    def _print_Symbol(self, expr: Value) -> str:
+        return self.identifier(expr)
+
+    _print_Dummy = _print_Symbol
+
+    def _print_ImaginaryUnit(self, expr: Value) -> str:
+        del expr
+        return "sqrt(-1)"  # I is the ratio of the moments
+
+    def _print_Rational(self, expr: Value) -> str:
+        return f"Rational({expr.p}, {expr.q})"
+
+    def _print_Integral(self, expr: Value) -> str:
+        return f"integrate({', '.join(self.doprint(argument) for argument in expr.args)})"
+
+    def _print_MatrixBase(self, expr: Value) -> str:
+        rows = [[self.doprint(entry) for entry in row] for row in expr.tolist()]
+        inside = [row[0] for row in rows] if expr.shape[1] == 1 else [f"[{', '.join(row)}]" for row in rows]
+        return f"Matrix([{', '.join(inside)}])"
+
+
+class Line:
+    """One line in one case.
+
+    used     the letters of the model that stand in what was written
+    symbols  the symbols in it
+    """
+
+    def __init__(self, line: str, model: Model, defines: tuple[str, ...], solves: str) -> None:
+        self.relations, letters, where = understood(line, model, defines, solves)
+        self.model = replace(model, letters=letters, where=where)
+        self.reader = Reader(letters, model.ranges)
+        self.trees = [*parse(line), *(parse(solves) if solves else [])]
+        self.definitions = {
+            name: tree.comparators[0]
+            for tree in parse(line)
+            if (name := defined(tree, defines)) and not _called(tree) & set(defines)
+        }
+        self.used: dict[str, Value] = {}
+        self.symbols: list[Value] = []
+        self.identifiers: dict[Value, str] = {}
+        self.printer = _Printer(self.identifier)
+        self.own = {name for tree in self.trees for name in letters_of(tree)}
+        self.own = _TAKEN | {name for name in self.own if not isinstance(letters.get(name), sympy.Symbol)}
+
+    def identifier(self, symbol: Value) -> str:
+        """Return the identifier of a symbol: its name, with a stroke behind it where a letter has that name."""
+        if symbol not in self.identifiers:
+            name = re.sub(r"\W", "_", symbol.name)
+            while name in self.own or name in self.identifiers.values():
+                name += "_"
+            self.identifiers[symbol] = name
+        return self.identifiers[symbol]
+
+    def plain(self, value: Value) -> str:
+        """Return a value as Python."""
+        if isinstance(value, dict):
+            return "{" + ", ".join(f"{key}: {self.plain(each)}" for key, each in value.items()) + "}"
+        value = value.as_immutable() if isinstance(value, sympy.MatrixBase) else sympy.sympify(value)
+        self.symbols += [symbol for symbol in sorted(value.free_symbols, key=str) if symbol not in self.symbols]
+        text = str(self.printer.doprint(value))
+        return f"Integer({text})" if value.is_Matrix is not True and value.is_Integer else text
+
+    def table(self, values: Mapping[Value, Value]) -> str:
+        """Return a dictionary of symbols as Python."""
+        pairs = (f"{self.plain(s)}: {v if sympy.sympify(v).is_Integer else self.plain(v)}" for s, v in values.items())
+        return "{" + ", ".join(pairs) + "}"
+
+    def points(self) -> Iterator[dict[Value, Value]]:
+        """Yield the points at which the line is tried."""
+        every = tuple(name for tree in self.trees for name in letters_of(tree))
+        return points(parameters(self.relations, self.model, every), self.model)
+
+    def needed(self) -> set[Value]:
+        """Return the symbols on which what was written depends, also through `where` and the rates."""
+        values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
+        return reached(values, [*self.model.where, *self.model.flow.items()])
+
+    def assumptions(self) -> dict[str, str]:
+        """Return the identifiers of the symbols, each with what is assumed of it as arguments of `symbols`."""
+        for value in self.used.values():
+            if isinstance(value, sympy.Symbol):
+                self.plain(value)
+        assumptions = {}
+        for symbol in sorted(self.symbols, key=str):
+            kinds = [kind for kind in ("positive", "nonnegative", "nonzero", "real") if getattr(symbol, f"is_{kind}")]
+            more = ["nonzero"] * (kinds[:1] == ["nonnegative"] and bool(symbol.is_nonzero))
+            assumptions[self.identifier(symbol)] = "".join(f", {kind}=True" for kind in kinds[:1] + more)
+        return assumptions
+
+    def is_said(self, name: str, value: Value) -> bool:
+        """Whether a letter needs a row: not if it is the symbol of its name."""
+        return not (isinstance(value, sympy.Symbol) and self.identifier(value) == name)
+
+    def definition(self, name: str) -> str:
+        """Return what a letter is defined to be, as it is read or, with a function of the model's own, evaluated."""
+        try:
+            text = self.code(self.definitions[name], ())
+            return f"Integer({text})" if text.isdigit() else text
+        except _NoFormulaError:
+            return self.plain(self.model.letters[name])
+
+    def in_order(self) -> list[str]:
+        """Return the letters that the line defines, each after those that its definition uses."""
+        ordered: list[str] = []
+        for _ in self.definitions:
+            for name, tree in self.definitions.items():
+                if name not in ordered and not (_words(tree) & set(self.definitions)) - {name, *ordered}:
+                    ordered.append(name)
+        return ordered
+
+    def loops(self, relation: Relation) -> list[tuple[str, tuple[int, ...]]]:
+        """Return the free indices of a relation with their numbers; none where its components are written out."""
+        tree = parse(relation.text)[0]
+        ranges = self.reader.ranges
+        free = sorted(self.reader.free(tree.left) | (names(tree.left) & set(ranges)))
+        try:
+            for side in (tree.left, tree.comparators[0]):
+                self.code(side, tuple(free))
+        except _NoFormulaError:
+            return []
+        values = [self.value(side, tuple(free)) for side in (tree.left, tree.comparators[0])]
+        size = max(len(value) if isinstance(value, sympy.MatrixBase) else 1 for value in values)
+        for name in free:
+            size *= len(ranges.get(name, (1, 2, 3)))
+        if size > len(relation.left):  # summed over particles, in the middle of a chain
+            free = [name for name in free if name not in ranges]
+        return [(name, ranges.get(name, (1, 2, 3))) for name in free]
+
+    def sides(self, relation: Relation) -> list[str]:
+        """Return both sides of a relation, with free indices as variables, or written out."""
+        tree, free = parse(relation.text)[0], tuple(name for name, _ in self.loops(relation))
+        try:
+            return [self.code(side, free) for side in (tree.left, tree.comparators[0])]
+        except _NoFormulaError:
+            return [self.plain(sympy.Matrix(side)) for side in (relation.left, relation.right)]
+
+    def difference(self, relation: Relation, *, turned: bool = False) -> str:
+        """Return the left side less the right one, or the other way round."""
+        left, right = self.sides(relation)
+        if is_zero(parse(relation.text)[0].comparators[0]):
+            return f"-({left})" if turned else left
+        left, right = (right, left) if turned else (left, right)
+        return ast.unparse(ast.parse(f"({left}) - ({right})", mode="eval"))
+
+    def code(self, node: ast.expr, bound: tuple[str, ...]) -> str:
+        """Return a formula as Python; indices in `bound` are variables of loops around it, all others are summed."""
+        return ast.unparse(ast.fix_missing_locations(self.formula(node, bound)))
+
+    def formula(self, node: ast.expr, bound: tuple[str, ...]) -> ast.expr:
+        """Return the syntax tree of a formula in Python, as `Reader.value` understands it."""
+        if is_sum(node):
+            return ast.BinOp(self.formula(node.left, bound), node.op, self.formula(node.right, bound))
+        if isinstance(node, ast.UnaryOp):
+            return ast.UnaryOp(node.op, self.formula(node.operand, bound))
+        parts = list(factors(node))
+        sums = sorted(self.reader.summed(parts, names(node) - set(bound)))
+        (first, _), *others = [(self.factor(part, (*bound, *sums)), divides) for part, divides in parts]
+        for factor, divides in others:
+            if divides and not {*_words(first), *_words(factor)}:
+                first = ast.Call(ast.Name("Rational"), [first, factor], [])
+            else:
+                first = ast.BinOp(first, ast.Div() if divides else ast.Mult(), factor)
+        if not sums:
+            return first
+        loops = " ".join(f"for {name} in {self.reader.ranges.get(name, (1, 2, 3))}" for name in sums)
+        value = self.value(node, bound)
+        start = f", zeros{value.shape}" if isinstance(value, sympy.MatrixBase) else ""
+        first = ast.fix_missing_locations(first)
+        return _tree(f"sum(({ast.unparse(first)} {loops}){start})")
+
+    def value(self, node: ast.expr, bound: tuple[str, ...]) -> Value:
+        """Return the value of a formula where all indices are the first ones."""
+        return self.reader.value(node, {name: self.reader.ranges.get(name, (1,))[0] for name in bound})
+
+    def factor(  # noqa: PLR0911  one return for each kind of factor
+        self, node: ast.expr, bound: tuple[str, ...]
+    ) -> ast.expr:
+        """Return the syntax tree of a factor in Python, as `Reader` understands it."""
+        match node:
+            case ast.Constant():
+                return node
+            case ast.Name():
+                return self.name(node, bound)
+            case ast.Subscript():
+                indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+                whole = getattr(node.value, "id", "")
+                if whole in {"eps", "delta"}:
+                    return ast.Call(ast.Name(_CALLED[whole]), list(indices), [])
+                first = not isinstance(self.model.letters.get(whole), dict)
+                places = [_less(index) if first else index for index in indices]
+                return ast.Subscript(
+                    self.factor(node.value, bound), places[0] if len(places) == 1 else ast.Tuple(places)
+                )
+            case ast.BinOp(op=ast.Pow()):
+                value = self.value(node.left, bound)
+                base, power = self.formula(node.left, bound), self.formula(node.right, bound)
+                if getattr(value, "shape", (1, 3))[1] == 1:  # a vector has no other power than its square
+                    return ast.Call(ast.Attribute(base, "dot"), [base], [])
+                if self.model.letters["inv"] is not COMMON["inv"] and isinstance(value, sympy.MatrixBase):
+                    return _tree(f"({self.plain(self.value(node, ()))})")  # the model's own inverse
+                return ast.BinOp(base, ast.Pow(), power)
+            case ast.Call(func=ast.Name(id=name)):
+                return self.call(node, name, bound)
+            case ast.List():
+                rows = [entry.elts if isinstance(entry, ast.List) else [entry] for entry in node.elts]
+                lists: list[ast.expr] = [ast.List([self.formula(entry, bound) for entry in row]) for row in rows]
+                return ast.Call(ast.Name("Matrix"), [ast.List(lists)], [])
+        return self.formula(node, bound)
+
+    def name(self, node: ast.Name, bound: tuple[str, ...]) -> ast.expr:
+        """Return a letter, and note that it is used."""
+        value = self.model.letters.get(node.id, sympy.Symbol(node.id, real=True))
+        if node.id in bound or node.id in self.definitions:
+            return node
+        if value is COMMON.get(node.id):
+            return _tree({"one": "eye(3)", "i": "sqrt(-1)"}.get(node.id, node.id))
+        if callable(value) and not isinstance(value, sympy.Basic | sympy.MatrixBase):
+            raise _NoFormulaError
+        self.used[node.id] = value
+        return node
+
+    def call(self, node: ast.Call, name: str, bound: tuple[str, ...]) -> ast.expr:
+        """Return a call of a function: SymPy's own, a rate, or what the model's own function gives."""
+        known = {*_METHODS, *_CALLED, "T", "norm", "d", "d2", "at0"}
+        if name not in known or (self.model.letters[name] is not COMMON.get(name) and name not in {"d", "d2", "at0"}):
+            if names(node) & set(bound):
+                raise _NoFormulaError
+            return _tree(f"({self.plain(self.reader.value(node, {}))})")
+        first, *others = (self.formula(argument, bound) for argument in node.args)
+        if name == "T":
+            return ast.Attribute(first, "T")
+        if name in _METHODS:
+            return ast.Call(ast.Attribute(first, _METHODS[name]), others, [])
+        if name == "norm":
+            name, first = "sqrt", ast.Call(ast.Attribute(first, "dot"), [first], [])
+        if name == "sqrt":  # a square in it is seen if it is factored
+            first = ast.Call(ast.Name("factor"), [first], [])
+        for _ in range(2 if name == "d2" else 1):
+            first = ast.Call(ast.Name(_CALLED.get(name, name[:1] if name == "d2" else name)), [first, *others], [])
+        return first
+
+
+def _less(index: ast.expr) -> ast.expr:
+    """Return an index as Python counts it."""
+    if isinstance(index, ast.Constant):
+        return ast.Constant(int(str(index.value)) - 1)
+    return ast.BinOp(index, ast.Sub(), ast.Constant(1))
+
+
+def _tree(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body
+
+
+def _called(tree: ast.AST) -> set[str]:
+    return {getattr(node.func, "id", "") for node in ast.walk(tree) if isinstance(node, ast.Call)}
+
+
+def _words(node: ast.expr) -> set[str]:
+    """Return the names in a formula."""
+    return {name.id for name in ast.walk(node) if isinstance(name, ast.Name)}

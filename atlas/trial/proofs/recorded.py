@@ -1,0 +1,111 @@
+"""The recorded verdicts, kept beside the proofs: a page is drawn from them and never waits for a proof.
+
+`source(name)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
+topic and the topics that it builds on, comments and blank lines aside, and the TeX that is shown. A recorded verdict is
+current if its fingerprint is.
+"""
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from atlas import files
+from atlas.errors import AtlasError
+from atlas.trial.ledger import EQUATIONS, equation, topic
+from atlas.trial.proofs.verdict import Verdict
+
+FOLDER = Path(__file__).resolve().parent
+VERDICTS = FOLDER / "verdicts.json"
+SCRIPTS = FOLDER / "scripts.json"
+MACHINERY = ("notation", "tex", "model", "identity", "decide", "trial")
+
+
+@cache
+def _normal(stem: str) -> str:
+    lines = (FOLDER / f"{stem}.py").read_text("utf-8").splitlines()
+    return "\n".join(line.rstrip() for line in lines if line.strip() and not line.lstrip().startswith("#"))
+
+
+@cache
+def _reach(stem: str) -> frozenset[str]:
+    """Return the files of this folder that a topic imports, itself among them, but for what only records a result."""
+    text = _normal(stem)
+    direct = set(re.findall(r"^from atlas\.trial\.proofs\.(\w+) import", text, re.MULTILINE))
+    for names in re.findall(r"^from atlas\.trial\.proofs import (.+)$", text, re.MULTILINE):
+        direct |= {name.split(" as ")[0].strip() for name in names.split(",")}
+    return frozenset({stem}).union(*(_reach(name) for name in direct - {"verdict"}))
+
+
+@cache
+def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
+    parts = [_normal(name) for name in sorted(_reach(stem) | set(machinery))]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def source(name: str) -> str:
+    """Return the fingerprint of the proof of an entry of the ledger."""
+    parts = (_fingerprint(topic(name), MACHINERY), equation(name).tex)
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def load(path: Path = VERDICTS) -> dict[str, Verdict]:
+    """Return the recorded verdicts by name, in the ledger's order."""
+    recorded = {entry["name"]: Verdict(**entry) for entry in _read(path)}
+    return {name: recorded[name] for name in EQUATIONS if name in recorded}
+
+
+def _read(path: Path) -> list[dict[str, Any]]:
+    try:
+        entries: list[dict[str, Any]] = json.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return []
+    except json.JSONDecodeError as reason:
+        raise AtlasError(
+            f"{path.name} holds no valid record ({reason}); `atlas verify --record` writes a new one"
+        ) from None
+    return entries
+
+
+def scripts(path: Path = SCRIPTS) -> dict[str, str]:
+    """Return the recorded scripts by name, or why there is none; see `atlas.trial.proofs.script`."""
+    return dict(json.loads(path.read_text("utf-8"))) if path.is_file() else {}
+
+
+def save_scripts(written: Mapping[str, str], path: Path = SCRIPTS) -> None:
+    """Write scripts, over those of the same names that are there."""
+    there = scripts(path) | dict(written)
+    ordered = {name: there[name] for name in EQUATIONS if name in there}
+    files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
+
+
+def save(verdicts: Iterable[Verdict], path: Path = VERDICTS) -> None:
+    """Write records, over those of the same names that are there; seconds change only where the proof did."""
+    old = {entry["name"]: entry for entry in _read(path)}
+    for record in verdicts:
+        entry = record.as_dict()
+        before = old.get(record.name)
+        if before and before["source"] == entry["source"]:
+            entry["seconds"] = before["seconds"]
+        old[record.name] = entry
+    ordered = [old[name] for name in EQUATIONS if name in old]
+    files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
+
+
+def differs(verdicts: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
+    """Return (name, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
+    records = load() if recorded is None else recorded
+    changed = []
+    for verdict in verdicts:
+        before = records.get(verdict.name)
+        was = _both(before) if before else "not recorded"
+        if was != _both(verdict):
+            changed.append((verdict.name, was, _both(verdict)))
+    return changed
+
+
+def _both(verdict: Verdict) -> str:
+    return verdict.verdict + (f", corrected form {verdict.corrected_verdict}" if verdict.corrected_verdict else "")

@@ -1,0 +1,154 @@
+"""Tries the entries of the ledger, from the cache where the proof hasn't changed."""
+
+import json
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from atlas import processes
+from atlas.errors import AtlasError
+from atlas.sources import digest
+from atlas.trial.ledger import EQUATIONS, equation, find, topic
+from atlas.trial.proofs import recorded
+from atlas.trial.proofs.decide import Outcome
+from atlas.trial.proofs.trial import Part, Trial
+from atlas.trial.proofs.verdict import Verdict
+
+LIMIT = 60.0  # seconds of the processor that one trial may take; more is undecided
+CACHE = Path("build") / "proofs"
+FIELDS = sorted(Verdict.__dataclass_fields__)
+
+Progress = Callable[[str, int, int], None]
+
+
+class OverTimeError(Exception):
+    """A trial has used up its time."""
+
+
+@contextmanager
+def limit(seconds: float) -> Iterator[None]:
+    """Stop what runs inside after that many seconds of the processor; only the main thread, where there are signals.
+
+    So a verdict does not depend on what else the machine does.
+    """
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(_number: int, _frame: Any) -> None:
+        raise OverTimeError
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+
+
+@cache
+def trials(stem: str) -> dict[str, Trial]:
+    """Return the trials of one topic by name; what its `SIGNS` say holds for all of them."""
+    module = import_module(f"atlas.trial.proofs.{stem}")
+    signs: dict[str, str] = getattr(module, "SIGNS", {})
+    return {name: replace(trial, name=name, signs={**signs, **trial.signs}) for name, trial in module.TRIALS.items()}
+
+
+def trial(name: str) -> Trial:
+    """Return the trial of an entry of the ledger."""
+    equation(name)
+    named = trials(topic(name)).get(name)
+    if named is None:
+        raise AtlasError(f"nothing has been tried about {name!r}: add a trial to atlas/trial/proofs/{topic(name)}.py")
+    return replace(named, grade=trial(named.slip).grade) if named.slip else named
+
+
+def try_one(name: str) -> Verdict:
+    """Try one entry of the ledger, now."""
+    entry, case = equation(name), trial(name)
+    start = time.process_time()
+    outcome = within_time(lambda: case.of_printed(shrink=True))
+    corrected = within_time(case.of_corrected).decision if case.corrected else ""
+    false = case.false_part if case.false else None
+    return Verdict(
+        name=name,
+        number=entry.number,
+        section=entry.section,
+        kind=entry.kind,
+        verdict=outcome.decision,
+        method=outcome.method,
+        follows=case.follows,
+        printed=_lines(case.parts),
+        said=case.said,
+        grade=case.grade,
+        slip=case.slip,
+        corrected=_lines(case.corrected_parts),
+        corrected_tex=case.corrected_tex,
+        corrected_verdict=corrected,
+        counterexample=outcome.counterexample,
+        note=case.note,
+        false=case.false.says if case.false else "",
+        false_line=false.line if false else "",
+        false_verdict=within_time(false.outcome).decision if false else "",
+        seconds=round(time.process_time() - start, 2),
+        source=recorded.source(name),
+    )
+
+
+def _lines(parts: Iterable[Part]) -> str:
+    return "; ".join(line.line for line in parts)
+
+
+def within_time(run: Callable[[], Outcome]) -> Outcome:
+    """Return what a trial finds, undecided if it takes longer than `LIMIT`."""
+    try:
+        with limit(LIMIT):
+            return run()
+    except OverTimeError:
+        return Outcome("undecided", f"out of time after {LIMIT:.0f} s")
+
+
+def verify(
+    names: Iterable[str] | None = None,
+    progress: Progress | None = None,
+    *,
+    jobs: int = 1,
+    store: Any = None,
+) -> list[Verdict]:
+    """Try entries of the ledger, all if none is named, and return their verdicts in the ledger's order.
+
+    progress      called with (name, how many are done, how many there are) after each trial
+    jobs          processes side by side
+    store         cache in which verdicts are kept by the fingerprint of their proof; None tries everything anew
+    """
+    meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
+    wanted = [name for name in EQUATIONS if name in meant]
+    keys = {name: digest("verdict", FIELDS, name, recorded.source(name)) for name in wanted} if store else {}
+    known = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
+    verdicts = {name: Verdict(**json.loads(entry)) for name, entry in known.items()}
+    missing = [name for name in wanted if name not in verdicts]
+    for done, (name, result) in enumerate(_each(missing, jobs), len(verdicts) + 1):
+        verdicts[name] = result
+        if store:
+            store.put(keys[name], json.dumps(result.as_dict()).encode())
+        if progress:
+            progress(name, done, len(wanted))
+    return [verdicts[name] for name in wanted]
+
+
+def _each(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:
+    executor = processes.pool(jobs, context="fork") if jobs > 1 and len(names) > 1 else None
+    if executor is None:
+        yield from ((name, try_one(name)) for name in names)
+        return
+    with executor as pool:
+        trials = [pool.submit(try_one, name) for name in names]
+        yield from ((name, trial.result()) for name, trial in zip(names, trials, strict=True))

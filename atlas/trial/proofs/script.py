@@ -1,0 +1,245 @@
+"""A proof as a script of plain SymPy that runs without atlas, and its two sides as polynomials.
+
+A script declares symbols, says what the letters of a line stand for and what the symbols are in free parameters, and
+expands the numerator of the difference of both sides, or puts in the exact point that refutes the line. What it prints
+last says what is proved or refuted; where that is not so it ends with 1.
+"""
+
+import re
+import textwrap
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import sympy
+from sympy.printing.str import StrPrinter
+
+from atlas.trial.ledger.plain import plain
+from atlas.trial.proofs.decide import breaks, completed, simplest
+from atlas.trial.proofs.identity import ordered, positive, resolved, sign_forms
+from atlas.trial.proofs.model import rotation
+from atlas.trial.proofs.notation import Relation
+from atlas.trial.proofs.python import Line
+from atlas.trial.proofs.run import LIMIT, OverTimeError, limit, trial
+from atlas.trial.proofs.trial import Part
+from atlas.trial.proofs.verdict import Verdict
+
+Value = Any
+
+_WIDTH = 110
+_LONG = 300  # letters of a polynomial that is written out
+_CHECK = '''
+def check(difference):
+    """Stop unless a number, or each entry of a matrix, is 0: its numerator expands to nothing."""
+    for x in Matrix([difference]):
+        if expand(numer(together({top}))) != 0:
+            raise SystemExit(f"not so: {{x}} is not 0")
+'''
+_WHERE = ".subs(where)"
+_RATE = "def d(x): return sum((diff(x, s) * rate for s, rate in flow.items()), 0 * x)"
+_START = "def at0(x): return x.subs(start, simultaneous=True)"
+_FORMS = "{}", "factor(together({}))", "(expand(numer(together({0}))) / expand(denom(together({0}))))"
+
+Rows = tuple[dict[str, str], list[str]]  # what is declared, with its assumptions, and what follows
+
+
+def script_of(verdict: Verdict) -> str:
+    """Return the script of an entry of the ledger on which this was found, or the line that says why there is none.
+
+    It refutes the printed form where that is refuted, and proves the corrected one; otherwise the printed one.
+    """
+    case = trial(verdict.name)
+    if verdict.verdict == "undecided" or (verdict.method == "indices" and not case.corrected):
+        return f"No script: it is {verdict.verdict} ({plain(verdict.method)}) before anything is computed."
+    if verdict.verdict == "refuted":
+        how = " by its indices" if verdict.method == "indices" else ""
+        says, blocks = [f"{verdict.name} as printed is refuted{how}"], [] if how else [_refuted(case.parts)]
+    else:
+        says = [f"{verdict.name} {'is a definition that holds' if verdict.verdict == 'definition' else 'is proved'}"]
+        blocks = [_proved(line) for line in _lines(case.parts)]
+    if case.corrected:
+        says.append("its corrected form is proved")
+        blocks += [_proved(line) for line in _lines(case.corrected_parts)]
+    body = list(_joined(blocks))
+    top = f"numer(together(x)){_WHERE}" if "where = " in "\n".join(body) else "x"
+    head = textwrap.wrap(f"# {verdict.name}, from {plain(case.follows)}", _WIDTH, subsequent_indent="# ")
+    head += ["from sympy import *", *(_CHECK.format(top=top).split("\n") if "check(" in "\n".join(body) else [""])]
+    return "\n".join(_wrapped(row) for row in [*head, *body, f'print("{", ".join(says)}")']) + "\n"
+
+
+def _joined(blocks: Sequence[Rows]) -> Iterator[str]:
+    """Yield the rows of all blocks, but for what is known already; symbols are declared before they are used."""
+    symbols, known = dict[str, str](), dict[str, str]()
+    supposed = [any(row.startswith("where = ") for row in rows) for _, rows in blocks]
+    for (declared, rows), own in zip(blocks, supposed, strict=True):
+        fresh = {name: assumed for name, assumed in declared.items() if symbols.get(name) != assumed}
+        known = {} if fresh.keys() & symbols.keys() else known
+        for assumed in dict.fromkeys(fresh.values()):
+            every = " ".join(name for name in fresh if fresh[name] == assumed)
+            for some in textwrap.wrap(every, _WIDTH // 2 - 16):
+                yield f'{some.replace(" ", ", ")} = symbols("{some}"{assumed})'
+        symbols |= fresh
+        for row in [*["where = []"] * (any(supposed) and not own), *rows]:
+            name = re.match(r"(?:def )?(\w+)(?= = |\(x\))", row)
+            if name and known.get(name[1]) == row and name[1] != "where":
+                continue
+            yield row
+            if name:  # what is made of it must be said anew
+                known = {each: text for each, text in known.items() if not re.search(rf"\b{name[1]}\b", text)}
+                known[name[1]] = row
+
+
+def sides_of(name: str) -> list[str]:
+    """Return what both sides of each line of a true form are in free parameters, or what has its sign.
+
+    None if that takes too long.
+    """
+    sides: list[str] = []
+    try:
+        with limit(LIMIT):
+            for line in _lines(trial(name).true_parts):
+                sides += [_sides(relation, line) for relation in line.relations]
+    except OverTimeError:
+        return []
+    return list(dict.fromkeys(sides))
+
+
+def _sides(relation: Relation, line: Line) -> str:
+    """Return what the sides of a relation are, of several components of the first that is not 0."""
+    where, printer = resolved(line.model.where), line.printer
+    pairs = [(sympy.sympify(a), sympy.sympify(b)) for a, b in zip(relation.left, relation.right, strict=True)]
+    if relation.sign != "=":
+        value = sympy.factor(sympy.together((pairs[0][0] - pairs[0][1]).xreplace(where)))
+        return f"{relation.text}: left - right = {_short(value, printer)}"
+    values = (sympy.cancel(left.xreplace(where)) for left, _ in pairs)
+    entry, value = next(((n, value) for n, value in enumerate(values, 1) if value != 0), (1, sympy.Integer(0)))
+    component = f", component {entry} of {len(pairs)}" if len(pairs) > 1 else ""
+    if value != 0:
+        return f"{relation.text}: each side{component} is {_short(value, printer)}"
+    used = {symbol: meant for symbol, meant in where.items() if any(left.has(symbol) for left, _ in pairs)}
+    meant = "; ".join(f"{printer.doprint(symbol)} = {_short(value, printer)}" for symbol, value in used.items())
+    return f"{relation.text}: the left side becomes 0" + (f" with {meant}" if meant else "")
+
+
+def _short(value: Value, printer: StrPrinter) -> str:
+    """Return a rational function as text, or its size where that is long."""
+    text = str(printer.doprint(value)).replace("**", "^")
+    if len(text) <= _LONG:
+        return text
+    top, bottom = (sympy.Poly(side, *sorted(value.free_symbols, key=str)) for side in sympy.fraction(value))
+    sizes = [f"a polynomial of {len(side.terms())} terms and degree {side.total_degree()}" for side in (top, bottom)]
+    letters = ", ".join(printer.doprint(symbol) for symbol in top.gens)
+    return f"{sizes[0]} in {letters}" + ("" if bottom.is_ground else f", over {sizes[1]}")
+
+
+def _lines(parts: Sequence[Part]) -> list[Line]:
+    return [Line(line.line, model, line.defines, line.solves) for line in parts for model in line.cases]
+
+
+def _proved(line: Line) -> Rows:
+    """Return the rows that prove a line in one case."""
+    where, rows = resolved(line.model.where), list[str]()
+    for relation in line.relations:
+        indent = ""
+        for index, numbers in line.loops(relation):
+            rows.append(f"{indent}for {index} in {numbers}:")
+            indent += "    "
+        value = sympy.sympify(relation.left[0] - relation.right[0]).xreplace(where)
+        turned = relation.sign in {"<", "<="} or (relation.sign == "!=" and not positive(value, strict=True))
+        difference = line.difference(relation, turned=turned)
+        if relation.sign == "=":
+            rows.append(f"{indent}check({difference})")
+            continue
+        strict = relation.sign not in {"<=", ">="}
+        form = _FORMS[sign_forms(-value if turned else value, strict=strict).index(True)]
+        kind = "is_positive" if strict else "is_nonnegative"
+        rows += [f"{indent}if not {form.format(f'({difference}){_WHERE}')}.{kind}:"]
+        rows += [f'{indent}    raise SystemExit("not so: {relation.text}")']
+    return _stated(line, rows)
+
+
+def _refuted(parts: Sequence[Part]) -> Rows:
+    """Return the rows that put in the point which breaks a line."""
+    for line in _lines(parts):
+        for free in line.points():
+            values = completed(free, line.model)
+            for relation in line.relations:
+                for entry in range(len(relation.left)):
+                    if breaks(relation, entry, values):
+                        return _broken(line, relation, entry, simplest(relation, entry, free, line.model))
+    raise ValueError("there is no counterexample")
+
+
+def _broken(line: Line, relation: Relation, entry: int, values: dict[Value, Value]) -> Rows:
+    numbers = line.loops(relation)
+    runs = 1
+    for _, choice in numbers:
+        runs *= len(choice)
+    each = len(relation.left) // runs
+    rows, run = list[str](), entry // each
+    for index, choice in reversed(numbers):
+        rows.insert(0, f"{index} = {choice[run % len(choice)]}")
+        run //= len(choice)
+    sides = [f"({side})[{entry % each}]" if each > 1 and side != "0" else f"({side})" for side in line.sides(relation)]
+    letters = set().union(*(sympy.sympify(side[entry]).free_symbols for side in (relation.left, relation.right)))
+    point = {symbol: value for symbol, value in values.items() if symbol in letters}
+    digits = "" if all(value.is_Rational for value in point.values()) else ".n(30)"
+    sign = {"=": "=="}.get(relation.sign, relation.sign)
+    rows += [
+        f"point = {line.table(point)}",
+        *(f"{name} = S{side}.subs(point){digits}" for name, side in zip(("left", "right"), sides, strict=True)),
+        f'print("{relation.text} has", left, "and", right, "at", point)',
+        f"if left {sign} right:",
+        '    raise SystemExit("not so: the point does not break it")',
+    ]
+    return _stated(line, rows)
+
+
+def _stated(line: Line, rows: Sequence[str]) -> Rows:
+    """Return the rows with what stands before the rows: symbols, letters, rates, definitions, and what symbols are."""
+    definitions = [f"{name} = {line.definition(name)}" for name in line.in_order()]
+    text = "\n".join([*definitions, *rows])
+    letters = [f"{name} = {line.plain(value)}" for name, value in line.used.items() if line.is_said(name, value)]
+    needed = line.needed()
+    if re.search(r"\bd\(", text):
+        letters += [f"flow = {line.table({s: v for s, v in line.model.flow.items() if s in needed})}", _RATE]
+    if "at0(" in text:
+        letters += [f"start = {line.table({s: v for s, v in line.model.start.items() if s in needed})}", _START]
+    where = [] if "point = " in text else [pair for pair in reversed(ordered(line.model.where)) if pair[0] in needed]
+    turned, where = _rotation(line, where)
+    pairs = ", ".join(f"({line.plain(symbol)}, {line.plain(value)})" for symbol, value in where)
+    letters += [f"where = [{pairs}]"] * bool(where or turned) + turned
+    rows = rows if where or turned else [row.replace(_WHERE, "") for row in rows]
+    return line.assumptions(), [*letters, *definitions, *rows]
+
+
+def _rotation(line: Line, where: list[tuple[Value, Value]]) -> tuple[list[str], list[tuple[Value, Value]]]:
+    """Return the rows that say by Cayley's formula what nine symbols are, if they are a rotation, and what is left."""
+    turned = [(symbol, value) for symbol, value in where if value in set(rotation())]
+    if len(turned) < 9:
+        return [], where
+    turned.sort(key=lambda pair: str(pair[0]))
+    symbols = ", ".join(line.plain(symbol) for symbol, _ in turned)
+    line.symbols += [symbol for symbol in sympy.symbols("q1:4", real=True) if symbol not in line.symbols]
+    rows = [
+        f"C = Matrix([{', '.join(line.plain(q) for q in sympy.symbols('q1:4', real=True))}]).hat()",
+        f"where += zip([{symbols}], ((eye(3) + C) * (eye(3) - C).inv()).applyfunc(cancel))",
+    ]
+    return rows, [pair for pair in where if pair not in turned]
+
+
+def _wrapped(row: str) -> str:
+    """Break a long row at spaces, which are all within brackets."""
+    if len(row) <= _WIDTH:
+        return row
+    indent = " " * (len(row) - len(row.lstrip()))
+    row = re.sub(r"^(\w+) = (?![\[{])(.*)$", r"\1 = (\2)", row)
+    quoted = re.sub(r'"[^"]*"|raise S', lambda text: text[0].replace(" ", "\N{NO-BREAK SPACE}"), row)
+    lines = textwrap.wrap(
+        quoted.lstrip(),
+        _WIDTH,
+        initial_indent=indent,
+        subsequent_indent=f"{indent}    ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")

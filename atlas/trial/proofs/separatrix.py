@@ -1,0 +1,292 @@
+"""Steady precessions, their stability and the second elementary family on trial: a quartic with a double root."""
+
+from dataclasses import replace
+
+import sympy
+
+from atlas.trial.proofs import general
+from atlas.trial.proofs.general import QUARTIC, top_model
+from atlas.trial.proofs.model import Model, Value, dot, functions, turn
+from atlas.trial.proofs.trial import Falsehood, Part, Trial
+
+SIGNS = {
+    "B'_3": "B3",
+    "q": "q()",
+    "q'": "dq()",
+    "q''": "ddq()",
+    r"\lambda_-": "lam_minus",
+    r"\lambda_+": "lam_plus",
+    "e_+": "e_plus",
+    "e_-": "e_minus",
+    r"\begin{pmatrix}\xi\\\eta\end{pmatrix}\propto": "spinor =",
+}
+b = sympy.Symbol("b", positive=True)
+nu, nu0, e, A, w, M3, c3, p, c, t, g = sympy.symbols("nu nu0 e A w M3 c3 p c t g", real=True)
+T, C = sympy.symbols("T C", real=True)
+
+
+def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]:
+    """Return M3, p and the quartic q of a steady precession with this rate w at nu0, by theorem-steady."""
+    momentum = double * (rate**2 + leading) / rate
+    along = rate * (1 - double**2) + double * momentum
+    rest = leading * double**2 + rate**2 * (1 - double**2)
+    whole = QUARTIC.xreplace({general.p: along, general.M3: momentum, general.A: leading, general.g: rest})
+    return {"M3": momentum, "p": along, "G": rest, **functions("q", whole, nu)}
+
+
+def any_model() -> Model:
+    """Model any constants of the quartic q with the root nu0; g is 2H - M3^2/I - b^2."""
+    rest = A * nu0**2 + (p - M3 * nu0) ** 2 / (1 - nu0**2)
+    letters = {"nu0": nu0, "A": A, "M3": M3, "p": p, "w": (p - M3 * nu0) / (1 - nu0**2)}
+    return Model({**letters, **functions("q", QUARTIC.xreplace({general.g: rest, general.A: A}), nu)})
+
+
+def precession_model() -> Model:
+    """Model an elementary motion: (71), its rate k of precession, and the constants of its top."""
+    I, B2, B3, omega2, q1 = sympy.symbols("I B2 B3 omega2 q1", real=True)
+    h2, h3 = turn(q1)[::-1]
+    omega3 = B3 * omega2 * (omega2 + (2 - I) * B2) / (I * B2 * (omega2 + B2))
+    spin, field = sympy.Matrix([0, omega2, omega3]), sympy.Matrix([0, B2, B3])
+    M = sympy.diag(1, 1, I) * (spin + field)
+    H = dot(M, sympy.diag(1, 1, 1 / I) * M) / 2 + dot(field, sympy.diag(1, 1, I) * field) / 2
+    letters = {"M3": M[2], "p": dot(M, field) / b, "H": H, "I": I, "b": b, "A": (I - 1) * b**2, "nu0": B3 / b}
+    letters |= {"k": omega2 / h2, "hB3": h3, "w": (dot(M, field) / b - M[2] * B3 / b) / (1 - B3**2 / b**2)}
+    state = {general.p: letters["p"], general.M3: M[2], general.A: letters["A"]}
+    state[general.g] = 2 * H - M[2] ** 2 / I - b**2
+    return Model({**letters, **functions("q", QUARTIC.xreplace(state), nu)}, [(B2, b * h2), (B3, b * h3)])
+
+
+def nutation_model() -> list[Model]:
+    """Model a steady precession with the rate w at nu0, and either sign."""
+    letters = {"nu0": nu0, "A": A, "w": w, **steady(w, A)}
+    letters["nun2"] = -letters["ddq"](nu0) / 2
+    return [Model({**letters, "sign": sympy.Integer(sign)}) for sign in (1, -1)]
+
+
+def range_model() -> Model:
+    """Model a steady precession with A = -w^2/z, z between nu0^2 and 1."""
+    z = sympy.Symbol("z", positive=True)
+    letters = {"nu": nu, "nu0": nu0, "w": w, "z": z, "A": -(w**2) / z, "b": b, "I": 1 - w**2 / z / b**2}
+    letters |= steady(w, -(w**2) / z)
+    return Model({**letters, "q": letters["q"](nu)})
+
+
+def _spinors(model: Model) -> Model:
+    """Add what a pair of complex numbers says: nu, and the rates of their two arguments."""
+
+    def size(value: Value) -> Value:
+        return sympy.expand(value * value.xreplace({sympy.I: -sympy.I}))
+
+    def height(pair: Value) -> Value:
+        first, second = size(pair[0]), size(pair[1])
+        return (first - second) / (first + second)
+
+    def argument(pair: Value, place: Value) -> Value:
+        spinor = pair[int(place) - 1]
+        turned = sympy.expand(spinor.xreplace({sympy.I: -sympy.I}) * model.rate(spinor))
+        return (turned - turned.xreplace({sympy.I: -sympy.I})) / (2 * sympy.I * size(spinor))
+
+    model.letters |= {"height": height, "argument": argument}
+    return model
+
+
+def family_model() -> Model:
+    """Model the family by the tangents of half the angles kappa and delta, w and b; all its constants are rational.
+
+    With T = S/C, S and C as in theorem-companion, dT = (1 - c T^2)/2 and dC = c S/2.
+    """
+    kappa, delta, x, y = sympy.symbols("kappa delta x y", real=True)
+    ck, sk, cd, sd = sympy.symbols("ck sk cd sd", real=True)
+    turning, sine = cd**2 - sd**2, 2 * cd * sd
+    double, leading = -ck * (turning * ck + sine * sk), -(w**2) / ck**2
+    I = 1 + leading / b**2
+    letters: dict[str, Value] = {"kappa": kappa, "delta": delta, "w": w, "b": b, "t": t, "nu0": nu0, "e": e, "A": A}
+    letters |= {"nu": nu, "M3": M3, "p": p, "c3": c3, "c": c, "C": C, "S": T * C, "lam_minus": (c3 - M3 - b) / 2}
+    letters["lam_minus"] += (p + M3) / (1 + nu0) / 2
+    letters["lam_plus"] = (M3 - c3 - b + (p - M3) / (1 - nu0)) / 2
+    rest = A * nu0**2 + w**2 * (1 - nu0**2)
+    letters |= functions("q", QUARTIC.xreplace({general.g: rest, general.A: A, general.p: p, general.M3: M3}), nu)
+    letters["cosh"] = lambda argument: C if argument == sympy.sqrt(c) * t / 2 else sympy.cosh(argument)
+    letters["sinh"] = lambda argument: (
+        sympy.sqrt(c) * T * C if argument == sympy.sqrt(c) * t / 2 else sympy.sinh(argument)
+    )
+    rates = steady(w, leading, double)
+    where = [(ck, turn(x)[0]), (sk, turn(x)[1]), (cd, turn(y)[0]), (sd, turn(y)[1]), (e, turning), (nu0, double)]
+    where += [(A, leading), (M3, rates["M3"]), (p, rates["p"]), (c3, rates["M3"] / I)]
+    where += [(c, leading * (double - turning) * (3 * double + turning))]
+    flow = {T: (1 - c * T**2) / 2, C: c * T * C / 2, t: sympy.Integer(1)}
+    return _spinors(Model(letters, where, flow, phases={kappa: (ck, sk), delta: (cd, sd)}))
+
+
+def double_model() -> Model:
+    """Model any quartic with a double root at nu0 and a root at e = nu0 + y; S and C with dS = C/2, dC = c S/2."""
+    y, S = sympy.symbols("y S", real=True)
+    letters = {"nu0": nu0, "e": nu0 + y, "A": A, "c": c, "S": S, "C": C, "d": -(c + A * y**2) / y}
+    shift = nu - nu0
+    letters |= functions("q", shift**2 * (c - (c + A * y**2) / y * shift + A * shift**2), nu)
+    return Model(letters, [(c, (C**2 - 1) / S**2)], flow={S: C / 2, C: c * S / 2})
+
+
+def triple_model() -> Model:
+    """Model a double root at an end of the band, where the others of theorem-companion-range are -nu0 +- 2 nu0."""
+    I = sympy.Symbol("I", positive=True)
+    whole = (I - 1) * b**2 * (nu - nu0) ** 2 * ((nu + nu0) ** 2 - 4 * nu0**2)
+    letters = {"nu0": nu0, "t": t, "I": I, "b": b, "e": -nu0 - 2 * nu0, **functions("q", whole, nu)}
+    return Model(letters, flow={t: sympy.Integer(1)})
+
+
+def axis_model() -> Model:
+    """Model any state near the spin along the field, in the letters of the top; n = K/b."""
+    whole = top_model()
+    M, K, letters = whole.letters["M"] / whole.letters["I2"], whole.letters["K"], dict(whole.letters)
+    letters |= {"M1": M[0], "M2": M[1], "n1": K[0] / b, "n2": K[1] / b, "nu": K[2] / b}
+    letters |= {"A": (letters["I"] - 1) * b**2, "B3": b, "omega3": M[2] / letters["I"] - b}
+    return replace(whole, letters=letters)
+
+
+def escape_model() -> list[Model]:
+    """Model the motion that leaves the axis: A = a^2, M3 of either sign, e = cos(2 delta); T = S/C, as above."""
+    a, delta = sympy.Symbol("a", positive=True), sympy.Symbol("delta", real=True)
+    cosine = 1 / sympy.sqrt(1 - c * T**2)  # C, for C^2 = 1 + c S^2
+    letters = {"delta": delta, "e": e, "c": c, "M3": M3, "c3": c3, "b": b, "I": 1 + a**2 / b**2, "t": t}
+    letters |= {"D": M3**2 - 4 * a**2, "C": cosine, "S": T * cosine}
+    letters |= {"lam_minus": (c3 - b) / 2, "lam_plus": (M3 - c3 - b) / 2}
+    state = {general.p: M3, general.M3: M3, general.A: a**2, general.g: a**2}
+    letters |= functions("q", QUARTIC.xreplace(state), nu)
+    phases, flow = {delta: (sympy.sqrt((1 + e) / 2), sympy.sqrt((1 - e) / 2))}, {T: (1 - c * T**2) / 2, t: 1}
+    cases = []
+    for sign in (1, -1):
+        where = [(M3, sign * a * (1 + e)), (c, 4 * a**2 - (a * (1 + e)) ** 2)]
+        model = Model({**letters, "size": sign * M3}, where, flow, phases=phases, domains={"e": "unit"})
+        cases.append(_spinors(model))
+    return cases
+
+
+def pushed_model() -> Model:
+    """Model x = tan(theta/2)^2 for the state Omega = (s1, 0, omega3), K = (0, 0, b), its rate by theorem-top."""
+    x, s1 = sympy.symbols("x s1", real=True)
+    place = (1 - x) / (1 + x)
+    state = {general.p: M3, general.A: A, general.g: s1**2 + A, nu: place}
+    rate = sympy.sqrt(QUARTIC.xreplace(state)) * (1 + x) ** 2 / 2
+    return Model({"x": x, "s1": s1, "A": A, "M3": M3, "nu": place}, flow={x: rate})
+
+
+def pendulum_model() -> Model:
+    """Model nu as a function of T = tanh(a t), a^2 = A; the disk has M3 = p = 0 and 2H - b^2 = A."""
+    a = sympy.Symbol("a", positive=True)
+    zero = sympy.Integer(0)
+    state = {general.p: zero, general.M3: zero, general.A: a**2, general.g: a**2}
+    letters = {"A": a**2, "M3": zero, "p": zero, "t": t, "b": b, "H": (a**2 + b**2) / 2}
+    letters["tanh"] = lambda argument: T if argument == a * t else sympy.tanh(argument)
+    letters |= functions("q", QUARTIC.xreplace(state), nu)
+    return Model(letters, flow={T: a * (1 - T**2)}, start={T: zero})
+
+
+_SPINOR = (
+    "d(height(spinor))^2 = q(height(spinor));"
+    " argument(spinor,1) = 1/2*((p - M3*height(spinor))/(1 + height(spinor)) + c3 - b);"
+    " argument(spinor,2) = 1/2*((p - M3*height(spinor))/(1 - height(spinor)) - c3 - b)"
+)
+
+TRIALS = {
+    "theorem-steady": Trial(
+        model=precession_model,
+        signs={r"\hat B_3": "hB3"},
+        follows=r"@theorem-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, and "
+        "$q'$ then has the factor",
+        also=(Part(line="q(nu0) = 0; dq(nu0) = 2*(1 - nu0^2)*(M3*w - nu0*(w^2 + A))", model=any_model),),
+        note=r"With $|\nu_0| < 1$ the slope vanishes exactly if $M_3 w = \nu_0 (w^2 + A)$. ",
+        false=Falsehood("The condition is that of the free top", "nu0*(w^2 + A)", "nu0*w^2"),
+    ),
+    "theorem-nutation": Trial(
+        model=nutation_model,
+        signs={r"\nu_n^2": "nun2"},
+        follows="@theorem-steady",
+        note=r"For $I > 1$ take the upper sign with $|\nu_0|$: the bound $A (1 - \nu_0)(1 + 3\nu_0)$ is met at "
+        r"$w^2 = A |\nu_0|$. For $I < 1$ take the sign that makes the last term $-|A|(1 + |\nu_0|)(1 - 3 |\nu_0|)$: "
+        r"stable if $|\nu_0| > 1/3$.",
+        false=Falsehood(
+            "The term linear in $A$ has one sign, whatever the inclination", "A*(3*nu0^2 - 1)", "A*(3*nu0^2 + 1)"
+        ),
+    ),
+    "theorem-companion-range": Trial(
+        model=range_model,
+        signs={"q": "q"},
+        defines=("e_plus", "e_minus"),
+        follows="@theorem-steady with $A = -w^2/z$, $z = w^2/((1-I) b^2)$",
+        false=Falsehood("The other roots are real for every $z < 1$", "(z - nu0^2)/z", "(z + nu0^2)/z"),
+    ),
+    "theorem-companion-roots": Trial(
+        model=family_model,
+        also=("q(nu) = A*(nu - nu0)^2*(nu - e)*(nu + 2*nu0 + e)",),
+        follows=r"@theorem-companion-range with $z = \cos^2\kappa$ and $e=\cos2\delta$",
+        note=r"In @theorem-companion-range $(e + \nu_0)^2 = (1-z)(z-\nu_0^2)/z$ is $(e + \nu_0/z)^2 z = (1-z)(1-e^2)$, "
+        "met by any two angles.",
+        false=Falsehood(r"The exponent vanishes where $e = 3\nu_0$", "(3*nu0 + e)", "(3*nu0 - e)"),
+    ),
+    "theorem-companion": Trial(
+        model=family_model,
+        follows="@theorem-top and @theorem-cayley-klein by substitution, $T = S/C$",
+        signs={r"\Lambda": "L"},
+        defines=("spinor", "L"),
+        solves=_SPINOR,
+        note=r"Here $\nu=(|\xi|^2-|\eta|^2)/(|\xi|^2+|\eta|^2)$. Both turn in the laboratory by $-b t/2$ more. The "
+        "formula holds for $c$ of either sign and 0; $c > 0$ is the separatrix of an unstable elementary motion.",
+        false=Falsehood("Both vectors are turned by the same angle", "sin(delta - kappa)", "sin(delta + kappa)"),
+    ),
+    "theorem-companion-nutation": Trial(
+        model=double_model,
+        follows="$2S' = C$, $2C' = cS$",
+        defines=("nu",),
+        solves="d(nu)^2 = q(nu); q(e) = 0",
+        false=Falsehood(
+            "The nutation does not depend on the strength of the potential", "(c - A*(e - nu0)^2)*S^2", "c*S^2"
+        ),
+    ),
+    "theorem-companion-triple": Trial(
+        model=triple_model,
+        follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
+        signs={"q": "q(nu)"},
+        defines=("nu",),
+        solves="d(nu)^2 = q(nu)",
+        false=Falsehood("It reaches half as far", "4*nu0/(1 + 4", "2*nu0/(1 + 4"),
+    ),
+    "theorem-axis-stable": Trial(
+        model=axis_model,
+        follows=r"@theorem-top; $p - M_3 = M_1 n_1 + M_2 n_2 - M_3 (1 - \nu)$",
+        defines=("D",),
+        also=("d(M1^2 + M2^2 - A*(1 - nu^2)) = 0; d(p) = 0",),
+        note=r"Every term is positive away from $\nu = 1$, $M_1 = M_2 = 0$, so a small push stays small for all times.",
+        false=Falsehood(
+            "The spin is stable whatever the sign of $D$: its coefficient is $M_3^2$",
+            "1/4*D*(1 - nu^2)",
+            "1/4*M3^2*(1 - nu^2)",
+        ),
+    ),
+    "theorem-axis-escape": Trial(
+        model=escape_model,
+        follows="@theorem-top and @theorem-cayley-klein by substitution, $p = M_3$, $T = S/C$",
+        signs={r"\lvert M_3\rvert": "size"},
+        defines=("spinor",),
+        solves=_SPINOR.replace("p - M3", "M3 - M3"),
+        note=r"As $t$ grows $1 - x$ tends to 0 as $\exp (-\sqrt{c} t)$: so the motion starts as near to the axis as "
+        "one likes, and leaves it.",
+        false=Falsehood(
+            r"It turns where $\nu = 1 - |M_3|/(b\sqrt{I-1})$", "size/(b*sqrt(I - 1)) - 1", "1 - size/(b*sqrt(I - 1))"
+        ),
+    ),
+    "theorem-axis-pushed": Trial(
+        model=pushed_model,
+        follows="@theorem-top with $p = M_3$ and $2 H - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
+        false=Falsehood(
+            "The momentum along the axis keeps it from tipping at every angle alike", "M3^2*(1 + x)^2", "M3^2"
+        ),
+    ),
+    "theorem-axis-pendulum": Trial(
+        model=pendulum_model,
+        follows=r"@theorem-top by substitution, $T = \tanh(\sqrt{A} t)$",
+        defines=("nu",),
+        solves="d(nu)^2 = q(nu); at0(d(nu)) < 0",
+        false=Falsehood("It comes back to the end from which it started", "nu = -tanh", "nu = tanh"),
+    ),
+}

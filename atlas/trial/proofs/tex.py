@@ -1,0 +1,642 @@
+r"""Reads the TeX of the ledger: the line that is tried is made from the formula that is shown.
+
+`line` turns a formula, or several of them, into a line of `notation`. Brackets with a comma are what the paper means
+by them: [a, b] the vector product, (a, b) the scalar one, {a, b} Poisson's bracket. A letter without a sign between it
+and the next is a factor. What a letter means is said by a table, in TeX; without an entry it is named after itself:
+
+    \mathbf{K}: K    \Omega_3: Omega3    \hat{B}_2: hB2    \dot m: d(m)    R_{ij}: R[i, j]    f(0): at0(f)
+
+A table may also say what a longer phrase means: an expression, a whole relation, other TeX, or nothing, where the
+model says it.
+Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names what
+the table says. On both sides of a double arrow stand statements that are tried alike, in a model where one side is
+built in; before a single one a premise, which the table must say, or a letter that the line defines.
+"""
+
+import ast
+import keyword
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache
+from itertools import pairwise
+
+from atlas.trial.proofs.notation import names, parse, write
+
+_TOKEN = re.compile(r"\\begin\{\w+\}|\\end\{\w+\}|\\text\{[^}]*\}|\\[A-Za-z]+|\\.|\d|\S", re.DOTALL)
+_SILENT = {r"\left", r"\right", r"\Bigl", r"\Bigr", r"\bigl", r"\bigr", r"\displaystyle", r"\!", "\\ "}
+_SAME = {r"\tfrac": r"\frac", r"\varepsilon": r"\epsilon", r"\boldsymbol": r"\mathbf", r"\equiv": "=", r"\;": r"\,"}
+_RELATES = re.compile("[=<>]")
+_ALIGNED = {r"\begin{aligned}", r"\end{aligned}"}
+_SEPARATORS = {",", ";", ":", r"\quad", r"\qquad", r"\\", r"\iff"} | {
+    rf"\text{{{words}}}" for words in ("where", "then", "or", "or, equivalently", "and")
+}
+_SIGNS: dict[str, type[ast.cmpop]] = {
+    "=": ast.Eq,
+    r"\ne": ast.NotEq,
+    "<": ast.Lt,
+    r"\le": ast.LtE,
+    ">": ast.Gt,
+    r"\ge": ast.GtE,
+}
+_FUNCTIONS = {rf"\{name}" for name in ("sqrt", "sin", "cos", "tan", "ln", "det", "exp", "sinh", "cosh", "tanh")}
+_ACCENTS = {r"\hat": "h", r"\tilde": "tilde", r"\dot": "d", r"\ddot": "d2"}
+_FONTS = {r"\mathbf", r"\mathbb", r"\mathrm", r"\operatorname", r"\mathcal"}
+_TOTAL = "sum over "
+_CLOSING = {")", "]", "}", r"\}", r"\rvert", "&", r"\end{pmatrix}"}
+_PAIRS = {"(": (")", "dot"), "[": ("]", "cross"), r"\{": (r"\}", "br")}
+
+
+class UnreadableError(ValueError):
+    """A formula with something in it that is neither read nor said by the table."""
+
+
+@dataclass(frozen=True)
+class _Said:
+    """A phrase that the table puts into plain letters."""
+
+    plain: str
+
+
+@dataclass(frozen=True)
+class _Letter:
+    """A letter with its marks: accents from outside in, the letter with its font, primes, and what stands below it."""
+
+    accents: tuple[str, ...]
+    base: str
+    primes: int
+    below: tuple[str, ...]
+
+
+_Token = str | _Said
+
+
+@dataclass(frozen=True)
+class _Table:
+    """What letters and phrases mean, the long ones first, and the left side of a formula that is printed without."""
+
+    letters: Mapping[_Letter, str] = field(default_factory=dict)
+    phrases: tuple[tuple[tuple[str, ...], str], ...] = ()
+    left: str = ""
+
+    def taken(self, letter: _Letter) -> set[str]:
+        """Return the plain names that the table gives to letters other than this one, bold or not."""
+        own = replace(letter, base=letter.base.split()[-1])
+        return {plain for other, plain in self.letters.items() if replace(other, base=other.base.split()[-1]) != own}
+
+
+def line(tex: str, signs: Mapping[str, str]) -> str:
+    """Return a formula in plain letters; UnreadableError if something in it is neither read nor said by `signs`."""
+    return _read(tex, tuple(signs.items()))[0]
+
+
+def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
+    """Return the letters of a formula, as the line has them, that are not bold: none of them may be a vector."""
+    return _read(tex, tuple(signs.items()))[1]
+
+
+def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
+    """Return the phrases that are not read, each with the line in its place; without one, the model says them."""
+    tokens = _tokens(tex)
+    phrases = {}
+    for key, plain in signs.items():
+        phrase = _tokens(key)
+        stands = any(tokens[place : place + len(phrase)] == phrase for place in range(len(tokens))) if phrase else False
+        if stands and phrase[0] != r"\implies" and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
+            phrases[key] = plain
+    return phrases
+
+
+@cache
+def _read(tex: str, signs: tuple[tuple[str, str], ...]) -> tuple[str, frozenset[str]]:
+    table = _table(signs)
+    readers = [_Formula(statement, table) for statement in _statements(tex, table)]
+    relations = [relation for reader in readers for relation in reader.relations()]
+    if not relations:
+        raise UnreadableError("nothing in the formula is to be read")
+    thin, bold = (frozenset().union(*(getattr(reader, kind) for reader in readers)) for kind in ("thin", "vectors"))
+    if thin & bold:
+        raise UnreadableError(f"{', '.join(sorted(thin & bold))} stands in two fonts")
+    return "; ".join(relations), thin
+
+
+@cache
+def _table(signs: tuple[tuple[str, str], ...]) -> _Table:
+    letters, phrases = {}, {}
+    for key, plain in (*_COMMON.items(), *signs):
+        tokens = _tokens(key)
+        reader = _Formula(tokens, _Table())
+        if reader.is_letter():
+            letter = reader.letter()
+            if reader.at == len(tokens):
+                letters[letter] = plain
+                continue
+        phrases[tuple(tokens)] = plain
+    left = phrases.pop((), "")
+    return _Table(letters, tuple(sorted(phrases.items(), key=lambda phrase: -len(phrase[0]))), left)
+
+
+def _tokens(tex: str) -> list[str]:
+    r"""Return the tokens of a formula; \boxed and what only sets its size left out, with the braces of a single one."""
+    tokens = [_SAME.get(mark, mark) for mark in _TOKEN.findall(tex) if mark not in _SILENT]
+    kept: list[str] = []
+    drops, depth, matrices = list[int](), 0, 0
+    for place, mark in enumerate(tokens):
+        matrices += (mark == r"\begin{pmatrix}") - (mark == r"\end{pmatrix}")
+        if mark == r"\boxed" or mark in _ALIGNED or (mark == "&" and not matrices):
+            continue
+        if mark == "{":
+            if place and tokens[place - 1] == r"\boxed":
+                drops.append(depth)
+            else:
+                kept.append(mark)
+            depth += 1
+        elif mark == "}":
+            depth -= 1
+            if drops and drops[-1] == depth:
+                drops.pop()
+            else:
+                kept.append(mark)
+        else:
+            kept.append(mark)
+    return kept
+
+
+def _statements(tex: str, table: _Table) -> list[list[_Token]]:
+    """Return the formulas between commas, spaces, ends of rows and words, each as tokens."""
+    tokens = _said(_tokens(tex), table)
+    statements: list[list[_Token]] = [[]]
+    depth, row, ended = 0, False, False
+    for mark in tokens:
+        if mark in {"(", "[", "{", r"\{", r"\begin{pmatrix}"}:
+            depth += 1
+        elif mark in {")", "]", "}", r"\}", r"\end{pmatrix}"}:
+            depth -= 1
+        if not depth and mark in _SEPARATORS:
+            row, ended = (
+                row or mark in {r"\\", r"\quad", r"\qquad"},
+                ended or mark not in {r"\\", r"\quad", r"\qquad"},
+            )
+            continue
+        goes_on = mark in _SIGNS or (not ended and mark in {"+", "-"})
+        if (row or ended) and not goes_on:
+            statements.append([])
+        row = ended = False
+        statements[-1].append(mark)
+    return [signed for statement in statements if statement and statement != ["."] for signed in _signed(statement)]
+
+
+def _signed(statement: list[_Token]) -> list[list[_Token]]:
+    r"""Return what y_\pm = a \pm b says: two statements, of y_+ and of y_-; any other is one."""
+    if not any(pair[0] == "_" and pair[1] in {r"\pm", r"\mp"} for pair in pairwise(statement)):
+        return [statement]
+    upper, lower = {r"\pm": "+", r"\mp": "-"}, {r"\pm": "-", r"\mp": "+"}
+    return [
+        [signs.get(mark, mark) if isinstance(mark, str) else mark for mark in statement] for signs in (upper, lower)
+    ]
+
+
+def _said(tokens: list[str], table: _Table) -> list[_Token]:
+    """Put what the table says of phrases in their place."""
+    result: list[_Token] = []
+    place = 0
+    while place < len(tokens):
+        for phrase, plain in table.phrases:
+            if tuple(tokens[place : place + len(phrase)]) == phrase:
+                result += _phrase(plain)
+                place += len(phrase)
+                break
+        else:
+            result.append(tokens[place])
+            place += 1
+    return result
+
+
+def _phrase(plain: str) -> list[_Token]:
+    """Return what a phrase becomes: nothing, a statement of its own, the left side of one, or an expression."""
+    if not plain:
+        return [","]
+    if plain.startswith("\\"):
+        return [*_tokens(plain)]
+    if plain.endswith("="):
+        return [_Said(plain.removesuffix("=")), "="]
+    return [",", _Said(plain), ","] if _RELATES.search(plain) else [_Said(plain)]
+
+
+class _Formula:
+    """A recursive-descent reader of one statement: relations of sums of products of powers."""
+
+    def __init__(self, tokens: list[_Token] | list[str], table: _Table) -> None:
+        self.tokens: list[_Token] = list(tokens)
+        self.table = table
+        self.at = 0
+        self.bold = False
+        self.thin: set[str] = set()  # letters without an index, and those that are bold
+        self.vectors: set[str] = set()
+        self.sums: list[str] = []
+
+    def relations(self) -> list[str]:
+        """Return the statement as relations in plain letters; "= const" says that the rate is zero."""
+        if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
+            return [write(parse(self.tokens[0].plain))]
+        sides, operators, found = [self.sum()], list[ast.cmpop](), list[str]()
+        if self.table.left:
+            sides, operators = [_expression(self.table.left), *sides], [ast.Eq()]
+        while self.peek() in _SIGNS:
+            sign = _SIGNS[str(self.take())]()
+            if self.peek() == r"\text{const}" and isinstance(sign, ast.Eq):
+                self.take()
+                rate = ast.Compare(_call("d", sides[0]), [ast.Eq()], [ast.Constant(0)])
+                found.append(write([rate]))
+                break
+            operators.append(sign)
+            self.sums = []
+            sides.append(self.sum())
+            if names(sides[0]) & set(self.sums):
+                raise UnreadableError(f"the index of {ast.unparse(sides[0])} is summed on the other side")
+        if self.at < len(self.tokens):
+            raise UnreadableError(f"{self.peek()} in the formula is not read")
+        if not operators and not found:
+            raise UnreadableError(f"{ast.unparse(sides[0])} is not related to anything")
+        return ([write([ast.Compare(sides[0], operators, sides[1:])])] if operators else []) + found
+
+    def peek(self, ahead: int = 0) -> _Token:
+        """Return the next mark, "" at the end."""
+        return self.tokens[self.at + ahead] if self.at + ahead < len(self.tokens) else ""
+
+    def take(self, wanted: str = "") -> _Token:
+        """Take the next mark, which must be the one that is wanted."""
+        here = self.peek()
+        if here == "" or (wanted and here != wanted):
+            raise UnreadableError(f"{wanted or 'something'} is missing where the formula has {here or 'its end'}")
+        self.at += 1
+        return here
+
+    def sum(self) -> ast.expr:
+        """Read a sum."""
+        result: ast.expr | None = None
+        while result is None or self.peek() in {"+", "-", r"\pm", r"\mp"}:
+            sign = str(self.take()) if self.peek() in {"+", "-", r"\pm", r"\mp"} else "+"
+            term = self.product()
+            if sign in {r"\pm", r"\mp"}:
+                term = _product(ast.Name("sign"), term)
+            minus = sign in {"-", r"\mp"}
+            if result is None:
+                result = _minus(term) if minus else term
+            else:
+                result = ast.BinOp(result, ast.Sub() if minus else ast.Add(), term)
+        return result
+
+    def product(self, *, of_letters: bool = False) -> ast.expr:
+        """Read a product; as the argument of a function without brackets, one of letters and numbers alone."""
+        result: ast.expr | None = None
+        sums: list[str] = []
+        while not self.ends(of_letters=of_letters and result is not None):
+            if self.peek() == r"\,":
+                self.take()
+            elif self.peek() == r"\sum":
+                sums += self.summed()
+            elif self.peek() == r"\prod":
+                (index,) = self.summed()
+                result = _product(result, _expanded(self.power(), index, "*"))
+            elif isinstance(here := self.peek(), _Said) and here.plain.startswith(_TOTAL):
+                self.take()
+                result = _product(result, _expanded(self.product(), here.plain.removeprefix(_TOTAL), "+"))
+            elif self.peek() in {"/", r"\times"} and result is not None:
+                divides = self.take() == "/"
+                result = ast.BinOp(result, ast.Div() if divides else ast.Mult(), self.power())
+            else:
+                self.argument(result)
+                result = _product(result, self.power())
+        if result is None:
+            raise UnreadableError(f"a term is missing where the formula has {self.peek() or 'its end'}")
+        if set(sums) - names(result) or len(set(sums)) < len(sums):
+            raise UnreadableError(f"the sum over {', '.join(sums)} has no such index in it")
+        return result
+
+    def argument(self, before: ast.expr | None) -> None:
+        """Refuse a bracket behind a letter that looks like the argument of a function."""
+        if before is None or self.peek() != "(":
+            return
+        behind = self.tokens[self.at + 1 : self.at + 3]
+        if isinstance(behind[0], _Said):
+            return
+        if behind[-1:] == [")"] or (behind[:1] == ["-"] and self.peek(3) == ")"):
+            raise UnreadableError(f"({''.join(str(mark) for mark in behind).rstrip(')')}) is not read as an argument")
+
+    def ends(self, *, of_letters: bool) -> bool:
+        """Whether a product ends here."""
+        here = self.peek()
+        if here == "" or here in _SIGNS or here in {"+", "-", r"\pm", r"\mp", ",", ";", r"\\"} or here in _CLOSING:
+            return True
+        return of_letters and not (self.is_letter() or str(here).isdigit() or here == "/")
+
+    def summed(self) -> list[str]:
+        """Read a sign of summation; limits must be said by the table."""
+        self.take()
+        if self.peek() != "_":
+            return []
+        self.take()
+        indices = self.indices()
+        self.sums += indices
+        return indices
+
+    def power(self) -> ast.expr:
+        """Read a factor with what stands behind it: powers, indices, an argument t or 0, T for the transpose."""
+        bold, self.bold = self.bold, False
+        base = self.atom()
+        while True:
+            if self.peek() == "^":
+                self.take()
+                base = self.raised(base)
+            elif self.peek() == "_":
+                self.take()
+                base = ast.Subscript(base, _tuple(self.indices()))
+            elif self.tokens[self.at : self.at + 3] == ["(", "t", ")"]:
+                self.at += 3
+            elif self.tokens[self.at : self.at + 3] == ["(", "0", ")"]:
+                self.at += 3
+                base = _call("at0", base)
+            else:
+                self.bold |= bold
+                return base
+
+    def raised(self, base: ast.expr) -> ast.expr:
+        """Read what stands above: a power, the transpose, or an index."""
+        if self.peek() == "T":
+            self.take()
+            return _call("T", base)
+        if isinstance(base, ast.Subscript) and (self.is_letter() or self.braced()):
+            return ast.Subscript(base.value, _tuple([*_indices(base), *self.indices()]))
+        exponent = self.group()
+        return ast.BinOp(base, ast.Pow(), exponent)
+
+    def braced(self) -> bool:
+        """Whether a single letter in braces stands here."""
+        mark = self.peek(1)
+        return self.peek() == "{" and self.peek(2) == "}" and isinstance(mark, str) and mark.isalpha()
+
+    def group(self) -> ast.expr:
+        """Read what braces hold, or one mark without them."""
+        if self.peek() == "{":
+            self.take()
+            result = self.sum()
+            self.take("}")
+            return result
+        if str(self.peek()).isdigit():
+            return ast.Constant(int(str(self.take())))
+        return self.atom()
+
+    def atom(self) -> ast.expr:
+        """Read a number, a letter, a bracket, a fraction, a root, a matrix, or a function."""
+        here = self.peek()
+        if isinstance(here, _Said):
+            self.take()
+            return _expression(here.plain)
+        if here.isdigit():
+            digits = ""
+            while str(self.peek()).isdigit():
+                digits += str(self.take())
+            return ast.Constant(int(digits))
+        if self.is_letter():
+            return self.named()
+        readers = {"{": self.group, r"\lvert": self.length, r"\frac": self.fraction, r"\begin{pmatrix}": self.matrix}
+        readers |= dict.fromkeys(_PAIRS, self.bracket) | dict.fromkeys(_FUNCTIONS, self.function)
+        if here not in readers:
+            raise UnreadableError(f"{here or 'its end'} in the formula is not read")
+        return readers[here]()
+
+    def function(self) -> ast.expr:
+        """Read a function of what stands behind it: a bracket, a group, or a product of letters."""
+        name = str(self.take()).strip("\\")
+        if name == "sqrt":
+            return _call(name, self.group())
+        if self.peek() == "^":
+            self.take()
+            exponent = self.group()
+            return ast.BinOp(_call(name, self.product(of_letters=True)), ast.Pow(), exponent)
+        return _call(name, self.bracket() if self.peek() == "(" else self.product(of_letters=True))
+
+    def bracket(self) -> ast.expr:
+        """Read a bracket: a group, a product of two, or a row of numbers."""
+        closing, product = _PAIRS[str(self.peek())]
+        entries = self.entries(str(self.take()))
+        if len(entries) == 1:
+            return entries[0]
+        if closing == ")" and self.tokens[self.at : self.at + 2] == ["^", "T"]:
+            self.at += 2
+            return ast.List(entries)
+        if len(entries) == 2:
+            return _call(product, *entries)
+        raise UnreadableError("a row of numbers is not read where a column should stand")
+
+    def entries(self, opening: str) -> list[ast.expr]:
+        """Read what stands between commas in a bracket."""
+        entries = [self.sum()]
+        while self.peek() in {",", ";"}:
+            self.take()
+            entries.append(self.sum())
+        self.take(_PAIRS[opening][0])
+        return entries
+
+    def length(self) -> ast.expr:
+        """Read the length of a vector, or the size of a number."""
+        self.take()
+        bold, self.bold = self.bold, False
+        inside = self.sum()
+        self.take(r"\rvert")
+        name = "norm" if self.bold else "abs"
+        self.bold = bold
+        return _call(name, inside)
+
+    def fraction(self) -> ast.expr:
+        """Read a fraction, or d/dt of what follows."""
+        self.take()
+        if self.tokens[self.at : self.at + 7] == ["{", "d", "}", "{", "d", "t", "}"]:
+            self.at += 7
+            return _call("d", self.power())
+        if self.tokens[self.at : self.at + 2] == ["{", r"\partial"]:
+            return _call("partial", *(self.varied() for _ in range(2)))
+        top = self.group()
+        return ast.BinOp(top, ast.Div(), self.group())
+
+    def varied(self) -> ast.expr:
+        """Read what is differentiated, or by what, in a partial derivative."""
+        self.take("{")
+        self.take(r"\partial")
+        inside = self.product()
+        self.take("}")
+        return inside
+
+    def matrix(self) -> ast.expr:
+        """Read a matrix or a column."""
+        self.take()
+        rows: list[list[ast.expr]] = [[]]
+        while True:
+            rows[-1].append(self.sum())
+            mark = self.take()
+            if mark == r"\\":
+                rows.append([])
+            elif mark == r"\end{pmatrix}":
+                break
+            elif mark != "&":
+                raise UnreadableError(f"{mark} in a matrix is not read")
+        if len(rows[0]) == 1:
+            return ast.List([row[0] for row in rows])
+        return ast.List([ast.List(row) for row in rows])
+
+    def is_letter(self) -> bool:
+        """Whether a letter stands here, with or without accents."""
+        here = self.peek()
+        if not isinstance(here, str) or here in _FUNCTIONS:
+            return False
+        return (
+            here in _ACCENTS
+            or here in _FONTS
+            or (len(here) == 1 and here.isalpha())
+            or (len(here) > 2 and _GREEK.fullmatch(here[1:]) is not None)
+        )
+
+    def letter(self) -> _Letter:
+        """Read a letter with its marks."""
+        accents: list[str] = []
+        closing = 0
+        while self.peek() in _ACCENTS:
+            accents.append(str(self.take()))
+            if self.peek() == "{":
+                self.take()
+                closing += 1
+        font = str(self.take()) if self.peek() in _FONTS else ""
+        if font and self.peek() == "{":
+            self.take()
+            base = ""
+            while self.peek() != "}":
+                base += str(self.take())
+            self.take()
+        else:
+            base = str(self.take())
+        primes, below = 0, list[str]()
+        while True:
+            if self.peek() == "'":
+                self.take()
+                primes += 1
+            elif self.peek() == "_" and not below:
+                self.take()
+                below = self.below()
+            elif self.peek() == "}" and closing:
+                self.take()
+                closing -= 1
+            elif closing:
+                raise UnreadableError(f"{self.peek()} under an accent is not read")
+            else:
+                return _Letter(tuple(accents), (font and f"{font} ") + base, primes, tuple(below))
+
+    def below(self) -> list[str]:
+        """Read what stands below a letter as tokens."""
+        if self.peek() != "{":
+            return [str(self.take())]
+        self.take()
+        marks, depth = list[str](), 0
+        while depth or self.peek() != "}":
+            mark = str(self.take())
+            depth += (mark == "{") - (mark == "}")
+            marks.append(mark)
+        self.take()
+        return marks
+
+    def indices(self) -> list[str]:
+        """Read indices, each a letter or a digit."""
+        return _plain(self.below())
+
+    def named(self) -> ast.expr:
+        """Return what a letter means: what the table says, else what it is named after itself."""
+        letter = self.letter()
+        self.bold |= letter.base.startswith(r"\mathbf")
+        family = self.table.letters.get(_Letter(letter.accents, letter.base, letter.primes, ()), "")
+        if letter.below and family.endswith("[]"):
+            return self.meant(letter)
+        rates = [_ACCENTS[accent] for accent in letter.accents if accent in {r"\dot", r"\ddot"}]
+        still = replace(letter, accents=tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}))
+        whole = self.table.letters.get(letter)
+        if whole is not None and whole.endswith("()"):
+            self.take("(")
+            return _call(whole.removesuffix("()"), *self.entries("("))
+        value = _expression(whole.removesuffix("[]")) if whole is not None else self.meant(still)
+        if isinstance(value, ast.Name):
+            (self.vectors if letter.base.startswith("\\mathbf") else self.thin).add(value.id)
+        for rate in reversed(rates) if whole is None else ():
+            value = _call(rate, value)
+        return value
+
+    def meant(self, letter: _Letter) -> ast.expr:
+        """Return what a letter without dots means."""
+        if letter in self.table.letters:
+            return _expression(self.table.letters[letter].removesuffix("[]"))
+        bare = _Letter(letter.accents, letter.base, letter.primes, ())
+        prefix = "".join(_ACCENTS[accent] for accent in letter.accents)
+        name = prefix + _name(letter.base.split(" ")[-1].strip("\\")) + "p" * letter.primes
+        known = self.table.letters.get(bare)
+        if name + "".join(letter.below) in self.table.taken(letter):
+            raise UnreadableError(f"{name}{''.join(letter.below)} is the name of another letter")
+        if letter.below and not (known is None and all(mark.isdigit() for mark in letter.below)):
+            array = _expression(known.removesuffix("[]")) if known else ast.Name(name)
+            return ast.Subscript(array, _tuple(_plain(letter.below)))
+        return ast.Name(name + "".join(letter.below))
+
+
+_GREEK = re.compile(
+    "alpha|beta|gamma|delta|epsilon|zeta|eta|theta|kappa|lambda|mu|nu|xi|pi|rho|sigma|tau|phi|chi|psi|omega"
+    "|varrho|Lambda|Phi|Omega"
+)
+_COMMON = {r"\mathbf{1}": "one", r"\epsilon": "eps[]"}
+
+
+def _expanded(term: ast.expr, index: str, sign: str) -> ast.expr:
+    """Return a product or a sum of a term with the index 1, 2, 3."""
+    text = ast.unparse(term)
+    return _expression(sign.join("(" + re.sub(rf"\b{index}\b", str(n), text) + ")" for n in (1, 2, 3)))
+
+
+def _plain(below: Iterable[str]) -> list[str]:
+    """Return indices in plain letters."""
+    names = [_name(mark.strip("\\")) for mark in below]
+    if not all(
+        index.isdigit() or _GREEK.fullmatch(index.rstrip("_")) or (len(index) == 1 and index.isalpha())
+        for index in names
+    ):
+        raise UnreadableError(f"the index {' '.join(below)} is not read")
+    return names
+
+
+def _name(word: str) -> str:
+    """Return a name that Python does not keep for itself, as it does lambda."""
+    return f"{word}_" if keyword.iskeyword(word) else word
+
+
+def _expression(plain: str) -> ast.expr:
+    return ast.parse(plain.replace("^", "**"), mode="eval").body
+
+
+def _call(name: str, *arguments: ast.expr) -> ast.Call:
+    return ast.Call(ast.Name(name), list(arguments), [])
+
+
+def _product(left: ast.expr | None, right: ast.expr) -> ast.expr:
+    return right if left is None else ast.BinOp(left, ast.Mult(), right)
+
+
+def _minus(term: ast.expr) -> ast.expr:
+    """Return a product with the opposite sign, which its first factor takes."""
+    if isinstance(term, ast.BinOp) and isinstance(term.op, ast.Mult | ast.Div):
+        return ast.BinOp(_minus(term.left), term.op, term.right)
+    return ast.UnaryOp(ast.USub(), term)
+
+
+def _tuple(indices: list[str]) -> ast.expr:
+    entries: list[ast.expr] = [ast.Constant(int(index)) if index.isdigit() else ast.Name(index) for index in indices]
+    return entries[0] if len(entries) == 1 else ast.Tuple(entries)
+
+
+def _indices(node: ast.Subscript) -> list[str]:
+    entries = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+    return [ast.unparse(entry) for entry in entries]

@@ -1,0 +1,385 @@
+"""What the atlas adds to the paper, on trial in the same way."""
+
+from functools import cache
+
+import sympy
+
+from atlas.trial.proofs import ball, elementary, euler_poisson, pseudo_oscillator
+from atlas.trial.proofs.model import Model, Value, cross, functions, hat, rodrigues, turn
+from atlas.trial.proofs.notation import sides
+from atlas.trial.proofs.particle import SIGNS as PARTICLE_SIGNS
+from atlas.trial.proofs.particle import drift_model
+from atlas.trial.proofs.pseudo_oscillator import cubic, integrals, state_model
+from atlas.trial.proofs.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, omega1, omega2, omega3
+from atlas.trial.proofs.trial import Falsehood, Part, Trial, evaluated, read
+
+SIGNS = pseudo_oscillator.SIGNS | {
+    r"\hat{\mathbf{B}}": "hat_B",
+    r"\nu_n^2": "nun2",
+    "Q": "Q()",
+    "Q'": "dQ()",
+    "Q''": "ddQ()",
+    "b^2": "Bsquare",
+    r"R_{\hat{\mathbf{B}}}": "about_B()",
+    "R_{OY}": "about_y()",
+    "R_{OZ}": "about_z()",
+}
+tau, x = sympy.symbols("tau x", real=True)
+U = sympy.Symbol("u", real=True)
+r, z, excess, T2 = sympy.symbols("r z e T2", positive=True)
+ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, and 0
+
+
+def quartic_model() -> Model:
+    """Any state of the symmetric body; b^2 = K^2, and u a letter of its own in Q and in the cubic p."""
+    whole = state_model().letters
+    names = ("E", "c3", "c5", "I", "Bsquare")
+    fixed = {name: sympy.Symbol(f"{name}_0", real=True) for name in names}
+    letters = {**fixed, **cubic(fixed, fixed["Bsquare"], fixed["I"]), "u": U}
+    letters["leading"] = lambda Q: sympy.Poly(Q, U).coeff_monomial(U**4)
+    where = [(symbol, whole[name]) for name, symbol in fixed.items()]
+    return Model(letters, [*where, (U, whole["Omega3"])], flow={U: whole["d"](whole["Omega3"])})
+
+
+def quartic(spin: Value, scale: Value = I) -> dict[str, Value]:
+    """Return Q of theorem-quartic and its derivatives, for the motion with these initial data in the field (0, B2, B3).
+
+    And the square of the nutation frequency at Omega3 = omega3, which is -Q''/2.
+    """
+    field = sympy.Matrix([0, B2, B3])
+    letters = {**integrals(spin, field, scale), "Bsquare": field.dot(field), "I": scale, "u": U}
+    Q = functions("Q", evaluated("theorem-quartic", SIGNS, letters, 2), U)
+    return {**Q, "nun2": sympy.factor(-Q["ddQ"](spin[2]) / 2)}
+
+
+def stability_model() -> Model:
+    """Model Q on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; w = k + b = x b."""
+    b, hB3 = elementary.b, elementary.hB3
+    where = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), *elementary.FIELD]
+    letters = {"tau": hB3 / elementary.hB2, "x": x, "w": x * b, "b": b, "Bsquare": b**2, "hB3": hB3}
+    return Model({**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), **letters}, where)
+
+
+def short_model() -> Model:
+    """Model the same for 1 <= I <= 2 and any real X but 0."""
+    X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
+    where = [(omega3, constant_omega3().subs({omega1: 0, I: 1 + more})), (omega2, X - B2), (B3, tau * B2)]
+    letters = {**quartic(sympy.Matrix([0, omega2, omega3]), 1 + more), "X": X, "tau": tau, "I": 1 + more}
+    return Model({**LETTERS, **letters}, where, domains={"more": "unit"})
+
+
+@cache
+def _slope_in_squares() -> Value:
+    """Return -Q''(omega3)/2 on the hyperbola as a function of z = x^2 and t2 = tau^2 alone."""
+    value = quartic(sympy.Matrix([0, omega2, omega3]))["nun2"]
+    for symbol, meaning in ((omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), (B3, tau * B2)):
+        value = value.subs(symbol, meaning)
+    return sympy.cancel(sympy.cancel(value).subs({x: sympy.sqrt(z), tau: sympy.sqrt(T2)}))
+
+
+def places_model(*, within: bool) -> list[Model]:
+    """Model x^2 = z within the band, its ends among them, or outside, below and above it; 8 tau^2 = 1 - root^2."""
+    share, more = sympy.Symbol("share", nonnegative=True), sympy.Symbol("more", positive=True)
+    long, cases = 1 - 1 / (1 + excess), []
+    for root in ROOTS:
+        t2 = (1 - root**2) / 8
+        low, high = (long * (1 - 2 * t2 + side * root) / (2 * (1 + t2)) for side in (-1, 1))
+        inside = [(low + share * high) / (1 + share), (share * low + high) / (1 + share)]
+        for place in inside if within else [low / (1 + more), high + more]:
+            letters = {"nun2": _slope_in_squares().subs({T2: t2, I: 1 - long, z: place}), "t2": t2, "I": 1 - long}
+            cases.append(Model({**letters, "z": place}, domains={"share": "positive"}))
+    return cases
+
+
+def above_model() -> Model:
+    """8 tau^2 = 1 + gain and I < 1; z = x^2 is any positive number."""
+    t2, scale = (1 + r) / 8, 1 / (1 + excess)
+    slope = _slope_in_squares().subs({T2: t2, I: scale})
+    return Model({"nun2": slope, "I": scale, "z": z, "t2": t2, "B2": B2, "gain": r})
+
+
+def root_model() -> list[Model]:
+    """Q at omega3 + v, and p'(omega3), for every elementary motion: of the hyperbola, and of the lines omega2 = -B2.
+
+    These are I = 1 with any omega3, and B3 = 0 with any I and omega3.
+    """
+    zero = sympy.Integer(0)
+    letters = {**LETTERS, **quartic(sympy.Matrix([0, omega2, omega3])), "v": sympy.Symbol("v", real=True)}
+    lines = [
+        [(omega3, constant_omega3().subs(omega1, 0))],
+        [(omega2, -B2), (I, sympy.Integer(1))],
+        [(omega2, -B2), (B3, zero)],
+    ]
+    return [Model(letters, where) for where in lines]
+
+
+def leaving_model() -> Model:
+    """Model I < 1, time, and Q by theorem-root with the frequency 0."""
+    t, v = sympy.symbols("t v", real=True)
+    letters: dict[str, Value] = {"I": 1 / (1 + excess), "B3": B3, "t": t, "v": v, "omega3": omega3}
+    whole = evaluated("theorem-root", SIGNS, {**letters, "nun2": sympy.Integer(0)})
+    letters |= functions("Q", whole.xreplace({v: U - omega3}), U)
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
+
+
+def equatorial_model() -> Model:
+    """B3 = 0: the line omega2 = -B2 with any omega3, and omega3 = 0 with any omega2."""
+    lines = {"upright": sympy.Matrix([0, -B2, omega3]), "level": sympy.Matrix([0, omega2, 0])}
+    rates = {name: quartic(spin)["nun2"] for name, spin in lines.items()}
+    return Model({**LETTERS, **rates}, [(B3, sympy.Integer(0))])
+
+
+def ball_nutation_model() -> Model:
+    """I = 1 and any initial angular velocity."""
+    spin = sympy.Matrix([omega1, omega2, omega3])
+    Q = quartic(spin, sympy.Integer(1))
+    return Model({"nun2": Q["nun2"], "omega": spin, "Bp": sympy.Matrix([0, B2, B3])})
+
+
+def torque_model() -> Model:
+    """(17) for any symmetric mass matrix and any Omega."""
+    whole = euler_poisson.magnetic_model()
+    R, tensor, mass = (whole.letters[name] for name in ("R", "I", "g"))
+    spin, field = euler_poisson.Omega, euler_poisson.Bf
+    torque = -euler_poisson.mu / euler_poisson.c * cross(R * mass * R.T * field, R * spin)
+    letters = {**whole.letters, "m": R * tensor * spin, "dm": torque, "c": euler_poisson.c}
+    return Model(letters, whole.where, dict(zip(R, R * hat(spin), strict=True)))
+
+
+def lines_model() -> list[Model]:
+    """Model the points omega2 = -B2, omega1^2 = (1 - I) B2^2, with omega1 of either sign."""
+    size = sympy.Symbol("size", positive=True)
+    letters = {**LETTERS, "I": 1 - size**2, "omega2": -B2}
+    return [Model({**letters, "sign": sympy.Integer(sign), "omega1": sign * size * B2}) for sign in (1, -1)]
+
+
+def turning_model(case: str) -> Model:
+    """R of two turns, by -b t about the field, or e2, and about e3, and Omega = (w sin, w cos, omega3) of each line."""
+    e = elementary
+    first, axis, where = (
+        (e.b, sympy.Matrix([0, e.hB2, e.hB3]), [(I, sympy.Integer(1))])
+        if case == "ball"
+        else (e.B2, sympy.Matrix([0, 1, 0]), [(e.u, sympy.Integer(1))])
+    )
+    second = omega3 + e.B3 if case == "ball" else omega3
+    flow = {e.ck: -first * e.sk, e.sk: first * e.ck, e.cf: -second * e.sf, e.sf: second * e.cf}
+    letters = {**e.CONSTANTS, "Omega": e.SPIN.xreplace({omega2: -e.B2}), "b": e.b, "J": e.TENSOR, "g": e.MASS}
+    letters["Bp"] = sympy.Matrix([0, e.B2, e.B3])
+    phases = {first * e.t: (e.ck, e.sk), second * e.t: (e.cf, e.sf)}
+    model = Model(letters, [*e.ANGLES, *e.FIELD, *where], flow, e.START, phases, e.DOMAINS)
+    model.letters |= {"about_z": model.about(ball.E3), "about_B" if case == "ball" else "about_y": model.about(axis)}
+    return model
+
+
+def rest_model() -> Model:
+    """Model A ball with m = (0, 0, -alpha I0)."""
+    b = ball
+    letters = {"alpha": b.alpha, "t": b.t, "I0": b.I0, "m": sympy.Matrix([0, 0, -b.alpha * b.I0])}
+    model = Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})
+    model.letters["about_z"] = model.about(b.E3)
+    return model
+
+
+def angles_model() -> Model:
+    """Model R = R_z(psi) R_x(theta) R_z(chi) with any rates of the angles; B = b e3, Omega from R^T dR/dt."""
+    b = sympy.Symbol("b", positive=True)
+    names = sympy.symbols("psi theta chi", real=True)
+    rates = psi1, _, chi1 = sympy.symbols("psi1 theta1 chi1", real=True)
+    halves = {name: sympy.symbols(f"c_{name} s_{name}", real=True) for name in names}
+    tangents = sympy.symbols("p1:4", real=True)
+    flow: dict[Value, Value] = {}
+    where: list[tuple[Value, Value]] = []
+    for name, rate, tangent in zip(names, rates, tangents, strict=True):
+        cosine, sine = halves[name]
+        flow |= {cosine: -rate / 2 * sine, sine: rate / 2 * cosine}
+        where += [(cosine, turn(tangent)[0]), (sine, turn(tangent)[1])]
+    whole = {name: (c**2 - s**2, 2 * c * s) for name, (c, s) in halves.items()}
+    axes = ball.E3, sympy.Matrix([1, 0, 0]), ball.E3
+    first, second, third = (rodrigues(axis, *whole[name]) for name, axis in zip(names, axes, strict=True))
+    R = first * second * third
+    model = Model({}, where, flow)
+    W = R.T * R.applyfunc(model.rate)
+    spin = sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])
+    K = b * R.row(2).T
+    letters = {"P": spin[0] * K[0] + spin[1] * K[1], "b": b, "u": spin[2], "nu": K[2] / b, "psi1": psi1, "chi1": chi1}
+    letters |= {"c3": spin[2] + K[2], "i": sympy.I}
+    for name, size, rate in zip(("xi", "eta"), halves[names[1]], (psi1 + chi1, psi1 - chi1), strict=True):
+        letters[name] = model.rate(size) / size + sympy.I * rate / 2
+    return Model(letters, where, flow)
+
+
+def _and_only_there(line: str) -> str:
+    """Add that the first relation does not hold elsewhere."""
+    return f"{line}; {line.split('; ', maxsplit=1)[0].replace('<=', '>')}"
+
+
+_CONDITION = sides(read("theorem-points", SIGNS).split("; ")[-1])[1]
+
+TRIALS = {
+    "theorem-quartic": Trial(
+        model=quartic_model,
+        follows="@(38) to @(41), for any state",
+        defines=("Q",),
+        solves="leading(Q(u)) = I - 1",
+        false=Falsehood("The quartic is that of the ball for every body", "E - I*u^2", "E - u^2"),
+    ),
+    "theorem-points": Trial(
+        signs={
+            r"\Omega_3=\text{const}\iff\dot\Omega_3(0)=0\ \text{and}\ \ddot\Omega_3(0)=0": "d(d2(Omega3))"
+            " = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)"
+        },
+        model=state_model,
+        follows=r"@(38) and @(39) at $t = 0$, and the cubic at $\omega_3$",
+        also=(Part(line=f"p = {_CONDITION}", model=lambda: Model({**LETTERS, "p": at_start(omega3)})),),
+        note=r"A constant $\Omega_3$ has both rates zero. Conversely, the two rates obey linear equations along every "
+        r"motion: that of the first is the second, that of the second the first times the slope of the cubic @(47). "
+        "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @(67) and, "
+        "for $I = 1$, the line of @theorem-ball-line.",
+        false=Falsehood(r"$\Omega_3$ starts with the rate $\omega_1 B'_3$", "omega1*B2", "omega1*B3"),
+    ),
+    "theorem-stability": Trial(
+        model=stability_model,
+        follows="@(48) as corrected, on the hyperbola @(71)",
+        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
+        "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @(47).",
+        false=Falsehood(
+            "The square of the nutation frequency is a sum of positive terms for every $I < 1$",
+            "(2*tau^2 - 1)",
+            "(2*tau^2 + 1)",
+        ),
+    ),
+    "theorem-root": Trial(
+        defines=("nun2",),
+        model=root_model,
+        follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
+        note=r"Where $\nu_n^2 > 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
+        r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
+        false=Falsehood("At an end of the band the motion leaves by $2B'_3$", "(4*B3 - v)", "(2*B3 - v)"),
+    ),
+    "theorem-stable-short": Trial(
+        model=short_model,
+        follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
+        false=Falsehood("The bound holds from above", "> (I", "< (I"),
+    ),
+    "theorem-band": Trial(
+        model=lambda: places_model(within=True),
+        follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
+        signs={"x^2": "z", r"\tau^2": "t2", "y_-": "ym", "y_+": "yp", r"\tau\le\frac{1}{2\sqrt2}": "8*t2 <= 1"},
+        defines=("ym", "yp"),
+        form=_and_only_there,
+        elsewhere={5: lambda: places_model(within=False)},
+        also=(
+            Part(
+                line="nun2 = B2^2*(S^2 + (1 - I)^2*gain)/(4*(1 + t2)*z); S = 2*(1 + t2)*z + (1 - I)*(2*t2 - 1);"
+                " 8*t2 = 1 + gain",
+                model=above_model,
+                defines=("S",),
+            ),
+            Part(line="1 - I > 0; gain > 0", model=above_model),
+        ),
+        note=r"Positive below and above the two roots, not positive between them and at them; for $8 \tau^2 > 1$ "
+        "positive everywhere. Inside the band the motion is unstable by @theorem-root, at its ends by "
+        "@theorem-band-ends.",
+        false=Falsehood("Inside the band the motions are stable", "nun2 <= 0", "nun2 > 0"),
+    ),
+    "theorem-band-ends": Trial(
+        model=leaving_model,
+        follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
+        signs={r"\nu_n=0": ""},
+        defines=("Omega3",),
+        solves="d(Omega3)^2 = Q(Omega3); 2*d2(Omega3) = dQ(Omega3); at0(Omega3) = omega3 + 4*B3",
+        also=(
+            Part(
+                line="(1 - I)*v^3*(4*B3 - v) > 0",
+                model=lambda: Model({"I": 1 / (1 + excess), "B3": B3, "v": 4 * B3 / (1 + r)}),
+            ),
+        ),
+        note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
+        r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
+        r"@(42) brings $\mathbf{K}$ near as well.",
+        false=Falsehood("It leaves to infinity in a finite time", "(1 + 4*(1 - I)", "(1 - 4*(1 - I)"),
+    ),
+    "theorem-equatorial-stability": Trial(
+        model=equatorial_model,
+        signs={r"\omega_2=-B'_2:\quad\nu_n^2": "upright", r"\omega_3=0:\quad\nu_n^2": "level"},
+        follows=r"@(48) as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
+        note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $\nu_n = 0$ is fourfold, and for "
+        "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
+        false=Falsehood(
+            r"With $\omega_2 = -B'_2$ every spin is stable",
+            "I^2*omega3^2 - (1 - I)*B2^2",
+            "I^2*omega3^2 + (1 - I)*B2^2",
+        ),
+    ),
+    "theorem-ball-nutation": Trial(
+        model=ball_nutation_model,
+        follows="@(48) as corrected, with $I = 1$",
+        note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
+        r"ball rests in Larmor's frame, and pushed by $\delta$ it turns in that frame with the angular velocity "
+        r"$\delta$, however small.",
+        false=Falsehood("The ball nutates with its angular velocity in the laboratory", "omega + Bp", "omega"),
+    ),
+    "theorem-ball-line": Trial(
+        model=lambda: turning_model("ball"),
+        follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
+        defines=("R",),
+        solves=elementary.MOTION,
+        false=Falsehood(r"The proper rotation is the spin $\omega_3$", "(omega3 + B3)", "omega3"),
+    ),
+    "theorem-equatorial-field": Trial(
+        model=lambda: turning_model("equator"),
+        follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
+        defines=("R",),
+        solves=elementary.MOTION,
+        false=Falsehood("The proper rotation is counted from Larmor's frame", "omega3*t", "(omega3 + B2)*t"),
+    ),
+    "theorem-quadric-lines": Trial(
+        model=lines_model,
+        also=(read("(50)", SIGNS),),
+        follows=r"@(50) by substitution, any $\omega_3$",
+        false=Falsehood(r"The lines lie in the plane $\omega_1 = 0$", "omega1 = sign*(sqrt(1 - I)*B2)", "omega1 = 0"),
+    ),
+    "theorem-momentum": Trial(
+        signs={r"\dot{\mathbf{m}}": "dm"},
+        model=elementary.matrix_model,
+        follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
+        false=Falsehood("The angular momentum precesses against the axis", "k*cross(hat_B, m)", "k*cross(m, hat_B)"),
+    ),
+    "theorem-moment": Trial(
+        signs={r"\dot{\mathbf{m}}": "dm", r"\mathbf{B}": "Bf"},
+        model=torque_model,
+        follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
+        false=Falsehood("The equation of the magnetic moment holds for every body", " - d(R*I*T(R)*Bf)", ""),
+    ),
+    "theorem-drift": Trial(
+        signs=PARTICLE_SIGNS | {r"\mathbf{E}": "E"},
+        model=drift_model,
+        follows="@(89) solved for the velocity that does not change, for either sign of the charge",
+        note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
+        false=Falsehood("A negative charge drifts the other way", "c*cross(E, Bf)", "mu/abs(mu)*c*cross(E, Bf)"),
+    ),
+    "theorem-ball-rest": Trial(
+        model=rest_model,
+        follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
+        defines=("R",),
+        solves=ball.LINEAR,
+        false=Falsehood(r"The ball turns by $+\alpha t$", "-alpha*t", "alpha*t"),
+    ),
+    "theorem-angles": Trial(
+        signs={r"\dot\psi": "psi1", r"\dot\chi": "chi1"},
+        model=angles_model,
+        follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
+        false=Falsehood(
+            "The proper rotation is the component of the angular velocity along the axis",
+            "chi1 = u - nu*psi1",
+            "chi1 = u",
+        ),
+    ),
+    "theorem-cayley-klein": Trial(
+        signs={r"\frac{\dot\xi}{\xi}": "xi", r"\frac{\dot\eta}{\eta}": "eta"},
+        model=angles_model,
+        follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "
+        r"\chi)/2)$: moduli and arguments",
+        false=Falsehood("The spin enters both arguments with the same sign", "(1 - nu) - u", "(1 - nu) + u"),
+    ),
+}

@@ -1,0 +1,169 @@
+"""Every symmetric top in a uniform field on trial: its quartic, its steady precessions and the paper's quadric."""
+
+import sympy
+
+from atlas.trial.proofs.model import Model, Value, cross, direction, dot, functions, turn, vector
+from atlas.trial.proofs.trial import Falsehood, Part, Trial
+
+SIGNS = {"q": "q()", "q'": "dq()", "q''": "ddq()", "q'''": "dddq()", r"\dot\psi": "psi1", r"\dot\chi": "chi1"}
+I = sympy.Symbol("I", positive=True)
+k2, k3, a0, A0 = sympy.symbols("k2 k3 a0 A0", real=True)
+omega1, omega2, omega3 = vector("omega")
+nu, r, a, A, M3, p, x, y = sympy.symbols("nu nu0 a A M3 p x y", real=True)
+J, COUPLING, E3 = sympy.diag(1, 1, I), sympy.diag(k2, k2, k3), sympy.Matrix([0, 0, 1])
+KAPPA, LEADING = k2 - k3 / I, A0 + k3**2 / I - k2**2
+LETTERS = {"I": I, "k2": k2, "k3": k3, "a0": a0, "A0": A0, "kappa": KAPPA, "A": LEADING}
+LETTERS |= {"J": J, "k": COUPLING, "e3": E3}
+g = sympy.Symbol("g", real=True)
+QUARTIC = (1 - nu**2) * (g - 2 * a * nu - A * nu**2) - (p - M3 * nu) ** 2
+"""The quartic of every top, by theorem-every-top."""
+
+
+def _force(b: Value) -> Value:
+    """Return U'(nu)."""
+    return a0 + A0 * b[2]
+
+
+def state_model() -> Model:
+    """Model any state M, b of the top, b a unit vector, with the rates of the equations; and the state at t = 0."""
+    M, b = vector("M"), vector("b")
+    Omega = J.inv() * (M - COUPLING * b)
+    rates = cross(M, Omega) + cross(COUPLING * Omega - _force(b) * E3, b), cross(b, Omega)
+    where = list(zip(b, direction(), strict=True))
+    energy = dot(Omega, J * Omega) + 2 * a0 * b[2] + A0 * b[2] ** 2
+    momentum, along = M[2], dot(M, b)
+    turn = (Omega[0] * b[0] + Omega[1] * b[1]) / (1 - nu**2)
+    letters = {**LETTERS, "nu": nu, "M3": momentum, "p": along, "h": energy, "a": momentum * KAPPA + a0}
+    letters |= {"psi1": turn, "chi1": Omega[2] - nu * turn}
+    letters["g"] = energy - momentum**2 / I + 2 * k2 * along - k2**2
+    flow = dict(zip([*M, *b, nu], [*rates[0], *rates[1], rates[1][2]], strict=True))
+    return Model(letters, [*where, (nu, b[2])], flow)
+
+
+def start_model() -> Model:
+    """Model the start with b = (0, n2, n3), and what the rates of nu are there."""
+    whole, (n2, n3) = state_model(), turn(x)[::-1]
+    omega, direction = sympy.Matrix([omega1, omega2, omega3]), sympy.Matrix([0, *sympy.symbols("n2 n3", real=True)])
+    M, symbols = J * omega + COUPLING * direction, sympy.symbols("w v", real=True)
+    values = dict(zip([*vector("M"), *vector("b")], [*M, *direction], strict=True))
+    letters = {**LETTERS, "nu": vector("b")[2], "n2": direction[1], "n3": direction[2]}
+    letters |= {"omega1": omega1, "omega2": omega2, "omega3": omega3, "w": symbols[0], "v": symbols[1]}
+    letters["D"] = LEADING + KAPPA**2 + a0 / direction[2]
+    return Model(letters, [(direction[1], n2), (direction[2], n3)], whole.flow, values)
+
+
+def paper_model() -> Model:
+    """Model the paper's body with B' = b n: k2 = b, k3 = I b, no potential."""
+    b = sympy.Symbol("b", positive=True)
+    where = [(k2, b), (k3, I * b), (a0, sympy.Integer(0)), (A0, sympy.Integer(0))]
+    letters = {**start_model().letters, "b": b}
+    return Model(letters, [*where, *start_model().where])
+
+
+def turns_model() -> Model:
+    """Model b turned about the axis by an angle with cosine and sine, and Omega = psi b + chi e3 on the hyperbola."""
+    base = start_model().letters
+    n2, n3 = base["n2"], base["n3"]
+    c, s, w, v, psi, chi = sympy.symbols("c s w v psi1 chi1", real=True)
+    b = sympy.Matrix([n2 * s, n2 * c, n3])
+    letters = {**LETTERS, "b": b, "psi1": psi, "chi1": chi, "U": _force(b), "n2": n2, "n3": n3, "w": w, "v": v}
+    letters |= {"omega2": w - n2 * k3 / I, "omega3": v - n3 / I * (k3 - 2 * KAPPA), "D": base["D"]}
+    where = [*start_model().where, (c, turn(y)[0]), (s, turn(y)[1])]
+    return Model(letters, where, flow={s: chi * c, c: -chi * s})
+
+
+def quartic_model() -> Model:
+    """Model any constants of the quartic with a root at nu = r."""
+    w = (p - M3 * r) / (1 - r**2)
+    rest = 2 * a * r + A * r**2 + (p - M3 * r) ** 2 / (1 - r**2)
+    letters = {"nu0": r, "a": a, "A": A, "M3": M3, "p": p, "w": w, **functions("q", QUARTIC.xreplace({g: rest}), nu)}
+    return Model({**letters, "g": rest})
+
+
+def precession_model() -> Model:
+    """Model a steady precession with the rate w at nu = r."""
+    w = sympy.Symbol("w", real=True)
+    momentum = (r * w**2 + a + A * r) / w
+    along, rest = w * (1 - r**2) + r * momentum, 2 * a * r + A * r**2 + w**2 * (1 - r**2)
+    letters = {"nu0": r, "a": a, "A": A, "w": w, "M3": momentum, "p": along, "g": rest}
+    return Model({**letters, **functions("q", QUARTIC.xreplace({M3: momentum, p: along, g: rest}), nu)})
+
+
+def marginal_model() -> Model:
+    """Model a steady precession whose nutation has no frequency, c = (a + A r)/w."""
+    base = dict(precession_model().letters)
+    w = base["w"]
+    c = sympy.Symbol("c", real=True)
+    leading = (c * w - a) / r
+    force = sympy.solve(w**2 + leading * (1 - 3 * r**2) - 2 * a * r + c**2, a)[0]
+    return Model({**base, "c": c}, [(A, leading), (a, force)])
+
+
+def sleeping_model() -> list[Model]:
+    """Model the state at rest at nu = sigma."""
+    models = []
+    for sigma in (1, -1):
+        letters = {"nu": nu, "a": a, "A": A, "M3": M3, "sigma": sympy.Integer(sigma)}
+        models.append(Model({**letters, "q": QUARTIC.xreplace({p: sigma * M3, g: 2 * sigma * a + A})}))
+    return models
+
+
+def border_model() -> list[Model]:
+    """Model the border of stability, A = M3^2/4 - sigma a."""
+    return [Model(model.letters, [(A, M3**2 / 4 - model.letters["sigma"] * a)]) for model in sleeping_model()]
+
+
+TRIALS = {
+    "theorem-every-top": Trial(
+        model=state_model,
+        defines=("q",),
+        also=("d(M3) = 0; d(p) = 0; d(h) = 0",),
+        follows=r"the equations at any state, $g = 2h - M_3^2/I + 2 k_2 p - k_2^2$ with the kinetic energy and $U$ in "
+        "$h$, and the rates of @theorem-angles",
+        false=Falsehood("The coupling adds nothing to the linear term: $a = a_0$", "2*a*nu", "2*a0*nu"),
+    ),
+    "theorem-top-precession": Trial(
+        model=precession_model,
+        follows=r"@theorem-every-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, "
+        r"and $q'(\nu_0)$ is then a multiple of the first",
+        also=(Part(line="q(nu0) = 0; dq(nu0) = -2*(1 - nu0^2)*(nu0*w^2 - M3*w + a + A*nu0)", model=quartic_model),),
+        false=Falsehood("The two rates are those of the heavy top", "a + A*nu0", "a"),
+    ),
+    "theorem-top-nutation": Trial(
+        model=precession_model,
+        follows=r"@theorem-top-precession: $M_3 w = \nu_0 w^2 + a + A \nu_0$",
+        elsewhere={1: marginal_model, 2: marginal_model},
+        also=("q(nu0) = 0; dq(nu0) = 0",),
+        note=r"Where $a = -2 A \nu_0$ too the root is fourfold, $q = A (\nu - \nu_0)^4$, and the sign of $A$ decides.",
+        false=Falsehood("The linear term makes no nutation faster or slower", "- 2*a*nu0", "- 0*a*nu0"),
+    ),
+    "theorem-sleeping-top": Trial(
+        model=sleeping_model,
+        signs={"q": "q"},
+        elsewhere={1: border_model, 2: border_model},
+        follows=r"@theorem-every-top with $p = \sigma M_3$ and the energy of the spin",
+        false=Falsehood(
+            "The spin steadies the top as strongly at every angle", "(1 + sigma*nu)*(2*sigma*a", "2*(2*sigma*a"
+        ),
+    ),
+    "theorem-top-quadric": Trial(
+        model=start_model,
+        follows=r"@theorem-every-top: the rates of $\nu$ by the equations, at $t = 0$; the quadratic form is that of "
+        r"@(51) with $\mathbf{n}$ in the place of $\mathbf{B}'$",
+        defines=("w", "v"),
+        also=(Part(line="n2*k3/I = b*n2; n3/I*(k3 - 2*kappa) = b*n3; D = (I - 1)*b^2", model=paper_model),),
+        false=Falsehood(
+            "The kind is the sign of $A$ and of the weight alone", "D = A + kappa^2 + a0/n3", "D = A + a0/n3"
+        ),
+    ),
+    "theorem-top-hyperbola": Trial(
+        model=turns_model,
+        follows=r"the equations by substitution, at any phase of the turn about the axis",
+        defines=("v", "psi1", "chi1"),
+        solves="d(b) = cross(b,psi1*b + chi1*e3); J*d(psi1*b + chi1*e3) + k*d(b)"
+        " = cross(J*(psi1*b + chi1*e3) + k*b,psi1*b + chi1*e3) + cross(k*(psi1*b + chi1*e3) - U*e3,b)",
+        false=Falsehood(
+            "The paper's hyperbola is that of every top: the constant is $A$", "n3*(w^2 + n2^2*D)", "n3*(w^2 + n2^2*A)"
+        ),
+    ),
+}

@@ -1,0 +1,83 @@
+"""The energy-momentum map of a symmetric top on trial: cusps, focus-focus values, and the residues of its angles."""
+
+import sympy
+
+from atlas.trial.proofs.model import Model, Value, direction, dot, functions, vector
+from atlas.trial.proofs.top import M3, QUARTIC, A, a, g, nu, p
+from atlas.trial.proofs.trial import Falsehood, Trial
+
+SIGNS = {
+    "q": "q()",
+    r"\nu_c": "nuc",
+    r"\dot\psi": "psi1",
+    r"\boldsymbol\pi": "momentum",
+    r"d\psi": "dpsi",
+    r"\frac{d\nu}{\sqrt q}": "1",
+    r"\operatorname{res}_{\sigma}^2d\psi": "res_dpsi^2",
+    r"\operatorname{res}_\sigma d\psi": "res_dpsi",
+    r"\operatorname{res}_\sigma d\chi": "res_dchi",
+}
+r, k2, kappa, spin = sympy.symbols("nuc k2 kappa spin", real=True)
+
+
+def cusp_model() -> Model:
+    """Model any constants of the quartic q, with p such that the axis would not precess at nu = r."""
+    letters = {"nu": nu, "nuc": r, "a": a, "A": A, "M3": M3, "g": g, "k2": k2, "p": p}
+    return Model({**letters, "psi1": (p - M3 * nu) / (1 - nu**2) - k2, **functions("q", QUARTIC, nu)})
+
+
+def spin_model() -> list[Model]:
+    """Model any state M, b, |b| = 1, near a spin about n in either sense s."""
+    models = []
+    for sense in (1, -1):
+        M, b = vector("M"), vector("b")
+        letters: dict[str, Value] = {"sigma": sympy.Integer(sense), "a": a, "A": A, "nu": b[2], "M3": M[2]}
+        across = sympy.Matrix(b[:2])
+        letters |= {"z": across, "momentum": sympy.Matrix(M[:2]) - sense * M[2] * across / 2}
+        letters |= {"p": dot(M, b), "g": M[0] ** 2 + M[1] ** 2 + 2 * a * b[2] + A * b[2] ** 2}
+        models.append(Model(letters, list(zip(b, direction(), strict=True))))
+    return models
+
+
+def residue_model() -> list[Model]:
+    """Model any constants of the quartic q at either end s of its range, and the rates P of psi and C of chi."""
+    turn, cases = (p - M3 * nu) / (1 - nu**2), []
+    for sense in (1, -1):
+        letters = {"nu": nu, "M3": M3, "p": p, "k2": k2, "sigma": sympy.Integer(sense), **functions("q", QUARTIC, nu)}
+        rates = {"dpsi": turn - k2, "dchi": spin - nu * turn + kappa * nu}
+        root = sympy.I * (p - sense * M3)  # of q at nu = sigma
+        letters |= {f"res_{name}": sympy.cancel((nu - sense) * f).subs(nu, sense) / root for name, f in rates.items()}
+        cases.append(Model({**letters, "dpsi": rates["dpsi"], "root": root}))
+    return cases
+
+
+TRIALS = {
+    "theorem-cusp": Trial(
+        signs={r"\implies": ""},
+        model=cusp_model,
+        follows=r"@theorem-every-top: the axis stops where $\dot\nu$ and $\dot\psi$ vanish together",
+        defines=("p",),
+        note=r"At a simple root $\nu - \nu_c$ begins with $q'(\nu_c) t^2/4$ and $\psi$ with $t^3$, unless $M_3 = 2 k_2 "
+        r"\nu_c$: a cusp along the meridian. For $k_2 = 0$, $\nu_c = p/M_3$, and Lagrange's top has cusps exactly if "
+        r"$g = 2 a p/M_3$.",
+        false=Falsehood("The energy of a cusp does not depend on the coupling", " - k2^2*(1 - nuc^2)", ""),
+    ),
+    "theorem-focus": Trial(
+        model=spin_model,
+        follows=r"@theorem-every-top, where $g - 2a\nu - A\nu^2 = M_1^2 + M_2^2$, the square of the axis's velocity "
+        "but for the turn by $-k_2$",
+        defines=("D",),
+        note=r"$1 - \sigma\nu$ is of second order. With $D = -4c^2$ the first form is $(\boldsymbol\pi - c\mathbf{z}, "
+        r"\boldsymbol\pi + c\mathbf{z})$, and with the second it is the normal form of focus and focus. For $D > 0$ "
+        "it is a sum of squares.",
+        false=Falsehood("The weight does not enter the second order", "4*(sigma*a + A)", "4*A"),
+    ),
+    "theorem-residue": Trial(
+        model=residue_model,
+        also=("root^2 = q(sigma)",),
+        follows=r"@theorem-every-top, $q(\sigma) = -(p - \sigma M_3)^2$",
+        note=r"So a path of $\nu$ that is drawn across $\sigma$ changes an angle by $2\pi i r = \pm\pi$, and a period, "
+        "which goes to and fro, by a full turn.",
+        false=Falsehood(r"Both angles have the same residue at $\nu = 1$ and at $-1$", "-sigma*res_dpsi", "res_dpsi"),
+    ),
+}
