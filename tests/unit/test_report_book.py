@@ -202,9 +202,13 @@ def test_a_short_report_names_its_authors_and_counts_only_tables_with_a_caption(
 
 def test_a_style_that_there_is_not_is_refused_before_anything_is_written(tmp_path: Path) -> None:
     """Typed or in the file: the report that is there stays."""
-    (tmp_path / "short.toml").write_text(SHORT.replace("[[", 'style = "nope.mplstyle"\n[[', 1), encoding="utf-8")
-    for style in (None, "none"):
-        with pytest.raises(AtlasError, match=f"the style '{style or 'nope.mplstyle'}' cannot be used"):
+    own = SHORT.replace("[[", 'style = "nope.mplstyle"\n[[', 1)
+    for style, text, said in (
+        (None, own, "style: 'nope.mplstyle' is no file in"),
+        ("none", SHORT, "the style 'none' cannot be used"),
+    ):
+        (tmp_path / "short.toml").write_text(text, encoding="utf-8")
+        with pytest.raises(AtlasError, match=said):
             build_report(tmp_path / "short.toml", tmp_path / "out", style=style)
     assert not list((tmp_path / "out").glob("short*"))
 
