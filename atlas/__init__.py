@@ -15,8 +15,11 @@ AtlasError, DomainError, NotCertifiedError.
 Names are loaded when they are first used, so that a number costs no drawing library.
 """
 
+from functools import partial
 from importlib import import_module
 from typing import Any
+
+from atlas.viewers import VIEWERS
 
 __version__ = "0.4.0.dev0"
 
@@ -51,6 +54,8 @@ _HOMES = {
     "plotter": "atlas.pictures.drawing",
     "animate": "atlas.pictures.drawing.animation",
 }
+
+VIEWERS.update((name, partial(import_module, f"atlas.notebook.{name}")) for name in ("show", "pictures", "frames"))
 
 __all__ = [*_HOMES, "__version__"]  # noqa: PLE0604  the names are strings
 

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from importlib import import_module
 from typing import Any, ClassVar
 
 import numpy as np
 
 from atlas.arithmetic.inputs import kept
 from atlas.errors import AtlasError
+from atlas.viewers import notebook
 
 FEW, MANY = 9, 4096
 """Numbers of an array that are written out; objects whose kinds are counted."""
@@ -116,8 +116,3 @@ def _kind(shown: Shown) -> str:
         return f"shape {shape}"
     kinds, counts = np.unique(np.asarray(found[-1] if str(found[-1]) else found[0]), return_counts=True)
     return f"shape {shape}: " + ", ".join(f"{count} {kind}" for kind, count in zip(kinds, counts, strict=True))
-
-
-def notebook(name: str) -> Any:
-    """Load what draws and prints, which stands on a floor above and only when it is asked for."""
-    return import_module(f"atlas.notebook.{name}")

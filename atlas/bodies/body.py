@@ -17,8 +17,8 @@ from atlas.bodies.inertia import (
     mass_matrix_from_inertia,
     mass_matrix_of_points,
 )
-from atlas.display import notebook
 from atlas.errors import AtlasError, DomainError
+from atlas.viewers import notebook
 
 __all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
 

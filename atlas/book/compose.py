@@ -6,6 +6,7 @@ from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
 
+from atlas.book import keys  # noqa: F401  adds its tables
 from atlas.book.appendices import Appendices
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks import KINDS, kind_of

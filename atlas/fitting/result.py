@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, positive, real
-from atlas.display import notebook
 from atlas.errors import AtlasError
 from atlas.fitting.alternatives import Alternative, equal_solutions, other_minima, warnings_of, wider_families
 from atlas.fitting.data import KINDS, Data
@@ -18,6 +17,7 @@ from atlas.fitting.seen import Seen, gauge
 from atlas.lazy import cached_property
 from atlas.pictures import Curve, Layer, Plane, Points, Scene
 from atlas.trial.ledger.plain import html_table, table
+from atlas.viewers import notebook
 
 RENAMED = {"doubts": "warnings", "rivals": "alternatives"}
 """Attributes of a fit by their former names."""

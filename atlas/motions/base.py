@@ -17,10 +17,11 @@ from atlas.arithmetic.grid import fill_grid
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, number, real, whole
 from atlas.arithmetic.rotation import DoubleRotation, target
 from atlas.arithmetic.rotation_rows import Group, Turnings
-from atlas.display import Shown, made, notebook
+from atlas.display import Shown, made
 from atlas.errors import AtlasError
 from atlas.lazy import cached_property
 from atlas.motions.frames import Placement
+from atlas.viewers import notebook
 
 OTHERS = {
     "omega2": "atlas.ElementaryMotion(ratio, field, omega2), the paper's family",

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from fontTools.ttLib import TTFont
 
+import atlas.book.keys  # noqa: F401  adds the tables that explain records
 from atlas.book.blocks.table import Cell, ColumnView, TableView
 from atlas.book.body_and_field import Body, Field, body_and_field
 from atlas.book.digits import MINUS, THIN, Number

@@ -1,6 +1,5 @@
 """The computed tables of a report, each by the name of its function."""
 
-from collections.abc import Mapping
 from inspect import get_annotations
 from typing import Any
 
@@ -8,7 +7,7 @@ from atlas.book.schema import StrictStruct, convert
 from atlas.book.tables.bodies import charges, coats, diamagnetism, radiation, sizes, swings
 from atlas.book.tables.closed import closed, companions
 from atlas.book.tables.elementary import motion, points, quadric, samples, sheet
-from atlas.book.tables.families import blocks, layers, quantities, report_keys, roles, targets
+from atlas.book.tables.families import quantities, roles, targets
 from atlas.book.tables.laboratory import beyond_larmor, fits, inferred, levitated, lines
 from atlas.book.tables.particle import ball, flight, particle
 from atlas.book.tables.properties import Thing, body_and_field, properties
@@ -16,15 +15,15 @@ from atlas.book.tables.table import Data, Maker, Request
 from atlas.book.tables.tops import asymmetric, elliptic, monodromy, periods, tops
 from atlas.errors import unknown
 
-TABLES: Mapping[str, Maker] = {
+TABLES: dict[str, Maker] = {
     made.__name__: made
     for made in (
         *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
         *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
-        *(periods, asymmetric, roles, layers, blocks, report_keys, levitated, lines, inferred, beyond_larmor),
-        fits,
+        *(periods, asymmetric, roles, levitated, lines, inferred, beyond_larmor, fits),
     )
 }
+"""The tables by name; `atlas.book.keys` adds those that explain the records of a report file."""
 
 
 def compute(name: str, request: Request) -> Data:

@@ -1,14 +1,8 @@
-"""What there is to ask for: families with their quantities, targets of figures, roles, layers, blocks of reports."""
+"""Tables of what a user may choose: families with their quantities, targets of figures, and roles of layers."""
 
-import re
-from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, fields, is_dataclass
+from collections.abc import Iterator
 from itertools import groupby
-from typing import Any, get_args
 
-import msgspec
-
-from atlas.book import toml
 from atlas.book.tables.properties import cited
 from atlas.book.tables.table import Data, heads
 from atlas.motions.register import FAMILIES, Family
@@ -95,66 +89,3 @@ def roles() -> Data:
         "texts (`font.family`, `font.size`, `axes.labelsize`), frames, ticks, legends and the colours of maps "
         "(`image.cmap`); the rest is the atlas's own, in `atlas/pictures/style.py`.",
     )
-
-
-def blocks() -> Data:
-    """List the kinds of blocks that a page of a report has, with their keys, from their records."""
-    from atlas.book.blocks import KINDS
-
-    kinds = {f"`{name}`": kind.record for name, kind in KINDS.items()}
-    says = (
-        'The kinds of blocks, `kind = "NAME"`, with their keys; those in bold are needed, of others the value is what '
-        "holds where they are left out."
-    )
-    return _explained("Kind", kinds, "Keys", says)
-
-
-def report_keys() -> Data:
-    """List the keys of a report file, of its pages, bodies and fields, from their records."""
-    from atlas.book.body_and_field import Body, Field
-    from atlas.book.definition import Index, Page, Report, Thumbnail
-
-    where = {
-        "in the head": Report, "`{page}`, below its title": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
-        "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
-    }  # fmt: skip
-    says = (
-        "The keys of a report file; those in bold are needed, of others the value is what holds where they are left "
-        "out."
-    )
-    return _explained("Where", where, "Keys", says)
-
-
-def layers() -> Data:
-    """List what a recipe returns, a scene, and what it is made of."""
-    from atlas.pictures import layers as made
-
-    kinds = {f"`{kind.__name__}`": kind for kind in (made.Scene, made.Plane, made.Space, *get_args(made.Layer))}
-    says = "What a recipe may return: a `Scene` of panels `Plane` and `Space`, with layers. Fields in bold are needed."
-    return _explained("Name in `atlas.pictures`", kinds, "Fields", says)
-
-
-def _explained(first: str, kinds: Mapping[str, type], last: str, says: str) -> Data:
-    """Return a table of classes: name, first sentence, and what they hold, what is needed in bold."""
-    rows = [(name, _first(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
-    return Data(heads(first, "What it is", last), tuple(rows), says)
-
-
-def _first(kind: type) -> str:
-    """Return the first sentence of a docstring, in Markdown."""
-    sentence = re.split(r"[.:;]*(?:\. (?=[A-Z`])|$)", " ".join(str(kind.__doc__).split()), maxsplit=1)[0]
-    return re.sub(r"``(.+?)``", r"`\1`", sentence)
-
-
-def _keys(kind: Any) -> Iterator[str]:
-    """Go through the keys of a record, with the values that hold where they are left out, or the fields of a layer."""
-    if is_dataclass(kind):
-        for field in fields(kind):
-            yield f"**`{field.name}`**" if field.default is field.default_factory is MISSING else f"`{field.name}`"
-        return
-    for key in msgspec.structs.fields(kind):
-        if is_dataclass(key.type) or key.name in {"pages", "blocks"}:  # which have no key in the file
-            continue
-        plain = isinstance(key.default, str | int | float | bool) and key.default != ""
-        left_out = f"`{key.name}` = {toml.written(key.default)}" if plain else f"`{key.name}`"
-        yield f"**`{key.name}`**" if key.required else left_out
