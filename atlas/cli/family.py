@@ -203,7 +203,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
             if moments and not best:
                 raise NotCertifiedError(best.reason)
             if options["as_json"] and "R" in values:
-                values["q"] = [_quaternion(R, q) for R, q in zip(values["R"], near(), strict=True)]
+                values["q"] = [_quaternion(motion, *row) for row in zip(moments, values["R"], near(), strict=True)]
             columns = {s.name: values[s.name] for s in sampled if s.name in values}
             return named | _quantities(quantities, motion, times, columns, exact=True)
 
@@ -597,12 +597,18 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
     return best[s.name, t]
 
 
-def _quaternion(R: Any, near: Any) -> Any:
-    """Return the quaternion of a matrix of balls, near to doubles; not certified where the matrix is not."""
+def _quaternion(motion: Any, t: Any, R: Any, near: Any) -> Any:
+    """Return the quaternion of a motion in balls, near to doubles; not certified where the matrix R is not."""
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED
     from atlas.motions.nutation.certified_cayley_klein import quaternion
 
-    return [NOT_CERTIFIED] * 4 if near is None or isinstance(R[0][0], str) else quaternion(R, near)
+    if near is None or isinstance(R[0][0], str):
+        return [NOT_CERTIFIED] * 4
+    if not hasattr(motion, "quaternion"):
+        return quaternion(R, near)
+    w, *vector = motion.quaternion(t)  # what is zero at all times is exactly zero
+    q, i = [*vector, w], max(range(4), key=lambda i: abs(near[i]))
+    return q if (q[i] > 0) == (near[i] > 0) else [-x for x in q]
 
 
 def _quantities(

@@ -165,7 +165,7 @@ class Motion(Shown, Generic[Single]):
         """
         quaternions = self._evaluate(lambda single, t, out: single.quaternion(t, out), t, (4,))
         if self._placement is not None:
-            quaternions = self._placement.quaternions(quaternions)
+            quaternions = self._placement.quaternions(quaternions, t)
         return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
     def angular_velocity(self, t: Any) -> FloatArray:

@@ -55,15 +55,18 @@ class Placement:
         """Return vectors along the axes of the body, (..., 3), along those of the class."""
         return v if self.right is None else np.asarray(np.matvec(self.right, v))
 
-    def quaternions(self, q: FloatArray) -> FloatArray:
-        """Return quaternions (x, y, z, w) of the class turned, with w >= 0 where that of the class is 1."""
-        left, right = self._quaternions
-        return product(product(left, q), right)
+    def quaternions(self, q: FloatArray, t: Any) -> FloatArray:
+        """Return quaternions (x, y, z, w) of the class at times t turned, with w >= 0 at t = 0."""
+        left, right, start = self._quaternions
+        return self.started(product(product(left, q), right), start, 1, t)
 
     @cached_property
-    def _quaternions(self) -> tuple[FloatArray, FloatArray]:
-        left, right = map(of_matrix, self.sides)
-        return left * np.where(product(left, right)[..., 3:] < 0, -1.0, 1.0), right
+    def _quaternions(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Quaternions of both turns, and that of R(0) with w >= 0, whose sign their product has."""
+        left, right, start = map(of_matrix, (*self.sides, self.attitude))
+        start = start * np.where(start[..., 3:] < 0, -1.0, 1.0)
+        along = (product(left, right) * start).sum(-1, keepdims=True)
+        return left * np.where(along < 0, -1.0, 1.0), right, start
 
     @staticmethod
     def started(values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:

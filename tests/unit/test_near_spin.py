@@ -1,5 +1,6 @@
 """Motions next to a spin along the field, and bodies whose moments are nearly equal."""
 
+import json
 from collections.abc import Sequence
 from itertools import product
 from typing import Any
@@ -7,11 +8,13 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from flint import fmpq
 from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.bodies.inertia import principal
+from atlas.cli.app import atlas as command
 from atlas.errors import NotCertifiedError
 from atlas.motions.any_body import body_of
 from atlas.motions.torus.certified_flow import Flow
@@ -83,3 +86,26 @@ def test_moments_that_are_equal_as_given_are_one() -> None:
         I = body_of(J).moments
         assert len(set(I.tolist())) == 2
         assert atlas.motion(J, (0.3, 0.1, 1), (0.2, 1.0, 0.4)).family == "general"
+
+
+def test_the_quaternion_at_the_start_has_no_negative_w() -> None:
+    """Half turns, whose w is zero but for rounding, too; and those after it follow without a jump."""
+    rng = np.random.default_rng(7)
+    for n in range(60):
+        axis = rng.normal(size=3) if n % 2 else rng.permutation([1.0, float(rng.integers(2)), 0.0])
+        A = Rotation.from_rotvec(np.pi * axis / np.linalg.norm(axis)).as_matrix()
+        m = atlas.motion(1.4, rng.normal(size=3), rng.normal(size=3), A)
+        q = m.quaternion(np.array([0.0, 1e-3, 2e-3]))
+        assert q[0, 3] >= 0
+        assert m.quaternion(0.0)[3] >= 0
+        assert (abs(np.diff(q, axis=0)) < 0.02).all()
+
+
+def test_a_zero_of_a_quaternion_is_proved() -> None:
+    """A ball without a field turns about an axis across e1, which its balls know."""
+    words = "ball --larmor 0 --momentum 0.3 -0.7 --times 1 9.5 --digits 12 --json".split()
+    samples = json.loads(CliRunner().invoke(command, words).output)["samples"]
+    for row in samples:
+        q = atlas.BallMotion(1.0, 0.0, (0.3, -0.7)).quaternion(row["t"])
+        assert row["q"][0] == "0"
+        assert np.allclose([float(x) for x in row["q"]], q, rtol=0, atol=2e-12)

@@ -44,6 +44,14 @@ class BallMotion:
         along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
         return turns(t, (last, -self.larmor), ((fmpq(0), *along), -gamma))
 
+    def quaternion(self, t: Any) -> list[Real]:
+        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (28)."""
+        t = rational(t, "the time")
+        k2, k3 = self.k_hat
+        S, C = sin_cos(-self.larmor * t / 2)
+        s, c = sin_cos(-self.gamma * t / 2)
+        return [c * C - k3 * s * S, -k2 * s * S, k2 * s * C, c * S + k3 * s * C]
+
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t) in the laboratory frame, (26)."""
         S, C = sin_cos(self.larmor * rational(t, "the time"))
