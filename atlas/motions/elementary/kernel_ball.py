@@ -10,7 +10,7 @@ from atlas.arithmetic.inputs import FloatArray, as_given, components, kept, numb
 from atlas.arithmetic.numbers import alone, direction, workprec
 from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.rotation_rows import Group
-from atlas.arithmetic.words import ONE, ZERO, exact, floats
+from atlas.arithmetic.words import ONE, ZERO, exact
 from atlas.bodies.formula_domain import check_ball
 from atlas.motions.base import DoubleTurn
 from atlas.motions.elementary.formula_ball import rates, turning
@@ -24,7 +24,7 @@ class Ball(DoubleRotation):
             along, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
             # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
             axis = (ZERO, *direction(along)) if gamma != 0 else (ZERO, ZERO, -ONE)
-        self.vectors = {"m": (0.0, *floats(exact(m2, m3))), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
+        self.vectors = {"m": (0.0, np.asarray(m2), np.asarray(m3)), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
         super().__init__(axis, gamma, alpha, inverse=True)
 
 
@@ -110,6 +110,6 @@ class BallMotion(DoubleTurn[Ball]):
     def _vectors(self) -> dict[str, Any]:
         inertia, _, m2, m3 = self._inputs
         return {
-            "m": (0.0, *floats(exact(m2, m3))),
+            "m": (0.0, np.asarray(m2), np.asarray(m3)),
             "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, None), degree=(1, 1))),
         }
