@@ -1,13 +1,18 @@
 """Exact numbers that no double holds: fractions, and products or components along other axes of what was given."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from flint import fmpq
 
 from atlas.errors import DomainError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from flint import fmpq
 
 Index = tuple[int, ...]
 
@@ -70,6 +75,8 @@ def _own(shape: tuple[int, ...], index: Index) -> Index:
 
 def exact_number(x: Any) -> Any:
     """Return a Fraction or a rational number of flint as the float that it is or, if it is none, as a `Given`."""
+    from flint import fmpq
+
     x = fmpq(x.numerator, x.denominator) if isinstance(x, Fraction) else x
     try:
         head = int(x.p) / int(x.q)
@@ -93,7 +100,7 @@ def element(x: Any, index: Index) -> Any:
         return x.at(index)
     x = np.asarray(x)
     value = x[_own(x.shape, index)] if x.ndim else x[()]
-    return value if value is None or isinstance(value, fmpq) else float(value)
+    return value if value is None else float(value)
 
 
 def broadcast(x: Any, shape: Index) -> Any:

@@ -8,7 +8,6 @@ from numbers import Number
 from typing import Any, TypeVar
 
 import numpy as np
-from flint import fmpq
 from numpy.typing import NDArray
 
 from atlas.arithmetic.dimensions import bare
@@ -140,7 +139,7 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
 
 def numbers(value: Any, name: str, unit: str = "") -> Any:
     """Return `value` as `real` does, but numbers that no double holds, such as a Fraction, as exact `Given` ones."""
-    if isinstance(value, Fraction | fmpq):
+    if isinstance(value, Fraction):
         value = exact_number(value)
     return value if isinstance(value, Given) else real(value, name, unit)
 

@@ -79,6 +79,9 @@ SENSITIVE = ("general", "elementary", "free", "ball", "top")
 ROUNDING = 1e-12
 """Turn in radians by rounding of the inputs above which the command line says so."""
 
+SHORT = 6.0
+"""Phase below which an exponential of the largest rate does not take rounding to 1e-12."""
+
 OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
 THIRD = dict.fromkeys(("free", "elementary", "general"), ", the last that of symmetry")
 THIRD |= {"ball": ", the last along the field at t = 0"}
@@ -437,9 +440,17 @@ def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[st
     return {}
 
 
+def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
+    """Whether a motion is so short that rounding can't grow, told without the libraries that a table does not load."""
+    rates = [x for name in ("field", "omega", "omega2", "spin") for x in parts_of(options.get(name) or 0.0)]
+    typed = options.get("magnetic") is None and options.get("linear") is None
+    return typed and max(map(abs, rates)) * max(map(abs, times), default=0.0) < SHORT
+
+
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
     """Yield the sentence under a table that says what rounding of the inputs does, where they are rounded."""
-    if options["digits"] is not None or options["decimal"] or family.name not in SENSITIVE:
+    rounded = options["digits"] is None and not options["decimal"] and family.name in SENSITIVE
+    if not rounded or _is_short(options, times):
         return
     for error in _input_error(family, motion or _kernel(family, options), times).values():
         farthest = max(map(float, times), key=abs)

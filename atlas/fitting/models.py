@@ -43,11 +43,7 @@ def _general(p: Values) -> Any:
 
 def _elementary(p: Values) -> Any:
     """Return an elementary motion: e2 is where the field is at the start, so that omega1 = 0."""
-    A, K = attitude(p), vector(p, B)
-    _, turn = in_plane(A.T @ K)
-    K = turn @ (A.T @ K)
-    motion = ElementaryMotion(p["ratio"], (K[1], K[2]), p["omega2"])
-    return of_any(p["ratio"], vector(p, B), turn.T @ np.array([0.0, p["omega2"], motion.omega3]), A)
+    return ElementaryMotion.in_laboratory(p["ratio"], vector(p, B), attitude(p), omega2=p["omega2"])
 
 
 def _on_hyperbola(r: Any, K: Any, w: Any) -> Any:

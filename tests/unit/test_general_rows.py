@@ -165,8 +165,8 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
 def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 3000 ordinary motions, and as many that start at a turning point, none is made alone for kind and period."""
     made = []
-    balls = general.Balls
-    monkeypatch.setattr(general, "Balls", lambda *row: made.append(row) or balls(*row))
+    standing = general.standing
+    monkeypatch.setattr(general, "standing", lambda *row: made.append(row) or standing(*row))
     inputs = ordinary(3000, 3)
     motions = GeneralMotion(*inputs)
     assert motions.kind.shape == motions.period.shape == motions.nome.shape == (3000,)
@@ -220,7 +220,7 @@ def test_nothing_depends_on_the_unit(power: int) -> None:
 def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
     """Return what arrays make of some rows, none of them alone: columns, Omega, and scalars that are sure."""
     I, B, omega = (x[..., rows] for x in inputs)
-    blocks, found = Blocks((1.0, I, *B, *omega), I.shape), []
+    blocks, found = Blocks((1.0, I, 0.0, *B, *omega), I.shape), []
     for name in ("rotation", "angular_velocity"):
         out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), Rows(blocks, MotionsAtTimes).at
         made = at(slice(None), t[rows])
