@@ -28,6 +28,9 @@ SCORE: Mapping[str, Callable[..., Any]] = {
 SPIN_UNSEEN = ("axis", "signal")
 """Data that do not show the spin about the axis by itself."""
 
+EXACT = 1e-13
+"""Difference from data, in parts of their spread, that is rounding."""
+
 BEND = 0.75
 """Largest part of a step by which it is bent."""
 
@@ -84,6 +87,7 @@ class Crowd:
         problem = self.problem
         r, J = self._slopes(self.X, places)
         self.costs = self._cost(r)
+        exact = (EXACT * problem.data.spread / problem.data.sigma.min()) ** 2
         for _ in range(rounds):
             Y, w = self._straight(self.X), SCORE[problem.loss](r * r)
             A, g = (J * w[:, None]) @ J.swapaxes(1, 2), (J @ (w * r)[..., None])[..., 0]
@@ -106,7 +110,8 @@ class Crowd:
             r, J = np.where(better[:, None], new_slopes[0], r), np.where(better[:, None, None], new_slopes[1], J)
             self.damping = np.clip(np.where(better, self.damping / 8, self.damping * 4), 1e-12, 1e6)
             self.costs = np.where(better, costs, self.costs)
-            if decrement and (better & (fallen < decrement) | (self.damping > 1e3)).all():
+            ended = better & (fallen < decrement) | (self.damping > 1e3) | (self.costs < exact * r.shape[-1])
+            if decrement and ended.all():
                 break
 
     def drop(self, count: int) -> None:

@@ -121,7 +121,7 @@ class Fit:
         parameters = seen.parameters()
         words = seen.words()
         equal = equal_solutions(problem, x, redchi, signs=bool(words or steady))
-        wider = [] if steady or problem.loss != "linear" else wider_families(problem, x, parameters, scale)
+        wider = [] if words or steady or problem.loss != "linear" else wider_families(problem, x, parameters, scale)
         return cls(
             family=problem.model.name, kind=data.kind, epoch=epoch, parameters=parameters,
             names=tuple(problem.names), covariance=seen.covariance, residuals=residuals, t=data.t + epoch,

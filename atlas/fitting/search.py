@@ -33,7 +33,7 @@ GROWTH, KEPT, ROUNDS, FAR = 1.5, 0.4, 4, 15.0
 LOST, SEVERAL = 0.35, 6
 """Part of the spread by which a prediction of so many data may be off while its phases are still right."""
 
-MANY = 24
+MANY = 40
 """Motions that are kept after the first step at least."""
 
 LAST = 60
