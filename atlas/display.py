@@ -10,7 +10,7 @@ from atlas.arithmetic.inputs import kept
 from atlas.errors import AtlasError
 from atlas.viewers import notebook
 
-FEW, MANY = 9, 4096
+MAX_SHOWN_NUMBERS, MAX_COUNTED_OBJECTS = 9, 4096
 """Numbers of an array that are written out; objects whose kinds are counted."""
 
 
@@ -95,11 +95,11 @@ def _typed(value: Any) -> str:
     if isinstance(value, Shown):
         return called(value.made_by or type(value).__name__, value.arguments)
     if isinstance(value, np.ndarray | np.generic):
-        return repr(value.tolist()) if value.size <= FEW else f"<array {value.shape}>"
+        return repr(value.tolist()) if value.size <= MAX_SHOWN_NUMBERS else f"<array {value.shape}>"
     if isinstance(value, tuple):
         return f"({', '.join(map(_typed, value))}{',' * (len(value) == 1)})"
     if isinstance(value, list):
-        return f"[{', '.join(map(_typed, value))}]" if len(value) <= FEW else f"<list of {len(value)}>"
+        return f"[{', '.join(map(_typed, value))}]" if len(value) <= MAX_SHOWN_NUMBERS else f"<list of {len(value)}>"
     return repr(value)
 
 
@@ -112,7 +112,7 @@ def _kind(shown: Shown) -> str:
     shape = getattr(shown, "shape", ())
     if not shape:
         return ", ".join(dict.fromkeys(str(kind) for kind in found if str(kind)))
-    if np.prod(shape) > MANY or not found:
+    if np.prod(shape) > MAX_COUNTED_OBJECTS or not found:
         return f"shape {shape}"
     kinds, counts = np.unique(np.asarray(found[-1] if str(found[-1]) else found[0]), return_counts=True)
     return f"shape {shape}: " + ", ".join(f"{count} {kind}" for kind, count in zip(kinds, counts, strict=True))

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-FEW = 30
+MAX_LISTED_NAMES = 30
 """As many names as an error lists."""
 
 
@@ -36,5 +36,5 @@ def unknown(what: str, name: object, known: Iterable[str], where: str = "") -> A
     'hyperbola'". All known names are listed if they are few.
     """
     names = list(known)
-    listed = f"; known: {', '.join(names) or 'none'}" if len(names) <= FEW else ""
+    listed = f"; known: {', '.join(names) or 'none'}" if len(names) <= MAX_LISTED_NAMES else ""
     return AtlasError(f"there is no {what} {name!r}{f' {where}' if where else ''}{nearest(str(name), names)}{listed}.")

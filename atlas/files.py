@@ -23,7 +23,7 @@ WRITTEN = ".written"
 IGNORED = f"# notes of atlas, which it makes again\n.gitignore\n{WRITTEN}\n*.costs.json\n"
 """The file .gitignore of a folder that files are written to."""
 
-LONGEST = 1 << 20
+MAX_LINE_LENGTH = 1 << 20
 """Characters of a line that is read."""
 
 HERE, EXCHANGE = -100, 2
@@ -117,9 +117,9 @@ def named(path: Path, part: Path | None = None) -> Iterator[None]:
 
 def lines_of(file: TextIO, name: str) -> Iterator[str]:
     """Yield the lines of a text. Raises AtlasError for one that does not end, as the first of /dev/zero."""
-    while line := file.readline(LONGEST):
-        if len(line) == LONGEST and line[-1] != "\n":
-            raise AtlasError(f"{name} has a line of more than {LONGEST} characters: it is no table of numbers.")
+    while line := file.readline(MAX_LINE_LENGTH):
+        if len(line) == MAX_LINE_LENGTH and line[-1] != "\n":
+            raise AtlasError(f"{name} has a line of more than {MAX_LINE_LENGTH} characters: it is no table of numbers.")
         yield line
 
 

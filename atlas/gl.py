@@ -42,7 +42,7 @@ window.AddRenderer(vtkRenderer())
 window.Render()
 print(window.GetClassName())
 """
-_TIMEOUT = 60
+_TIMEOUT_SECONDS = 60
 
 
 @cache
@@ -107,7 +107,7 @@ def _draws(name: str) -> bool:
     if name in WINDOWS:
         environment[VARIABLE] = WINDOWS[name]
     try:
-        child = programs.run([sys.executable, "-P", "-c", _PROBE], _TIMEOUT, env=environment)
+        child = programs.run([sys.executable, "-P", "-c", _PROBE], _TIMEOUT_SECONDS, env=environment)
     except (OSError, subprocess.TimeoutExpired):
         return False
     return child.returncode == 0 and (name not in WINDOWS or WINDOWS[name] in child.stdout)

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any
 
-PATIENCE = 20
+PATIENCE_FACTOR = 20
 """How much longer than its seconds of a processor a program may take, on a machine that has other things to do."""
 
 PR_SET_PDEATHSIG = 1
@@ -43,7 +43,7 @@ def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> su
                 capture_output=True,
                 encoding="utf-8",
                 check=False,
-                timeout=PATIENCE * seconds,
+                timeout=PATIENCE_FACTOR * seconds,
                 preexec_fn=started if os.name == "posix" else None,
                 **{"env": environment()} | more,
             )

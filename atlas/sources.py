@@ -22,7 +22,7 @@ from atlas.places import folder
 PACKAGE = Path(__file__).resolve().parent
 OURS = {"atlas", "figures"}
 """The names that imports of ours begin with."""
-MANY = 3000
+MAX_CACHED_SOURCES = 3000
 Below: TypeAlias = Callable[[Path, str], tuple[Path | None, Path | None]]
 DISTURBED = sys.version_info < (3, 11, 8)
 """Whether two threads that parse disturb each other, CPython issue 106905: a SystemError now and then."""
@@ -74,7 +74,7 @@ class Sources:
         """Remember in the cache what was found out; what is not in use any more goes when it has become much."""
         if self._cache is not None:
             both = self._known | self._used
-            self._cache.save("sources", both if len(both) < MANY else self._used)
+            self._cache.save("sources", both if len(both) < MAX_CACHED_SOURCES else self._used)
 
     def _facts(self, path: Path) -> dict[str, Any]:
         """Return the digest of one file and the names that it imports; a file is read once."""

@@ -17,8 +17,8 @@ from atlas.pictures.sample import curve
 from atlas.pictures.torus import VIEW, net, on_torus, seen
 
 WIDTH, HEIGHT = 150.0, 128.0
-MOST = 400.0
-FEW = 40.0
+MAX_TURNS = 400.0
+MAX_BOLD_PHASE = 40.0
 """Beyond so many radians of the Larmor turn the trace on the sphere is a thin line."""
 
 
@@ -42,8 +42,8 @@ def scene(
             f"gamma/alpha = {min(ratios):g} is below |1 + m3/alpha| = {least:g}, the least of a ball with m3 = {m3:g} "
             f"and alpha = {larmor:g} can have; give larger ratios, or m3 nearer to {-larmor:g}."
         )
-    if max(abs(r * n) for r, n in zip(ratios, turns, strict=True)) > MOST:
-        raise DomainError(f"figure ball_torus draws at most {MOST:g} turns.")
+    if max(abs(r * n) for r, n in zip(ratios, turns, strict=True)) > MAX_TURNS:
+        raise DomainError(f"figure ball_torus draws at most {MAX_TURNS:g} turns.")
     panels: list[Space] = []
     for ratio, count in zip(ratios, turns, strict=True):
         m2 = larmor * float(np.sqrt(ratio * ratio - least * least))
@@ -66,7 +66,7 @@ def scene(
         ),
         panels=tuple(panels),
         columns=2,
-        named={"dashed": "hidden_trace"} if min(turns) * 2 * np.pi < FEW else {},
+        named={"dashed": "hidden_trace"} if min(turns) * 2 * np.pi < MAX_BOLD_PHASE else {},
         size=(WIDTH, HEIGHT * len(ratios) / 2),
     )
 
@@ -76,7 +76,7 @@ def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *
 
     The latter shows the field and k at t = 0, too; its start has a name or not.
     """
-    fine, few = tolerance(1.5), larmor * stop < FEW
+    fine, few = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, fine, pieces=pieces)
     way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, fine, pieces=pieces)

@@ -15,7 +15,7 @@ from atlas.pictures.captions import listed, plain, tex, tex_vector
 from atlas.pictures.sample import curve, quarter_pixel, room
 
 WIDTH, HEIGHT, MARGIN = 178.0, 66.0, 13.0
-NEAR = 1e-4
+STRETCH_END = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
 ROLES = {"stable": "start", "saddle": "unstable_point", "focus-focus": "unstable_point"}
 
@@ -127,7 +127,7 @@ def line(
 ) -> FloatArray:
     """Return a stretch (N, 2) as it is drawn; ``sizes`` are millimetres to a unit of both axes."""
     poles = set((-bifurcation.a).tolist())
-    first, last = (NEAR if end in poles else 0.0 for end in (stretch.low, stretch.high))
+    first, last = (STRETCH_END if end in poles else 0.0 for end in (stretch.low, stretch.high))
 
     def points(u: FloatArray) -> FloatArray:
         z = stretch.low + (stretch.high - stretch.low) * np.sin(np.pi / 2 * u) ** 2

@@ -11,7 +11,7 @@ from atlas.pictures.layers import Layer, Plane, Scene
 
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
-LARGE = 10_000
+MIN_COUNT = 10_000
 ROOM = (0.2, 0.3), (0.4, 0.4)
 
 
@@ -56,7 +56,7 @@ def multiples(record: benchmark.Results) -> Plane:
         rows = [
             r
             for r in record.costs
-            if (r.method, r.threads) == (method, threads) and r.count >= LARGE and r.to_fill is not None
+            if (r.method, r.threads) == (method, threads) and r.count >= MIN_COUNT and r.to_fill is not None
         ]
         if rows:
             points = benchmark.pairs(rows, lambda row: row.count, lambda row: row.to_fill)

@@ -15,7 +15,7 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene, axis_trace
 from atlas.pictures.captions import listed, plain, tex
 from atlas.pictures.sample import room
 
-SIZE, LEAST = 62.0, 5.0
+SIZE, MIN_SWING_DEGREES = 62.0, 5.0
 """A panel in mm, and the least swing of the axis in degrees that is seen in it."""
 RANGES = {"nutations": (0.5, 40.0)}
 
@@ -42,7 +42,7 @@ def scene(
         if not np.isfinite(top.period) or "steady" in top.kind:
             raise DomainError(f"figure cusps: pushed with omega2 = {push} this top is a {top.kind}; take another push.")
     swings = [float(np.degrees(np.ptp(np.arccos(top.turning_points)))) for top in tops]
-    if max(swings) < LEAST:
+    if max(swings) < MIN_SWING_DEGREES:
         raise DomainError(
             f"figure cusps: this top nutates by {max(swings):.2g} degrees, which cannot be seen; give a larger weight "
             "linear, a smaller spin omega3 or a larger push."

@@ -21,7 +21,7 @@ from atlas.pictures.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
 NAMES = {"main": "unbounded", "third": "bounded", "unstable_line": "unstable"}
-NEAR = 1e-3
+BRANCH_END = 1e-3
 """Where a branch begins, as a part of an oval: by then it has left the window."""
 
 
@@ -118,7 +118,7 @@ def curves(
 
         box = np.array([left, bottom, -np.inf]), np.array([right, top, np.inf])
         scale = np.array([x / (right - left), y / (top - bottom), 0.0])
-        line = curve(points, NEAR, 1 - NEAR, quarter_pixel(1.0, 1.0), pieces=64, box=box, scale=scale)
+        line = curve(points, BRANCH_END, 1 - BRANCH_END, quarter_pixel(1.0, 1.0), pieces=64, box=box, scale=scale)
         saddle = splitting(I, B, line[:, 2]) < 0
         cuts = [0, *(np.flatnonzero(np.diff(saddle)) + 1).tolist(), len(line)]
         for a, b in pairwise(cuts):

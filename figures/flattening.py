@@ -16,7 +16,7 @@ from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
 SIZE, COLUMNS = 56.0, 3
 STEPS = 40
 """Points of a trace for each radian of the fastest of the rates at the start."""
-MOST = 40
+MAX_TURNS = 40
 """Turns, of the rates across the axis and of the field together, that one sphere can show."""
 RANGES = {"stop": (0.1, 200.0)}
 
@@ -34,10 +34,10 @@ def scene(
     """Draw R_3(t) of the bodies (``first``, 1, ``ratio``) up to the time ``stop``; B stands upright."""
     if not 0 < len(first) <= 6 or not any(field):
         raise DomainError(f"figure flattening takes one to six values of I1 and a field, not {first} and {field}.")
-    longest = 2 * np.pi * MOST / float(np.abs([*field, *omega[:2]]).sum())
+    longest = 2 * np.pi * MAX_TURNS / float(np.abs([*field, *omega[:2]]).sum())
     if stop > longest:
         raise DomainError(
-            f"figure flattening: beyond {MOST} turns of the axis nothing can be told apart: give a stop up to "
+            f"figure flattening: beyond {MAX_TURNS} turns of the axis nothing can be told apart: give a stop up to "
             f"{longest:.3g}, not {stop:g}."
         )
     panels = tuple(

@@ -23,7 +23,7 @@ AXIS, CORNER = 1.7, 0.22
 HEADS = (3.5, 7.6, 10.5)
 """Where on the path an arrowhead shows its sense, in steps of time: where no body covers it."""
 
-MOST = 1.25
+MAX_SIZES_PER_PATH = 1.25
 """Sizes of all bodies together, in lengths of the path; what hides what is found for each with each that it covers."""
 
 
@@ -57,10 +57,10 @@ def scene(
     times = np.linspace(0.0, stop, count)
     centres, attitudes = particle.position(times), motion.rotation(times)
     path = float(np.linalg.norm(np.diff(centres, axis=0), axis=1).sum())
-    if size * count > MOST * path:
+    if size * count > MAX_SIZES_PER_PATH * path:
         raise DomainError(
             f"figure flight_poster needs bodies that do not all cover one another: for {count} on a path of {path:.3g} "
-            f"the size is at most {MOST * path / count:.3g}, not {size:g}."
+            f"the size is at most {MAX_SIZES_PER_PATH * path / count:.3g}, not {size:g}."
         )
     fine = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
     end = 0.5 * size * proportions(I)[1]

@@ -20,12 +20,12 @@ from atlas.pictures.hyperbola_plane import Window, components, graph
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
 TOP = 4.0
 """How far panel (b) goes, in units of the free body's quotient."""
-MOST = 8
+MAX_ORDER = 8
 BESIDE = 4.4
 """Millimetres from a dot to its p/q."""
 APART = 3.0
 """Millimetres between dots that have their p/q both."""
-CLOSE = 1e-9
+POLE_TOLERANCE = 1e-9
 """Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""
 
 
@@ -39,8 +39,8 @@ def scene(
 ) -> Scene:
     """Draw k, phi and phi/k up to ``reach`` times B2 from the pole; p/q is marked for |p| and q up to ``order``."""
     order = whole(order, "order", 1)
-    if order > MOST:
-        raise DomainError(f"figure frequencies marks p/q up to order = {MOST}, not {order}.")
+    if order > MAX_ORDER:
+        raise DomainError(f"figure frequencies marks p/q up to order = {MAX_ORDER}, not {order}.")
     B2, B3 = components(field)
     if B2 == 0:
         raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
@@ -92,7 +92,8 @@ def closed(hyperbola: Hyperbola, free: float, order: int) -> dict[Fraction, Elem
     return {
         r: hyperbola.closed(r.numerator, r.denominator)
         for r in sorted(wanted)
-        if abs(r) < 0.95 * TOP * abs(free) and min(abs(float(r) - free), abs(float(r) - 2 * free)) > CLOSE * abs(free)
+        if abs(r) < 0.95 * TOP * abs(free)
+        and min(abs(float(r) - free), abs(float(r) - 2 * free)) > POLE_TOLERANCE * abs(free)
     }
 
 
@@ -120,7 +121,7 @@ def frequencies(
 
         # phi ~ x - 1/x: as large at 1/x as at x, so it leaves the window nearer to the pole than this
         x = abs(1 + ends[1] / B2)
-        near = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), CLOSE)
+        near = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), POLE_TOLERANCE)
         pieces = graph(proper, B2, view, near, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
         layers.append(Curve(view.upright(-B2), "pole"))
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))

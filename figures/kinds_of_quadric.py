@@ -15,7 +15,7 @@ from atlas.pictures.captions import listed
 from atlas.surfaces.kernel import Quadric
 
 WIDTH, HEIGHT = 178.0, 72.0
-LEAST, MOST = 60, 2000
+MIN_CELLS, MAX_CELLS = 60, 2000
 """Cells a side: with fewer the lines end before the edges."""
 RIGHT = 90.0
 EDGE = 0.05
@@ -35,9 +35,9 @@ def scene(
 ) -> Scene:
     """Draw the regions, and levels of C1, C2, C3 in units of |B'|, from a grid of ``cells`` a side."""
     levels = (C1, C2, C3)
-    cells = whole(cells, "The number of cells", LEAST)
-    if cells > MOST:
-        raise DomainError(f"figure kinds_of_quadric takes at most {MOST} cells, not {cells}.")
+    cells = whole(cells, "The number of cells", MIN_CELLS)
+    if cells > MAX_CELLS:
+        raise DomainError(f"figure kinds_of_quadric takes at most {MAX_CELLS} cells, not {cells}.")
     I = 2.0 * np.arange(1, cells + 1) / cells
     beta = RIGHT * (np.arange(cells) + 0.5) / cells
     axes = semi_axes(I[None, :], beta[:, None])

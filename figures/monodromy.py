@@ -19,7 +19,7 @@ from atlas.pictures.sample import room
 
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
-FINE = 480
+LOOP_POINTS = 480
 """Points of a line through those of a loop, by their Fourier series."""
 
 
@@ -109,8 +109,8 @@ def smooth(points: FloatArray) -> FloatArray:
     count = len(points) - 1
     drift = np.outer(np.arange(count) / count, points[-1] - points[0])
     waves = np.fft.rfft(points[:-1] - drift, axis=0)
-    fine = np.fft.irfft(waves, FINE, axis=0) * (FINE / count)
-    fine += np.outer(np.arange(FINE) / FINE, points[-1] - points[0])
+    fine = np.fft.irfft(waves, LOOP_POINTS, axis=0) * (LOOP_POINTS / count)
+    fine += np.outer(np.arange(LOOP_POINTS) / LOOP_POINTS, points[-1] - points[0])
     return np.concatenate([fine, fine[:1] + points[-1] - points[0]])
 
 

@@ -18,7 +18,7 @@ from atlas.pictures.sample import curve, quarter_pixel
 WIDTH, HEIGHT = 178.0, 62.0
 COLUMNS = 3
 PANEL = (WIDTH / COLUMNS, HEIGHT)
-FEW = 25.0
+MAX_SPIN_TURNS = 25.0
 BODY, SPOKES = 0.75, 24
 """Size of the drawn body, whose axis goes round on the unit sphere, and how many places of the axis are marked."""
 
@@ -37,8 +37,8 @@ def scene(
     turns = positive(turns, "turns")
     k, phi = abs(motion.k), abs(motion.phi)
     slow = 2 * np.pi * turns / (k or phi) if k or phi else 1.0
-    # no more than FEW proper rotations: beyond, Omega(t) would be all ink
-    stop = min(slow, 2 * np.pi * FEW / phi) if phi else slow
+    # no more than MAX_SPIN_TURNS proper rotations: beyond, Omega(t) would be all ink
+    stop = min(slow, 2 * np.pi * MAX_SPIN_TURNS / phi) if phi else slow
     free = not any(motion.field)
     axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"
     along = "" if free else r"; dashed: its projection on the field"

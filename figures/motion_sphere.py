@@ -17,7 +17,7 @@ from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 from atlas.pictures.sample import curve
 
-MANY = 400.0
+MAX_AXIS_PHASE = 400.0
 """A first axis that turns by more radians than these would cover the sphere, and is not drawn."""
 STRIDE = 0.2
 Layers: TypeAlias = list[Layer]
@@ -51,7 +51,7 @@ def scene(
         period = 2.0 * np.pi / abs(motion.k)
         layers.append(Curve(curve(motion.third_axis, 0.0, period, fine), "trace"))
         layers += heads(motion.third_axis, period * np.array([0.2, 0.7]), eye, "trace", "")
-    drawn = rate * time < MANY
+    drawn = rate * time < MAX_AXIS_PHASE
     if drawn:
         pieces = max(8, int(4.0 * rate * time / np.pi))
         layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, fine, pieces=pieces), "second_trace"))

@@ -16,9 +16,9 @@ from atlas.pictures.quadric_panel import O, tolerance
 from atlas.pictures.torus import VIEW, net, on_torus, seen
 
 WIDTH, HEIGHT = 178.0, 80.0
-FINE = 150
+POINTS_PER_TURN = 150
 """Points of a line for each of its turns round the torus."""
-MOST = 200.0
+MAX_TURNS = 200.0
 
 
 def scene(
@@ -35,15 +35,15 @@ def scene(
     rates = np.array([[second[1], -first[1]], [-second[0], first[0]]]) * 2 * np.pi / area  # of both angles, H and F/2
     fastest = float(np.abs(rates[0]).max()) / (2 * np.pi)
     stop = positive(turns, "turns") / fastest if stop is None else stop
-    if not 0 < stop <= MOST / fastest:
+    if not 0 < stop <= MAX_TURNS / fastest:
         raise DomainError(
-            f"figure torus_of_flows draws up to {MOST:g} turns: give a stop between 0 and {MOST / fastest:.3g}, not "
-            f"{stop:g}."
+            f"figure torus_of_flows draws up to {MAX_TURNS:g} turns: give a stop between 0 and "
+            f"{MAX_TURNS / fastest:.3g}, not {stop:g}."
         )
     K = vector(field, "field")
     W, I = vector(omega, "omega") + K, vector(inertia, "inertia")
-    orbit = flow(I, W, K, 1.0, 0.0, np.linspace(0.0, stop, int(FINE * fastest * stop) + 2))[1]
-    there = np.linspace(0.0, 1.0, 3 * FINE)
+    orbit = flow(I, W, K, 1.0, 0.0, np.linspace(0.0, stop, int(POINTS_PER_TURN * fastest * stop) + 2))[1]
+    there = np.linspace(0.0, 1.0, 3 * POINTS_PER_TURN)
     out = flow(I, W, K, first[0], 0.0, there)
     back = flow(I, out[0][-1], out[1][-1], 0.0, first[1], there)[1]
     angles = (

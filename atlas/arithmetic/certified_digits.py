@@ -22,7 +22,7 @@ MARK = "?"
 NOT_CERTIFIED, INFINITE = "not certified", "infinite"
 BITS_A_DIGIT = 3.3220
 NO_FLOAT = arb(2) ** -4000  # less than half of the least float
-SPARE = 1 << 16  # bits of precision beyond those asked for at which the search for a proof ends
+SPARE_BITS = 1 << 16  # bits of precision beyond those asked for at which the search for a proof ends
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Printed:
     complete: bool
 
 
-def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain", spare: int = SPARE) -> Any:
+def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain", spare: int = SPARE_BITS) -> Any:
     """Return what ``function`` returns, each certified number in it as text with ``digits`` proven digits.
 
     ``function`` takes no argument and computes at the precision of the moment; it returns a number or lists, tuples
@@ -97,7 +97,7 @@ def numbers(value: Any) -> Iterator[Real]:
             yield from numbers(item)
 
 
-def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool], spare: int = SPARE) -> Any:
+def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool], spare: int = SPARE_BITS) -> Any:
     """Raise the precision until ``enough`` holds (Ziv's strategy), or until it has become hopeless."""
     precision = bits + 64
     while True:

@@ -10,7 +10,7 @@ from atlas.arithmetic.certified_quartic_roots import discriminant, four_roots, t
 from atlas.arithmetic.numbers import root, workprec
 from atlas.errors import DomainError
 
-MOST = 1 << 17
+MAX_BITS = 1 << 17
 """Bits at which the search for roots is given up, after less than a second."""
 
 Polynomial: TypeAlias = tuple["Surd", ...]
@@ -140,7 +140,7 @@ def roots(p: Polynomial) -> list[acb]:
     if p[0].is_zero:
         return _sorted([acb(0), *roots(p[1:])])
     digits = precision = ctx.prec
-    while precision < MOST:
+    while precision < MAX_BITS:
         precision *= 2
         with workprec(precision):
             # first from balls, in which most signs are known; what is exact takes longer

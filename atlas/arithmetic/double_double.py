@@ -25,10 +25,10 @@ SPLITTER = 2.0**27 + 1
 SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
 """Bounds on the relative error of one operation."""
 
-ORDINARY = 2.0**100
+MAX_INPUT = 2.0**100
 """Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
 
-KNOWN = 2.0**-90
+MAX_RELATIVE_ERROR = 2.0**-90
 """Relative error of two words above which a number is made again, exactly."""
 
 BLOCK = 8192
@@ -232,7 +232,7 @@ def over(
 
 
 def blocks(
-    formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice, bound: float = ORDINARY
+    formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice, bound: float = MAX_INPUT
 ) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[Any]]]:
     """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
 
@@ -312,7 +312,7 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
         if exponents is not None:
             words[:2, :, rows] = np.ldexp(words[:2, :, rows], exponents[0])
             words[2, :, rows] = np.where(exponents[1], words[2, :, rows], np.inf)
-    doubtful = ~(words[2] < KNOWN).all(axis=0)
+    doubtful = ~(words[2] < MAX_RELATIVE_ERROR).all(axis=0)
     for n in np.flatnonzero(doubtful).tolist():
         for i, x in enumerate(row(_index(n, shape))):
             one = exact_number(x)
@@ -324,7 +324,7 @@ def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1
     ]
 
 
-def _ordinary(columns: Sequence[Any], rows: int, bound: float = ORDINARY) -> Any:
+def _ordinary(columns: Sequence[Any], rows: int, bound: float = MAX_INPUT) -> Any:
     """Return in which rows all numbers are zero or far from what products of a few could not hold."""
     ordinary = np.ones(rows, dtype=bool)
     for size in map(abs, columns):

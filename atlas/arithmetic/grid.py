@@ -27,7 +27,7 @@ from atlas.errors import AtlasError
 QUARTER_TURN, TAIL = nearest(QUARTER), np.array(LACKING)
 """pi/2, and what its head of 27 digits lacks."""
 
-DIGITS = 26
+TIME_BITS = 26
 """Those of what is multiplied by the head."""
 
 
@@ -104,22 +104,22 @@ def _cut(first: int, step: int, e: int, bits: int) -> tuple[float, ...]:
     mask = 2 * half - 1
     first, step = (first + half & mask) - half, (step + half & mask) - half
     longest = max(first.bit_length(), step.bit_length() + bits) + 1
-    digit = max(min(longest, -e - 1) - DIGITS, 0)
+    digit = max(min(longest, -e - 1) - TIME_BITS, 0)
     middle, D = 1 << digit >> 1, 2.0 ** (digit + e)
     A, S = first + middle >> digit, step + middle >> digit
     return S * D, A * D, (step - (S << digit)) / half * QUARTER_TURN, (first - (A << digit)) / half * QUARTER_TURN
 
 
-FEW, FINE = 8000, 64
-"""Grids shorter than FEW are evaluated time by time; times in the fine table of the others."""
+MIN_GRID_COUNT, FINE_TIMES = 8000, 64
+"""Grids shorter than MIN_GRID_COUNT are evaluated time by time; times in the fine table of the others."""
 
-PART, COARSE = 6000, 1920
+PRODUCT_MATRICES, COARSE_TIMES = 6000, 1920
 """Matrices made by one product, so few that the library does not thread it; coarse times evaluated at once."""
 
-HUGE = 2.0**900
+MAX_STEP = 2.0**900
 """Longest step, so that its multiples are floats."""
 
-ORIGIN = FEW
+ORIGIN = MIN_GRID_COUNT
 RAMP = np.array([np.arange(-ORIGIN, ORIGIN), np.ones(2 * ORIGIN)])
 """Whole numbers above ones, for `Progression`, and the place of zero among them."""
 
@@ -130,7 +130,7 @@ ODD = np.isin(np.arange(11), (2, 3, 6, 7, 10))[:, None]
 def check_grid(start: float, step: float, count: int, reach: float) -> None:
     """Raise AtlasError for a grid with a time beyond the ``reach`` of the phases."""
     last = start + step * max(count - 1, 0)
-    if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
+    if not max(abs(start), abs(last)) <= reach or abs(step) > MAX_STEP:
         raise AtlasError(
             f"The grid from {start} by {step} to {last} goes too far: |t| may be {reach:.6g} at most, where a phase "
             "reaches 2^50 and is lost."
@@ -149,48 +149,48 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     check_grid(start, step, count, turning.phases.reach)
     zero = min(max(-start / step, 0.0), float(count)) if step else 0.0
     rows, closest, cut = out.reshape(count, 9), round(zero), ceil(zero)
-    if count < FEW:
+    if count < MIN_GRID_COUNT:
         origin = min(closest, count - 1)
         phases = Progression(turning.turns, start, step, origin, count, refined=False)
         functions = Basis(phases, count, size).at(RAMP[:, ORIGIN - origin : ORIGIN - origin + count])
-        for i in range(0, count, PART):
-            np.matmul(functions[:, i : i + PART].T, turning.entries, out=rows[i : i + PART])
+        for i in range(0, count, PRODUCT_MATRICES):
+            np.matmul(functions[:, i : i + PRODUCT_MATRICES].T, turning.entries, out=rows[i : i + PRODUCT_MATRICES])
         return
     tables = fine_tables(turning, step, [back for back, there in ((False, cut < count), (True, cut > 0)) if there])
-    before = -(-cut // FINE)
+    before = -(-cut // FINE_TIMES)
 
     def fill(low: int, high: int) -> None:
-        """Fill the blocks low to high of FINE matrices: the first `before` end at the cut, the others begin there."""
-        for i in range(low - before, high - before, COARSE):
-            j = min(i + COARSE, high - before)
-            first, end, middle = cut + FINE * i, cut + FINE * j, min(max(-i, 0), j - i)
+        """Fill blocks low to high of FINE_TIMES matrices: the first `before` end at the cut, the others begin there."""
+        for i in range(low - before, high - before, COARSE_TIMES):
+            j = min(i + COARSE_TIMES, high - before)
+            first, end, middle = cut + FINE_TIMES * i, cut + FINE_TIMES * j, min(max(-i, 0), j - i)
             origin = min(max(closest, first), end - 1)
             index = np.ones((2, j - i))
-            index[0] = np.arange(first - origin, end - origin, FINE)
-            index[0, :middle] += FINE - 1  # blocks before the cut run back from their last matrix
+            index[0] = np.arange(first - origin, end - origin, FINE_TIMES)
+            index[0, :middle] += FINE_TIMES - 1  # blocks before the cut run back from their last matrix
             functions = Basis(Progression(turning.turns, start, step, origin, end - first), j - i, size).at(index)
             if middle:
                 product(functions[:, :middle], tables[True], rows, first)
             if middle < j - i:
-                product(functions[:, middle:], tables[False], rows, first + FINE * middle)
+                product(functions[:, middle:], tables[False], rows, first + FINE_TIMES * middle)
 
-    shared(fill, before - (cut - count) // FINE, COARSE, FINE)
+    shared(fill, before - (cut - count) // FINE_TIMES, COARSE_TIMES, FINE_TIMES)
 
 
 def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> dict[bool, FloatArray]:
-    """Return L_r R(tau) Q_r, (9 or 11, 9 FINE), at tau = j step for False; for True at -j step, the last j first.
+    """Return L_r R(tau) Q_r, (9 or 11, 9 FINE_TIMES), at tau = j step for False; for True at -j step, the last j first.
 
     With the functions G_q of tau, not halved, L_r R(tau) Q_r is the sum over q of G_q L_r L_q Q_q Q_r. Its errors would
     be those of every matrix of the grid: so it is rounded once. The G_q are made in long doubles, where the machine has
     them. Both factors are cut into multiples of 2^-25 and rests: sums of products of the multiples are exact, since the
     terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and what is added is below 2^-20.
     """
-    phases = Progression(turning.turns, 0.0, step, 0, FINE)
-    head, rest, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE], room(2, FINE))
+    phases = Progression(turning.turns, 0.0, step, 0, FINE_TIMES)
+    head, rest, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))
     x = head.astype(np.longdouble) + rest
     sine, cosine = np.sin(x), np.cos(x)
     versine = 2 * sine * sine
-    exact = np.empty((len(turning.weights), FINE), np.longdouble)
+    exact = np.empty((len(turning.weights), FINE_TIMES), np.longdouble)
     exact[:2] = sign * (1 - versine)
     exact[2:4] = sign * (2 * sine * cosine)
     exact[4] = sign[0] * versine[0] + (1 - sign[0])
@@ -208,15 +208,17 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
 
 
 def product(functions: FloatArray, table: FloatArray, rows: FloatArray, first: int) -> None:
-    """Write functions (r, m) times table (r, 9 FINE) to rows (count, 9) from the first on; the others are left out."""
+    """Write functions (r, m) times table (r, 9 FINE_TIMES) to rows (count, 9) from the first on, no others."""
     m = functions.shape[1]
     if first < 0:
-        np.matmul(functions[:, :1].T, table[:, -9 * first :], out=rows[: first + FINE].reshape(1, -1))
-        functions, first, m = functions[:, 1:], first + FINE, m - 1
-    whole = min(m, (len(rows) - first) // FINE)
-    for i in range(0, whole, PART // FINE):
-        j = min(i + PART // FINE, whole)
-        np.matmul(functions[:, i:j].T, table, out=rows[first + FINE * i : first + FINE * j].reshape(j - i, -1))
+        np.matmul(functions[:, :1].T, table[:, -9 * first :], out=rows[: first + FINE_TIMES].reshape(1, -1))
+        functions, first, m = functions[:, 1:], first + FINE_TIMES, m - 1
+    whole = min(m, (len(rows) - first) // FINE_TIMES)
+    for i in range(0, whole, PRODUCT_MATRICES // FINE_TIMES):
+        j = min(i + PRODUCT_MATRICES // FINE_TIMES, whole)
+        np.matmul(
+            functions[:, i:j].T, table, out=rows[first + FINE_TIMES * i : first + FINE_TIMES * j].reshape(j - i, -1)
+        )
     if whole < m:
-        rest = rows[first + FINE * whole :].reshape(1, -1)
+        rest = rows[first + FINE_TIMES * whole :].reshape(1, -1)
         np.matmul(functions[:, whole:].T, table[:, : rest.shape[1]], out=rest)

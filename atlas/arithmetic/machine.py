@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import cache
 
-ENOUGH = 100_000
+MIN_THREAD_MATRICES = 100_000
 """Matrices from which on a second thread is worth its start."""
 
 
@@ -21,7 +21,7 @@ def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int
     of matrices in one unit.
     """
     half = (count // 2 + grain - 1) // grain * grain
-    if half >= count or count * weight < ENOUGH or processors() < 2:
+    if half >= count or count * weight < MIN_THREAD_MATRICES or processors() < 2:
         work(0, count)
         return
     with ThreadPoolExecutor(1) as other:
@@ -37,7 +37,7 @@ def processors() -> int:
 
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3
 """M_TRIM_THRESHOLD and M_MMAP_THRESHOLD of the C library of GNU."""
-LONGEST = 2**25
+MAX_KEPT_BYTES = 2**25
 """Bytes of the longest array whose memory is kept: the most that the C library takes."""
 
 
@@ -52,5 +52,5 @@ def keep() -> None:
     """
     with suppress(AttributeError, OSError, TypeError):  # another C library
         mallopt = ctypes.CDLL(None).mallopt
-        mallopt(MMAP_THRESHOLD, LONGEST)
-        mallopt(TRIM_THRESHOLD, 2 * LONGEST)
+        mallopt(MMAP_THRESHOLD, MAX_KEPT_BYTES)
+        mallopt(TRIM_THRESHOLD, 2 * MAX_KEPT_BYTES)

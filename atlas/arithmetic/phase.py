@@ -19,13 +19,13 @@ from atlas.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, wor
 from atlas.errors import AtlasError
 from atlas.lazy import cached_property
 
-LIMIT = 2.0**50
+MAX_PHASE = 2.0**50
 """Largest phase |f t| in radians: beyond it two words of f no longer hold the turn."""
 
-SAFE = 400
+SAFE_EXPONENT = 400
 """Frequencies outside 2^±400 are scaled, and times the other way, lest a product of words overflow or vanish."""
 
-NEVER = -4000
+ZERO_EXPONENT = -4000
 """A power of two that makes any time zero: that of a frequency which is zero."""
 
 # Constants that meet arrays are arrays without dimensions, see `atlas.arithmetic.circle`.
@@ -38,10 +38,10 @@ ROUNDER, QUANTUM = np.array(1.5 * 2.0**52), np.array(1.5 * 2.0**27)
 EVEN = 2 * ROUNDER
 """The same for even numbers."""
 
-NEAR = 2.0**21
+MAX_NEAR_PHASE = 2.0**21
 """Half a phase, in radians, up to which three products of words hold it."""
 
-LESS = 4.0
+NEAR_PHASE_RATIO = 4.0
 """How much further they do where the phase is rounded."""
 
 QUARTER = scaled(TURN, -2)
@@ -53,7 +53,7 @@ QUARTER_TURN, MINUS_BOTH = np.array(nearest(QUARTER)), np.array([MINUS_HEAD, MIN
 """pi/2, and -pi/2 as a head of 27 digits, whose product with a multiple of 2^-25 below one is exact, and a tail."""
 
 
-LEAST = 1e-290
+MIN_LONGEST_TIME = 1e-290
 """Longest time below which it is the unit of frequency that is at fault."""
 
 
@@ -88,7 +88,7 @@ class Phases:
         with workprec():
             fastest = max(abs(p * QUARTER) for p in halves)
             self._within(_reach(fastest))
-            self.near = nearest(NEAR / fastest) if fastest != 0 else inf
+            self.near = nearest(MAX_NEAR_PHASE / fastest) if fastest != 0 else inf
             self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
         if self.origins is not None:
             first, low = self.origins
@@ -115,7 +115,7 @@ class Phases:
         self = cls.__new__(cls)
         self._keep(words)
         still = words[0] == 0
-        self.exponents = np.where(still, NEVER, 0) if still.any() else None
+        self.exponents = np.where(still, ZERO_EXPONENT, 0) if still.any() else None
         self.origins, self.rounder, self.near = None, ROUNDER, -1.0
         self._within(inf)
         return self
@@ -135,7 +135,7 @@ class Phases:
         """Fill cos(x)/2 and sin(x)/2 (n, m), and (1 - cos x)/2 of the first phase (m,), for x = f t.
 
         `t` (m,) finite; `work` (8, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps
-        its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
+        its digits where x is small. Raises AtlasError if a phase is beyond MAX_PHASE or a time is not finite.
 
         Without origins cos and sin are within 8 units of w = 2^-53, four ulp of 1, if NumPy's tangent is within an ulp.
         Proof, to first order in w, |x| <= 1.8 as `angles` leaves it. The phase: P1 t, the last sum of `rest` (< 1/8)
@@ -153,8 +153,8 @@ class Phases:
     def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return x/2 for x = f t less whole half turns, what rounding left out of it, and the turns' sign.
 
-        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near LIMIT the
-        whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8 there.
+        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near MAX_PHASE
+        the whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8.
         """
         half, rest, whole, free = self.reduced(t, work)
         return half, rest, signs(whole), free
@@ -220,10 +220,11 @@ class Phases:
 
         `turns` (n, m), if given, gets the number of half turns that are left out, plus `rounder`.
 
-        For half phases up to LESS NEAR the head of the frequency times that of t is exact, and so is what is left of it
+        For half phases up to NEAR_PHASE_RATIO MAX_NEAR_PHASE the head of the frequency times that of t is exact, and
+        so is what is left of it
         without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
         """
-        if self.exponents is not None or not farthest(t) <= LESS * self.near:
+        if self.exponents is not None or not farthest(t) <= NEAR_PHASE_RATIO * self.near:
             half, _, whole, _ = self.reduced(t, work[..., : t.size], low)
             if turns is not None:
                 turns[:] = whole
@@ -252,7 +253,7 @@ class Phases:
         return np.matmul(table, stack, out=x)
 
     def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
-        """Return the same for half phases up to NEAR, by Cody and Waite: half f t less w pi/2, both cut.
+        """Return the same for half phases up to MAX_NEAR_PHASE, by Cody and Waite: half f t less w pi/2, both cut.
 
         With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53 digits, and
         their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8: two sums of it
@@ -283,7 +284,9 @@ class Phases:
         """Raise AtlasError for a time that is out of reach."""
         far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
         if far.size:
-            units = "" if self.reach > LEAST else " A frequency is too large for a float: choose larger units."
+            units = (
+                "" if self.reach > MIN_LONGEST_TIME else " A frequency is too large for a float: choose larger units."
+            )
             raise AtlasError(
                 f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is "
                 f"lost.{units}"
@@ -293,9 +296,9 @@ class Phases:
 def _exponents(halves: Sequence[Number]) -> list[int]:
     """Return the powers of two by which frequencies are scaled: zeros, where none is extreme."""
     moving = [magnitude(p) for p in halves if p != 0]
-    if moving and all(abs(x) <= SAFE for x in moving):
+    if moving and all(abs(x) <= SAFE_EXPONENT for x in moving):
         return [0] * len(halves)
-    return [magnitude(p) if p != 0 else NEVER for p in halves]
+    return [magnitude(p) if p != 0 else ZERO_EXPONENT for p in halves]
 
 
 def room(frequencies: int, times: int) -> FloatArray:
@@ -315,8 +318,8 @@ def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
 
 
 def _reach(fastest: Number) -> float:
-    """Return the longest time within LIMIT, at a rate of half the phase."""
-    return nextafter(nearest(LIMIT / (2 * fastest)), inf) if fastest != 0 else inf
+    """Return the longest time within MAX_PHASE, at a rate of half the phase."""
+    return nextafter(nearest(MAX_PHASE / (2 * fastest)), inf) if fastest != 0 else inf
 
 
 def _head(x: Number) -> tuple[float, float, float]:

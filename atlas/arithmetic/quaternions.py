@@ -10,7 +10,7 @@ from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import quaternion_products
 from atlas.errors import AtlasError
 
-ROUNDED = 1e-6
+LENGTH_TOLERANCE = 1e-6
 """By how much the length of a quaternion that is typed may differ from 1."""
 
 
@@ -47,6 +47,6 @@ def rotation_of(typed: Sequence[float], name: str) -> FloatArray:
     """Return the rotation matrix (3, 3) of a typed quaternion, which has a name; AtlasError for no unit length."""
     from scipy.spatial.transform import Rotation
 
-    if abs((length := hypot(*typed)) - 1) > ROUNDED:
+    if abs((length := hypot(*typed)) - 1) > LENGTH_TOLERANCE:
         raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
     return np.asarray(Rotation.from_quat(typed).as_matrix())

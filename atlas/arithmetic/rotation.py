@@ -114,7 +114,7 @@ def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], F
     return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
 
 
-BLOCK, PART = 6000, 3000
+BLOCK, PRODUCT_MATRICES = 6000, 3000
 """Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
 so few that the library does not thread the product. No powers of two, whose multiples a cache takes for one another."""
 
@@ -224,7 +224,7 @@ def combinations(
 ) -> FloatArray:
     """Return the sums over basis functions that `weights` (3, 9 or 11, prod(shape)) describe, at times of any shape."""
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
-    if times.size <= PART:
+    if times.size <= PRODUCT_MATRICES:
         out = target(out, times.shape + shape)
         functions = Basis(phases, times.size, len(weights)).at(times.reshape(-1))
         np.matmul(functions.T, weights, out=out.reshape(-1, weights.shape[1]))
@@ -240,8 +240,8 @@ def combinations(
 
 def combined(functions: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
     """Write the linear combinations of functions (k, m) that `weights` (k, n) describe into (m, n)."""
-    for i in range(0, len(rows), PART):
-        np.matmul(functions[:, i : i + PART].T, weights, out=rows[i : i + PART])
+    for i in range(0, len(rows), PRODUCT_MATRICES):
+        np.matmul(functions[:, i : i + PRODUCT_MATRICES].T, weights, out=rows[i : i + PRODUCT_MATRICES])
 
 
 def evaluate(

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from atlas.arithmetic.double_double import DoubleDouble, blocks, over
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import Number, direction, workprec
-from atlas.arithmetic.phase import LIMIT, Phases, room
+from atlas.arithmetic.phase import MAX_PHASE, Phases, room
 from atlas.arithmetic.words import TURN, exact, magnitude, middle, scaled, words
 from atlas.errors import AtlasError, DomainError
 
@@ -28,10 +28,10 @@ with workprec():
 PER_RADIAN = DoubleDouble(HEAD, TAIL, 2.0**-105)
 """Half turns in a radian."""
 
-LARGEST = 1020
+MAX_EXPONENT = 1020
 """Power of two beyond which a frequency is none of several."""
 
-LOST = 2.0**-55
+MAX_LOST_PHASE = 2.0**-55
 """Half turns that a phase may lack by the error of its frequency: less than half an ulp of 1 in a matrix."""
 
 
@@ -53,13 +53,13 @@ class Frequencies:
         """
         words = self.words[..., index].copy()
         with np.errstate(over="ignore", invalid="ignore"):
-            doubtful = np.flatnonzero(~(self.lack[:, index] * abs(t) <= LOST).all(axis=0))
+            doubtful = np.flatnonzero(~(self.lack[:, index] * abs(t) <= MAX_LOST_PHASE).all(axis=0))
             motions = np.arange(self.words.shape[2])[index]
             for i in doubtful.tolist():
                 words[:, :, i] = np.transpose([_words(f) for f in self.exact(motions[i])])
-            far = np.flatnonzero((abs(words[0] * t) > LIMIT / np.pi).any(axis=0))
+            far = np.flatnonzero((abs(words[0] * t) > MAX_PHASE / np.pi).any(axis=0))
         if far.size:
-            longest = LIMIT / np.pi / abs(words[0][:, far[0]]).max()
+            longest = MAX_PHASE / np.pi / abs(words[0][:, far[0]]).max()
             raise AtlasError(
                 f"A time is {t[far[0]]}, but |t| may be {longest:.6g} at most, where a phase reaches 2^50 and is lost."
             )
@@ -70,7 +70,7 @@ def _words(frequency: Number) -> list[float]:
     """Return an exact frequency in radians as two words in half turns."""
     with workprec():
         halves = scaled(middle(frequency / TURN), 1)
-    if halves != 0 and magnitude(halves) > LARGEST:
+    if halves != 0 and magnitude(halves) > MAX_EXPONENT:
         raise DomainError("A frequency of one of these motions is too large for a float: choose larger units.")
     return words(halves, 2)
 
@@ -93,8 +93,8 @@ def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) ->
     return np.concatenate(words, axis=2).swapaxes(0, 1), np.concatenate(lack, axis=1)
 
 
-REACH = 2.0**900
-"""Frequencies between its inverse and itself: their products with times of phases up to LIMIT keep their digits."""
+MAX_FREQUENCY = 2.0**900
+"""Frequencies between its inverse and itself: their products with times of phases up to MAX_PHASE keep their digits."""
 
 Constants = Callable[..., tuple[Sequence[Any], Any, Any]]
 """A formula for a vector along n, in the plane (e2, e3) if it has two components, and for k and phi."""
@@ -103,7 +103,7 @@ Group = tuple[Constants, Any, Sequence[Any]]
 """A formula, the motions that it holds for (an index of them), and its inputs, which broadcast to these."""
 
 
-class Turnings:
+class DoubleRotationRows:
     """Motions in a row, `count` of them in `groups`; the inputs `unit` of each formula are frequencies.
 
     `vectors` returns constant vectors of each motion by name, three components (m,). `inverse` transposes the matrices,
@@ -137,7 +137,7 @@ class Turnings:
         # nothing here refers to itself: a long sweep's arrays are free as soon as they are not needed
         self.frequencies = Frequencies(words, lack, partial(_exact, groups, self.groups))
 
-    def at(self, index: Any, t: FloatArray) -> "Turnings":
+    def at(self, index: Any, t: FloatArray) -> "DoubleRotationRows":
         """Return motions by their index, ready for the times t that go with them; AtlasError if a phase is too long."""
         some = copy(self)
         some.indices, some.words = self.indices[index], self.frequencies.at(index, t)
@@ -150,9 +150,9 @@ class Turnings:
 
     @property
     def extreme(self) -> Any:
-        """Where a frequency is beyond REACH, and the motion has to be made alone."""
+        """Where a frequency is beyond MAX_FREQUENCY, and the motion has to be made alone."""
         size = abs(self.words[0])
-        return np.flatnonzero(~((size == 0) | ((size > 1 / REACH) & (size < REACH))).all(axis=0))
+        return np.flatnonzero(~((size == 0) | ((size > 1 / MAX_FREQUENCY) & (size < MAX_FREQUENCY))).all(axis=0))
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
         """Write R(t), (84), at one time each, (m,), into (m, 3, 3)."""

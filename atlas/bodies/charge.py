@@ -11,7 +11,7 @@ from atlas.bodies.body import SHAPES, from_shape
 from atlas.errors import AtlasError, DomainError
 
 CHARGE_MOMENT = "C m**2"
-SYMMETRIC = 1e-9
+SYMMETRY_TOLERANCE = 1e-9
 """By how much moments about the axis may differ from symmetric ones, in parts of the largest."""
 
 
@@ -70,7 +70,7 @@ class ChargeMoments:
         if e.ndim != 1 or x.shape != (*e.shape, 3):
             raise AtlasError(f"Point charges are given by (N,) charges and (N, 3) positions, not {e.shape}, {x.shape}.")
         dipole, reach = e @ x, np.abs(e) @ np.linalg.norm(x, axis=1)
-        if not held and np.abs(dipole).max(initial=0.0) > SYMMETRIC * reach:
+        if not held and np.abs(dipole).max(initial=0.0) > SYMMETRY_TOLERANCE * reach:
             raise DomainError(
                 f"The centre of charge is off the centre of mass: the sum of e x is {dipole.tolist()}, where it must "
                 "be zero, lest the flight drive the rotation; of a body held at a point, say held=True, or --heavy."
@@ -78,7 +78,7 @@ class ChargeMoments:
         moments = np.einsum("n,nk,nk->", e, x, x) * np.eye(3) - np.einsum("n,ni,nj->ij", e, x, x)
         symmetric = np.diag([moments[0, 0], moments[0, 0], moments[2, 2]])
         size = np.abs(e) @ np.einsum("nk,nk->n", x, x)
-        if np.abs(moments - symmetric).max() > SYMMETRIC * size:
+        if np.abs(moments - symmetric).max() > SYMMETRY_TOLERANCE * size:
             raise DomainError(
                 "The charges are not symmetric about e3, the body's axis: their moments J1 and J2 must be equal and "
                 "those off the diagonal zero, to 1e-9 of the largest."

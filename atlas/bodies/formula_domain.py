@@ -22,7 +22,7 @@ CASES = (
     "at rest",
     "precession",
 )
-FREE = 4
+FREE_CASES = 4
 """In the first so many cases omega3 is free and has to be given."""
 
 ROD = (
@@ -95,7 +95,7 @@ def case_of(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> s
 
 def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
     """Raise DomainError if omega3 is not given where it is free, or is where it follows from (71)."""
-    if case in CASES[:FREE]:
+    if case in CASES[:FREE_CASES]:
         general = "or omega = (0, omega2, omega3) to the general motion"
         refuse(omega3 is None, f"In the case {case!r} omega3 is free: give it, {general}.")
     elif omega3 is not None and written(omega3) != written(curve):

@@ -15,7 +15,7 @@ from atlas.arithmetic.inputs import scaled
 from atlas.bodies.units import SPEED_OF_LIGHT, System
 from atlas.errors import DomainError, RelativisticWarning
 
-SLOW = 0.1
+MAX_SLOW_SPEED = 0.1
 """Part of the speed of light above which a speed is warned of: squares of it are beyond a percent."""
 
 ELLIPSOIDS = "sphere", "spherical_shell", "spheroid"
@@ -50,10 +50,10 @@ def check_drift(E: Any, B: Any, units: System) -> None:
 
 def warn_of(speed: str, part: float) -> None:
     """Warn of a speed, in parts of that of light, if it is above a tenth."""
-    if part > SLOW:
+    if part > MAX_SLOW_SPEED:
         warnings.warn(
-            f"non-relativistic: {speed} is {part:.3g} times the speed of light, above {SLOW:g}: formulas are off by "
-            "about the square of that.",
+            f"non-relativistic: {speed} is {part:.3g} times the speed of light, above {MAX_SLOW_SPEED:g}: formulas are "
+            "off by about the square of that.",
             RelativisticWarning,
             stacklevel=4,
         )

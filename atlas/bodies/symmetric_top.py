@@ -13,7 +13,7 @@ from atlas.bodies.body import moments
 from atlas.bodies.formula_domain import check_direction, check_moments
 from atlas.errors import DomainError
 
-PARALLEL = 1e-14
+PARALLEL_TOLERANCE = 1e-14
 """Sine of the angle up to which a weight counts as parallel to the field."""
 
 
@@ -57,7 +57,7 @@ def along(field: tuple[float, float], weight: Any) -> fmpq:
     """
     w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight", ENERGY))
     (B2, B3), size = field, float(np.hypot(w2, w3))
-    if abs(w2 * B3 - w3 * B2) > PARALLEL * size * float(np.hypot(B2, B3)):
+    if abs(w2 * B3 - w3 * B2) > PARALLEL_TOLERANCE * size * float(np.hypot(B2, B3)):
         raise DomainError(
             f"The weight {(w2, w3)} is not parallel to the field {field}: with two fixed directions the momentum along "
             "neither is constant, and the motion is not that of a top in one potential."

@@ -12,7 +12,7 @@ from atlas.bodies.field import LaboratoryFrame
 from atlas.bodies.speeds import check_drift
 from atlas.bodies.units import System, charge_to_mass, system
 from atlas.book.digits import shown
-from atlas.book.schema import Pair, StrictStruct, Vector
+from atlas.book.schema import StrictStruct, TwoNumbers, Vector
 from atlas.errors import AtlasError, unknown
 
 DIMENSIONS = {
@@ -32,7 +32,7 @@ class Body(StrictStruct, frozen=True):
 
     title: str
     ratio: float | None = None
-    inertia: Pair | None = None
+    inertia: TwoNumbers | None = None
     shape: str | None = None
     mass: float | None = None
     radius: float | None = None
@@ -47,7 +47,7 @@ class Field(StrictStruct, frozen=True):
     """A field: the components (B2, B3) of B' in 1/s, or B itself with the system of units that it is given in."""
 
     title: str
-    prime: Pair | None = None
+    prime: TwoNumbers | None = None
     B: Vector | None = None
     E: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 0.0, 1.0)

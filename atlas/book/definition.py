@@ -8,7 +8,7 @@ import msgspec
 
 from atlas.book.blocks import Block, kind_of
 from atlas.book.body_and_field import BodiesAndFields
-from atlas.book.schema import Id, Pair, Slug, StrictStruct
+from atlas.book.schema import Id, Slug, StrictStruct, TwoNumbers
 
 
 class Thumbnail(StrictStruct, frozen=True):
@@ -18,7 +18,7 @@ class Thumbnail(StrictStruct, frozen=True):
     """
 
     figure: Id = ""
-    at: Pair = (0.5, 0.5)
+    at: TwoNumbers = (0.5, 0.5)
     zoom: Annotated[float, msgspec.Meta(gt=0.0)] = 1.0
 
 
@@ -62,7 +62,7 @@ class Source:
     lines: Mapping[tuple[int, ...], int] = field(default_factory=dict)
 
 
-SHORT = 2
+MAX_PAGES_WITHOUT_COVER = 2
 """So many pages have no cover of their own."""
 
 
@@ -103,4 +103,4 @@ class Report(StrictStruct, frozen=True):
     @property
     def bound(self) -> bool:
         """Whether the PDF has a cover, contents and lists."""
-        return len(self.pages) > SHORT if self.front_matter is None else self.front_matter
+        return len(self.pages) > MAX_PAGES_WITHOUT_COVER if self.front_matter is None else self.front_matter

@@ -14,7 +14,7 @@ from atlas.book.digits import MINUS
 from atlas.book.markdown import written
 from atlas.book.page import Asked, figures_of, headed, name_of
 
-STRONG = 0.5
+MIN_CORRELATION = 0.5
 """Correlations that are told."""
 
 AHEAD = {1: "that of a measurement", 10: "ten times that of a measurement"}
@@ -158,7 +158,7 @@ class Fitted:
             frozenset((name, other)): size
             for name, p in self.fit.parameters.items()
             for other, size in (p.correl or {}).items()
-            if abs(size) >= STRONG
+            if abs(size) >= MIN_CORRELATION
         }
         if pairs:
             rows = [
@@ -167,7 +167,7 @@ class Fitted:
             ]
             yield {
                 "kind": "listing", "id": "correlations", "columns": ["Parameters", "Correlation"], "rows": rows,
-                "caption": f"Correlations of errors, from {STRONG:g} on: what one gains the other one pays.",
+                "caption": f"Correlations of errors, from {MIN_CORRELATION:g} on: what one gains the other one pays.",
             }  # fmt: skip
 
     def _horizons(self) -> dict[str, Any]:

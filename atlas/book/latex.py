@@ -26,7 +26,7 @@ from atlas.book.texts import title_words
 from atlas.targets import TARGETS
 from atlas.trial.ledger.plain import words
 
-ANY = 99
+ZERO_DIGITS = 99
 """Digits of an exact zero."""
 NUMBERS, PAPER, REFERENCES = "atlas-numbers.tex", "paper.tex", "references.bib"
 _CELL = re.compile(r"\\atlascell\{([^{}]*)\}\{([^{}]*)\}")
@@ -98,7 +98,7 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
                 key = "/".join([table.id.removeprefix("tab-"), name, *last])
                 unit = "" if said is None else markdown[said]
                 cell = f"{table.id.removeprefix('tab-')}-{number}-{place + 1}"
-                yield Numeral(key, cell, digits(row[place]) or ANY, *_with_unit(row[place], unit))
+                yield Numeral(key, cell, digits(row[place]) or ZERO_DIGITS, *_with_unit(row[place], unit))
 
 
 def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
@@ -203,10 +203,10 @@ def _escaped(text: str) -> str:
     return text.translate(_ESCAPES)
 
 
-LETTERS, TIGHT, BOTH, LONG, LEAST = 46, 84, 115, 30, 24
+COLUMN_LETTERS, TIGHT_COLUMN_LETTERS, PAGE_LETTERS, MAX_CELL_LETTERS, MIN_LINES_LETTERS = 46, 84, 115, 30, 24
 """Letters of a table that fit in a column, in a column where it is made smaller, and across the page; more of a cell
-than LONG are broken into lines, which have together LEAST or more."""
-LINES = 60
+than MAX_CELL_LETTERS are broken into lines, which have together MIN_LINES_LETTERS or more."""
+PAGE_LINES = 60
 """Lines of a table that fit on a page below its caption."""
 
 
@@ -220,7 +220,7 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
     letters = [max(map(len, column)) + 2 for column in zip(heads, *printed, strict=True)]
     shares = list(_shares(formats, letters))
     lines = sum(
-        max(ceil(len(text) / BOTH / share) if share else 1 for text, share in zip(row, shares, strict=True))
+        max(ceil(len(text) / PAGE_LETTERS / share) if share else 1 for text, share in zip(row, shares, strict=True))
         for row in printed
     )
     columns = "".join(
@@ -235,14 +235,14 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
         for row in table.rows
     ]
     note = [rf"\par\smallskip\footnotesize {texts[table.note]}"] if table.note is not None else []
-    if lines > LINES:
+    if lines > PAGE_LINES:
         begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{columns}}}", caption + r"\\"]
         again = [*head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule", r"\endfoot"]
         return "\n".join([*begin, *again, *rows, r"\end{longtable*}", *note, r"\endgroup", ""])
-    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT or any(shares) else ("table", "[!htb]")
+    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT_COLUMN_LETTERS or any(shares) else ("table", "[!htb]")
     begin = [rf"\begin{{{kind}}}{place}", caption, r"\centering\footnotesize"]
     tabular, end = [rf"\begin{{tabular}}{{{columns}}}"], [r"\bottomrule", r"\end{tabular}"]
-    if sum(letters) > LETTERS and kind == "table":
+    if sum(letters) > COLUMN_LETTERS and kind == "table":
         tabular = [r"\setlength{\tabcolsep}{3pt}", NARROW + tabular[0]]
         end = [end[0], end[1] + "}"]
     return "\n".join([*begin, *tabular, *head, *rows, *end, *note, rf"\end{{{kind}}}", ""])
@@ -271,12 +271,12 @@ def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
 
     They are where the table would be wider than the page.
     """
-    long = [place for place, count in enumerate(letters) if count > LONG and formats[place] == "l"]
-    left = BOTH - sum(count for place, count in enumerate(letters) if place not in long)
+    long = [place for place, count in enumerate(letters) if count > MAX_CELL_LETTERS and formats[place] == "l"]
+    left = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)
     total = sum(letters[place] for place in long)
     for place, count in enumerate(letters):
         narrow = place in long and total > left
-        yield round(max(left, LEAST) * count / total / BOTH, 2) if narrow else 0.0
+        yield round(max(left, MIN_LINES_LETTERS) * count / total / PAGE_LETTERS, 2) if narrow else 0.0
 
 
 def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:

@@ -21,7 +21,7 @@ from atlas.book.tables.table import Request
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import FAMILIES, Family
 
-LONGEST = 100
+MAX_NAME_LENGTH = 100
 """Characters of the name of a page; what is longer ends with a digest."""
 
 
@@ -87,7 +87,7 @@ def _texts(value: Any) -> tuple[str, ...]:
     return tuple(plain(x + 0.0) for x in (value if isinstance(value, list | tuple) else (value,)))
 
 
-SEEN = 1e-3
+MIN_PRECESSION = 1e-3
 """Angle of precession in a period of nutation below which figures show nothing of it, in rad."""
 
 FIGURES = "## Figures"
@@ -101,7 +101,7 @@ HEAD = (
 def name_of(words: Iterable[str]) -> str:
     """Return the name of a page's files, made of words of its command."""
     name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
-    return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:8]}"
+    return name if len(name) <= MAX_NAME_LENGTH else f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
 
 
 def headed(asked: Any, content: str) -> str:
@@ -192,7 +192,7 @@ def _too_slow(motion: Any, time: str) -> Iterator[str]:
             f"The nutation, of the period {period:.3g} {unit}, which is too small to be seen: the axis is followed for "
             f"the precession, by {angle:.3g} rad in that time; {turn}."
         )
-    elif 0 < abs(angle) < SEEN:
+    elif 0 < abs(angle) < MIN_PRECESSION:
         yield (
             f"The precession about the field: in a period of nutation, {period:.3g} {unit}, the axis turns by "
             f"{angle:.3g} rad, so that figures of some periods show none of it; {turn}."

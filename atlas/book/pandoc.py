@@ -39,7 +39,7 @@ SECONDS, SPEED, MEMORY = 8, 50_000, "1000m"
 _HEAP = 251
 """Exit status of a program in Haskell that would need more memory."""
 _ENDLESS = "pandoc can't set the texts of the report with {}: brackets, braces or macros are nested too deeply."
-SHOWN, NEAR = 90, 20
+FORMULA_LETTERS, LETTERS_FROM_MISTAKE = 90, 20
 """Characters of a formula that a message shows, and of its part from the mistake on."""
 
 
@@ -48,7 +48,7 @@ class FormulaError(AtlasError):
 
     def __init__(self, tex: str, reason: str) -> None:
         shown = " ".join(f"${tex.strip()}$".split())
-        shown = shown if len(shown) <= SHOWN else f"{shown[: SHOWN - 1]}…"
+        shown = shown if len(shown) <= FORMULA_LETTERS else f"{shown[: FORMULA_LETTERS - 1]}…"
         super().__init__(f"the formula {shown} can't be read: {reason}.")
         self.tex = tex
 
@@ -130,7 +130,7 @@ def _reason(message: str) -> str:
     if matched[3].startswith("eof"):
         return "it breaks off"
     rest = "" if matched[3].startswith("control") else matched[1][len(matched[2]) :]
-    return f"unexpected {matched[3][:SHOWN]}" + (f" at {rest[:NEAR]}" if rest else "")
+    return f"unexpected {matched[3][:FORMULA_LETTERS]}" + (f" at {rest[:LETTERS_FROM_MISTAKE]}" if rest else "")
 
 
 PARAGRAPHS = {"Para", "Plain"}

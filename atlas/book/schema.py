@@ -11,7 +11,7 @@ from msgspec import inspect
 from atlas.errors import AtlasError, unknown
 
 Vector: TypeAlias = tuple[float, float, float]
-Pair: TypeAlias = tuple[float, float]
+TwoNumbers: TypeAlias = tuple[float, float]
 Id: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 Slug: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[a-z0-9]+(-[a-z0-9]+)*")]
 EquationName: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
@@ -21,7 +21,7 @@ PATTERNS = {
     r"[a-z0-9]+(-[a-z0-9]+)*": "small letters and digits with hyphens between them",
 }
 """What may become a file name, an anchor of a page and a label of the PDF; in words."""
-LONGEST = 40
+MAX_VALUE_LENGTH = 40
 """Characters of a wrong value that a message shows."""
 
 T = TypeVar("T")
@@ -159,4 +159,4 @@ def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
 def _shown(raw: Any) -> str:
     """Show a wrong value, cut if it is long."""
     text = repr(raw)
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"
+    return text if len(text) <= MAX_VALUE_LENGTH else f"{text[:MAX_VALUE_LENGTH]}…"

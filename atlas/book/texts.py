@@ -20,7 +20,7 @@ _CITED = re.compile(
     r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\([\w.-]+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
 )
 """A citation, in the first group; formulas and code, in which there is none, are passed over."""
-DEEPEST = 10
+MAX_DEPTH = 10
 """How deeply parts of a text may be nested."""
 _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
 _INSIDE = re.compile(r"\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
@@ -91,8 +91,8 @@ class Texts:
         The time that pandoc takes for such a text doubles with each level.
         """
         for text in self.texts:
-            if deepest(text.markdown) > DEEPEST:
-                raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {DEEPEST} deep.")
+            if deepest(text.markdown) > MAX_DEPTH:
+                raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {MAX_DEPTH} deep.")
         keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
         new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
         if new:

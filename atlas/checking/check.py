@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import real
 from atlas.checking.conserved import Drift, Drifts
-from atlas.checking.grades import LINES, MOST, Column, Envelope, Errors, Grade, inverse_fits
+from atlas.checking.grades import LINES, MAX_DIGITS, Column, Envelope, Errors, Grade, inverse_fits
 from atlas.checking.order import Convergence, convergence
 from atlas.checking.reference import OF_TOPS, reference
 from atlas.checking.trajectory import Trajectory, of_arrays, opened
@@ -91,7 +91,7 @@ class Check:
         """Draw the error of each group of columns against time."""
         if not self.columns:
             raise AtlasError(f"{self.file} is of a body without a certified motion: there is no error to draw.")
-        least, most = 10.0**-MOST, 10.0**MOST
+        least, most = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
         layers = tuple(
             Curve(np.column_stack([self.times, np.clip(errors, least, most)]), *LINES[name])
             for name, errors in self.errors.items()
@@ -258,8 +258,8 @@ def check_file(path: Path, *, threshold: float = 6.0, **parameters: Any) -> Chec
 
 def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, Any]) -> Check:
     """Grade a trajectory in one go."""
-    if not 0 <= threshold <= MOST:
-        raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
+    if not 0 <= threshold <= MAX_DIGITS:
+        raise AtlasError(f"The threshold counts correct digits, from 0 to {MAX_DIGITS:g}; it cannot be {threshold:g}.")
     known = reference(trajectory.parameters, parameters, trajectory.file)
     errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
     graded = [name for name in trajectory.names if name != "t"] if errors else []

@@ -21,10 +21,10 @@ from atlas.motions.nutation.certified_cayley_klein import quaternion
 
 Block = Mapping[str, FloatArray]
 
-MOST = 17.0
+MAX_DIGITS = 17.0
 """Digits are counted up to here: no double has more."""
 
-LEAST, LARGEST = 10.0**-MOST, float(np.finfo(float).max)
+LEAST, LARGEST = 10.0**-MAX_DIGITS, float(np.finfo(float).max)
 BITS = 80
 GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
 

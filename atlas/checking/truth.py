@@ -25,7 +25,7 @@ from atlas.motions.nutation.certified_top import TopMotion
 from atlas.motions.nutation.single import SingleGeneral, SingleTop
 from atlas.motions.torus.certified import AsymmetricMotion
 from atlas.motions.torus.kernel import SingleAsymmetric
-from atlas.motions.torus.rounded import REACH
+from atlas.motions.torus.rounded import MAX_PHASE
 from atlas.motions.torus.theta import ThetaKernel
 
 Long = NDArray[np.longdouble]
@@ -37,7 +37,7 @@ UNCERTAINTY = 2e-18
 KERNELS = 1e-14
 """The same of a kernel, of Omega in units of the largest rate."""
 
-PART = 100
+BALL_THRESHOLD = 100
 """An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
 
 PHASE = 2.0**-6
@@ -98,7 +98,7 @@ class KernelTruth:
     single: Any
     reach: float
     uncertainty: float = KERNELS
-    near: float = PART * KERNELS
+    near: float = BALL_THRESHOLD * KERNELS
     floor: float = 0.0
     in_balls: bool = True
 
@@ -127,7 +127,7 @@ def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
         if not isinstance(of_three.closed, ThetaKernel):
             return KernelTruth(of_three, -1.0)  # balls decide each row
         bound = of_three.closed.accuracy + (of_three.closed.proved or 0.0)
-        return KernelTruth(of_three, PHASE * REACH / float(arb(unit)), bound, 0.0, bound)
+        return KernelTruth(of_three, PHASE * MAX_PHASE / float(arb(unit)), bound, 0.0, bound)
     single = SingleTop(motion) if isinstance(motion, TopMotion) else SingleGeneral(motion)
     return KernelTruth(single, PHASE * single.parts.phases.reach)
 

@@ -81,7 +81,7 @@ def through(text: str) -> tuple[str, list[Any]]:
     """
     import numpy as np
 
-    from atlas.pictures.drawing.animation import MOST
+    from atlas.pictures.drawing.animation import MAX_FRAMES
 
     key, _, values = text.partition("=")
     parts = values.split(":")
@@ -89,8 +89,8 @@ def through(text: str) -> tuple[str, list[Any]]:
         return key, [float(setting(f"{key}={value}")[1]) for value in values.split(",")]
     if len(parts) != 3 or not (parts[2].isascii() and parts[2].isdecimal()):
         raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
-    if len(parts[2]) > len(str(MOST)) or int(parts[2]) > MOST:  # before there is a list of them
-        raise click.UsageError(f"an animation has from 2 to {MOST} frames, not {parts[2]:.30}.")
+    if len(parts[2]) > len(str(MAX_FRAMES)) or int(parts[2]) > MAX_FRAMES:  # before there is a list of them
+        raise click.UsageError(f"an animation has from 2 to {MAX_FRAMES} frames, not {parts[2]:.30}.")
     (_, start), (_, stop) = (setting(f"{key}={bound}") for bound in parts[:2])
     try:
         steps = np.linspace(start, stop, int(parts[2])) if np.shape(start) == np.shape(stop) else None

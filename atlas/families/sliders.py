@@ -6,7 +6,7 @@ from math import log10
 
 from atlas.families.family import Family
 
-STEPS = 300
+SLIDER_STEPS = 300
 """About so many has a slider from end to end, each a power of ten."""
 
 
@@ -38,7 +38,7 @@ def sliders_of(family: Family) -> list[Slider]:
 
 def step_of(low: float, high: float) -> float:
     """Return the step of a slider."""
-    return float(10.0 ** round(log10((high - low) / STEPS)))
+    return float(10.0 ** round(log10((high - low) / SLIDER_STEPS)))
 
 
 def letters(name: str) -> str:

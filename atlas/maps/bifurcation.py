@@ -76,7 +76,7 @@ def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
 Oval = Literal["bounded", "unbounded"]
 
 
-ROUNDS, LOOKS = 60, 400
+MAX_BISECTIONS, STRETCH_PLACES = 60, 400
 """Bisections for a border of stability, and places of a stretch between which one is looked for."""
 
 
@@ -193,12 +193,12 @@ class Bifurcation:
 
     def _borders(self, start: float, stop: float, branch: int) -> list[float]:
         """Return the places between two others where stability changes: the cusps of the curve."""
-        z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, LOOKS + 2)[1:-1]) ** 2
+        z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, STRETCH_PLACES + 2)[1:-1]) ** 2
         stable = self.splitting(z, branch) > 0
         borders = []
         for k in np.flatnonzero(stable[1:] != stable[:-1]):
             low, high = z[k], z[k + 1]
-            for _ in range(ROUNDS):
+            for _ in range(MAX_BISECTIONS):
                 middle = (low + high) / 2
                 if bool(self.splitting(middle, branch) > 0) == stable[k]:
                     low = middle

@@ -31,19 +31,19 @@ from atlas.motions.torus.certified_torus import Torus
 PRECISION = 128
 """Binary digits of the balls of period and angles."""
 
-NEWTON = 40
+NEWTON_STEPS = 40
 """Steps to a state with given values."""
 
 GRID = np.concatenate([np.geomspace(1e-12, 1e-3, 400)[:-1], 1 - np.linspace(1.0, -1.0, 2001)[1:-1]])
 """Places 1 - end nu at which the potential is looked at, from the pole nu = end, where they are dense, to the other."""
 
-TOLD = 2.0**-40
+MIN_LOOP_SIZE = 2.0**-40
 """Part of the momentum and of the energy of a spin that the size of a loop must exceed."""
 
-SHRINKS = 12
+MAX_ELLIPSES = 12
 """Ellipses that are tried, each half as large as the one before."""
 
-LEAST = 1e-280
+MIN_RATE_SQUARE = 1e-280
 """Least square of a rate, beside which an energy keeps its digits."""
 
 
@@ -100,7 +100,7 @@ def monodromy(
     I, *twist, weight, lean, along, middle = (x / unit for x in rest)
     wells = Wells.at(along, I, (twist[0], twist[1]), weight, lean)
     size = 4 * (abs(wells.A) + abs(wells.a)) + along * along
-    if size and not LEAST < max(size, abs(middle)) < math.inf:
+    if size and not MIN_RATE_SQUARE < max(size, abs(middle)) < math.inf:
         raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
     whole(points, "The number of points", 3)
     end, D = unstable_spin(*given)
@@ -244,10 +244,10 @@ def around(
             near, far = (middle, far) if room(sense * middle) > 0 else (near, middle)
         widths.append(near)
     wide = min(widths)
-    if not (high > TOLD * abs(g) and wide > TOLD * abs(p)):
+    if not (high > MIN_LOOP_SIZE * abs(g) and wide > MIN_LOOP_SIZE * abs(p)):
         raise DomainError(f"The spin, D = {D:.3g}, is so nearly stable that floats hold no loop round its value.")
     t = 2 * np.pi * (np.arange(points) + 0.5) / points
-    for size in 2.0 ** -np.arange(1, SHRINKS):
+    for size in 2.0 ** -np.arange(1, MAX_ELLIPSES):
         x, y = size * wide * np.cos(t), size * high * np.sin(t)
         if all(room(dp, dg) > 0 for dp, dg in zip(x, y, strict=True)):
             break
@@ -286,7 +286,7 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
 def _with_values(bifurcation: Bifurcation, state: FloatArray, wanted: FloatArray) -> FloatArray:
     """Return (M, K) near a state with the values (H, F, K^2, (M, K)), by Newton's method to the nearest."""
     I, a = bifurcation.inertia, bifurcation.a
-    for _ in range(NEWTON):
+    for _ in range(NEWTON_STEPS):
         M, K = state[:3], state[3:]
         values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])
         slopes = np.array([[*(M / I), *(I * K)], [*(2 * M), *(-2 * a * K)], [0, 0, 0, *(2 * K)], [*K, *M]])

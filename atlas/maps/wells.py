@@ -20,7 +20,7 @@ from atlas.arithmetic.inputs import FloatArray, plain, real
 from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 
-NEAR = 2.0**-48
+END_TOLERANCE = 2.0**-48
 """Part of the reach below which two ends of branches are one."""
 
 
@@ -96,7 +96,7 @@ class Wells:
                 ends += [larger, (A + sign * a) / larger] if larger else [0.0]
         ends = sorted({float(x) for x in ends if abs(x) <= reach})
         # the two ways to an end differ by a rounding
-        ends = [x for x, y in zip(ends, [-np.inf, *ends], strict=False) if x - y > NEAR * reach]
+        ends = [x for x, y in zip(ends, [-np.inf, *ends], strict=False) if x - y > END_TOLERANCE * reach]
         branches = []
         for low, high in pairwise(ends):
             middle = (low + high) / 2

@@ -16,7 +16,7 @@ from atlas.arithmetic.given import element
 from atlas.arithmetic.grid import fill_grid
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, number, real, whole
 from atlas.arithmetic.rotation import DoubleRotation, target
-from atlas.arithmetic.rotation_rows import Group, Turnings
+from atlas.arithmetic.rotation_rows import DoubleRotationRows, Group
 from atlas.display import Shown, made
 from atlas.errors import AtlasError
 from atlas.lazy import cached_property
@@ -35,12 +35,12 @@ OTHERS = {
 Single = TypeVar("Single")
 """One motion made by itself: it has the functions of time of its class, which take times and an array to fill."""
 
-Turning = TypeVar("Turning", bound=DoubleRotation)
+Rotation = TypeVar("Rotation", bound=DoubleRotation)
 
-MANY = 1000
+MIN_SINGLE_TIMES = 1000
 """Times a motion from which on each of several motions is made by itself: that takes as long as so many matrices do."""
 
-KEPT = 1024
+MOTION_CACHE_SIZE = 1024
 """Motions made by themselves that are kept."""
 
 BLOCK = 4096
@@ -82,7 +82,7 @@ class Motion(Shown, Generic[Single]):
         """Return the i-th motion, made by itself."""
         single = self._made.get(i)
         if single is None:
-            if len(self._made) >= KEPT:
+            if len(self._made) >= MOTION_CACHE_SIZE:
                 self._made.clear()
             single = self._made.setdefault(i, self._make(*self._row(i)))
         return single
@@ -342,7 +342,7 @@ class Motion(Shown, Generic[Single]):
         full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), target(out, full + shape)
         own = (1,) * (len(full) - len(self.shape)) + self.shape
-        if times.size < MANY * prod(self.shape) and self._rows is not None:
+        if times.size < MIN_SINGLE_TIMES * prod(self.shape) and self._rows is not None:
             self._evaluate_rows(function, times, own, out.reshape(times.size, *shape))
             return out
         for i, index in enumerate(np.ndindex(own)):
@@ -366,7 +366,7 @@ class Motion(Shown, Generic[Single]):
                 out[start + places] = function(self._single(i), t[places], None)
 
 
-class DoubleTurn(Motion[Turning]):
+class DoubleTurn(Motion[Rotation]):
     """Motions in elementary functions, R(t) = R_n(k t) R_z(phi t), (85)."""
 
     _frequencies: slice
@@ -381,11 +381,11 @@ class DoubleTurn(Motion[Turning]):
         return np.full(self.shape, self._kind) if self.shape else self._kind
 
     @cached_property
-    def _rows(self) -> Turnings:
+    def _rows(self) -> DoubleRotationRows:
         """All motions in arrays, for a few times each."""
         # by a weak reference: in a circle of references, memory would wait for the collector of garbage
         vectors = partial(getattr, proxy(self), "_flat_vectors")
-        return Turnings(self._groups(), prod(self.shape), self._frequencies, vectors, inverse=self._inverse)
+        return DoubleRotationRows(self._groups(), prod(self.shape), self._frequencies, vectors, inverse=self._inverse)
 
     @cached_property
     def _flat_vectors(self) -> Mapping[str, Any]:
@@ -403,6 +403,6 @@ class DoubleTurn(Motion[Turning]):
         """Return constant vectors of the motions by name, three components each."""
         raise NotImplementedError
 
-    def _fill_grid(self, single: Turning, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, single: Rotation, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
         fill_grid(single, start, step, out)

@@ -33,11 +33,11 @@ from atlas.motions.derivatives_inputs import (
 VECTORS = ("rotation", "angular_velocity", "field")
 """What varies with time."""
 
-UPRIGHT = 1e-3
+MAX_UPRIGHT_ANGLE = 1e-3
 """Angle of a top's axis with n from which its inputs have derivatives in all components of n."""
 
 
-WITHIN = 1e140
+MAX_RATE = 1e140
 """Rates between its inverse and this have products, with those by which they change, that floats hold."""
 
 
@@ -173,7 +173,7 @@ class One:
             return Moved({f"K{k + 1}": change[k] for k in range(3)}, turn)
         # a top's direction has no first component: its axes turn with that about the third
         n2, n3, w1, w2 = floats(self.inputs.values[4:8])
-        spin = 0.0 if not change[0] else change[0] / n2 if abs(n2) > UPRIGHT * abs(n3) else np.nan
+        spin = 0.0 if not change[0] else change[0] / n2 if abs(n2) > MAX_UPRIGHT_ANGLE * abs(n3) else np.nan
         weights = {"n2": change[1], "n3": change[2], "omega1": -spin * w2, "omega2": spin * w1}
         return Moved(weights, turn - spin * self.left[:, 2], spin)
 
@@ -209,7 +209,7 @@ class One:
     def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
         """Return derivatives at times (m,), (m, len(names), 3)."""
         faster, inverse = of == "angular_velocity", self.motion.family == "ball" and "larmor" in self.inputs.names
-        if not 1 / WITHIN < self.inputs.rate < WITHIN:
+        if not 1 / MAX_RATE < self.inputs.rate < MAX_RATE:
             raise DomainError(
                 "The rates of this motion are too large or too small for derivatives: choose other units."
             )

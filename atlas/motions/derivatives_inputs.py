@@ -78,7 +78,7 @@ class Inputs:
 
     def _constants(self, *x: fmpq) -> Constants:
         twin = self.twin(*x)
-        if isinstance(twin, Turns):
+        if isinstance(twin, AxisAndRates):
             return twin.constants()
         return constants(twin.tilt(), twin.solution, twin.places)
 
@@ -86,7 +86,7 @@ class Inputs:
         return [self.names.index(x) for x in names]
 
 
-class Turns(NamedTuple):
+class AxisAndRates(NamedTuple):
     """A motion R_n(k t) R_z(phi t), n along a vector."""
 
     along: Any
@@ -221,7 +221,7 @@ def of_asymmetric(single: Any) -> Inputs:
     )  # fmt: skip
 
 
-TURNS: dict[str, Callable[[Turns], Any]] = {
+TURNS: dict[str, Callable[[AxisAndRates], Any]] = {
     "k": lambda x: x.k,
     "phi": lambda x: x.phi,
     "precession_rate": lambda x: x.k,
@@ -229,7 +229,7 @@ TURNS: dict[str, Callable[[Turns], Any]] = {
     "period": lambda x: 2 * arb.pi() / abs(arb(x.k)),
 }
 FREE: dict[str, Callable[[Any], Any]] = {"period": lambda x: 2 * arb.pi() / abs(arb(x.phi))}
-BALL: dict[str, Callable[[Turns], Any]] = {
+BALL: dict[str, Callable[[AxisAndRates], Any]] = {
     "gamma": lambda x: x.k,
     "precession_rate": lambda x: -x.phi,
     "spin_rate": lambda x: -x.k,
@@ -266,7 +266,7 @@ def of_elementary(case: str, row: Sequence[Any], omega3_is_input: bool) -> Input
     return Inputs(
         ("ratio", "B2", "B3", "omega2", "omega3")[:count],
         (I3 / I2, B2, B3, w2, w3)[:count], (I3 / I2, *[size] * 4)[:count],
-        lambda *x: Turns(*elementary.turning(case, fmpq(1), *x, *[fmpq(0)] * (5 - count))),
+        lambda *x: AxisAndRates(*elementary.turning(case, fmpq(1), *x, *[fmpq(0)] * (5 - count))),
         TURNS, (J, J, 0.0, 0.0), np.array([0.0, *floats([B2, B3])]), _units(("B2", "B3")),
     )  # fmt: skip
 
@@ -277,7 +277,8 @@ def of_free(row: Sequence[Any]) -> Inputs:
     J = np.array([1.0, 1.0, nearest(I3 / I2)])
     return Inputs(
         ("ratio", "omega1", "omega2", "omega3"), (I3 / I2, *omega), (I3 / I2, *[_size(*omega)] * 3),
-        lambda ratio, *w: Turns(*elementary.free(fmpq(1), ratio, *w)), TURNS | FREE, (J, J, 0.0, 0.0), np.zeros(3), {},
+        lambda ratio, *w: AxisAndRates(*elementary.free(fmpq(1), ratio, *w)), TURNS | FREE, (J, J, 0.0, 0.0),
+        np.zeros(3), {},
     )  # fmt: skip
 
 
@@ -287,6 +288,6 @@ def of_ball(row: Sequence[Any]) -> Inputs:
     size, J = _size(larmor, *(x / inertia for x in m)), np.ones(3)
     return Inputs(
         ("inertia", "larmor", "m2", "m3"), (inertia, larmor, *m), (inertia, size, size * inertia, size * inertia),
-        lambda *x: Turns(*ball.turning(*x)), BALL, (J, J, 0.0, 0.0), np.array([0.0, 0.0, nearest(larmor)]),
+        lambda *x: AxisAndRates(*ball.turning(*x)), BALL, (J, J, 0.0, 0.0), np.array([0.0, 0.0, nearest(larmor)]),
         _units(("larmor",)),
     )  # fmt: skip

@@ -28,19 +28,19 @@ from atlas.motions.torus.theta import ThetaKernel
 OF = ("rotation", "axis", "angular_velocity", "field")
 """What may be asked for."""
 
-LEAST = 1e-13
+MIN_AMPLITUDE = 1e-13
 """Least amplitude that rounding does not hide."""
 
-SETTLED = 2.0**-46
+MAX_OUTER_AMPLITUDE = 2.0**-46
 """Amplitude beside the largest below which the outermost ones must be."""
 
 FIRST, LAST = {1: 64, 2: 16}, {1: 1 << 17, 2: 1 << 10}
 """Points along a phase with which amplitudes are tried first, and most of them, by the number of phases."""
 
-SAME = 2.0**-44
+FREQUENCY_TOLERANCE = 2.0**-44
 """Frequencies are one where they differ by less than this part of the largest."""
 
-PART = 1 << 14
+BLOCK = 1 << 14
 """Points of the torus at once."""
 
 Array = NDArray[np.complex128]
@@ -116,8 +116,8 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
     if motion.shape:
         raise AtlasError(f"A spectrum is that of one motion, not of an array of them, of shape {motion.shape}.")
     least = number(least, "least")
-    if not LEAST <= least < 1:
-        raise AtlasError(f"least is a part of the whole from {LEAST:g} to 1, not {least:g}.")
+    if not MIN_AMPLITUDE <= least < 1:
+        raise AtlasError(f"least is a part of the whole from {MIN_AMPLITUDE:g} to 1, not {least:g}.")
     if of == "field" and not hasattr(motion, "field_in_body"):
         raise AtlasError(f"A {type(motion).__name__} has no field in the body.")
     wheels = wheels_of(motion)
@@ -136,10 +136,10 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
     """Return lines in the order of their frequencies, those of one frequency added."""
     frequencies, unit = combinations @ wheels.rates, _size(amplitudes)
     size = _power(amplitudes, unit)
-    lines = np.flatnonzero(size > (LEAST * 1e-3) ** 2 * size.max())
+    lines = np.flatnonzero(size > (MIN_AMPLITUDE * 1e-3) ** 2 * size.max())
     order = lines[np.lexsort((abs(combinations[lines]).sum(1), frequencies[lines]))]
     frequencies, combinations, amplitudes = frequencies[order], combinations[order], amplitudes[order]
-    apart = np.diff(frequencies, prepend=-np.inf) > SAME * abs(frequencies).max(initial=0.0)
+    apart = np.diff(frequencies, prepend=-np.inf) > FREQUENCY_TOLERANCE * abs(frequencies).max(initial=0.0)
     starts = np.flatnonzero(apart)
     shortest = [i + int(np.argmin(abs(combinations[i:k]).sum(1))) for i, k in pairwise([*starts, len(frequencies)])]
     amplitudes = np.add.reduceat(amplitudes, starts)
@@ -185,13 +185,13 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
     while count <= LAST[d]:
         line = np.arange(count) * (2 * np.pi / count)
         grid = np.stack(np.meshgrid(*[line] * d, indexing="ij")).reshape(d, -1)
-        values = np.concatenate([function(grid[:, i : i + PART]) for i in range(0, grid.shape[1], PART)])
+        values = np.concatenate([function(grid[:, i : i + BLOCK]) for i in range(0, grid.shape[1], BLOCK)])
         amplitudes = np.fft.fftn(values.reshape(*[count] * d, *values.shape[1:]), axes=range(d), norm="forward")
         m = np.fft.fftfreq(count, 1 / count).astype(int)
         indices = np.stack(np.meshgrid(*[m] * d, indexing="ij"), -1).reshape(-1, d)
         coefficients = amplitudes.reshape(len(indices), *values.shape[1:])
         size, outer = _power(coefficients, _size(coefficients)), abs(indices).max(1) > 3 * count // 8
-        if size[outer].max() <= SETTLED**2 * size.max():
+        if size[outer].max() <= MAX_OUTER_AMPLITUDE**2 * size.max():
             return indices[~outer], coefficients[~outer]
         count *= 2
     raise DomainError(f"The motion has more than {LAST[d] // 2} lines of each phase: it is too near to a separatrix.")

@@ -14,8 +14,7 @@ from atlas.pictures.bodies import body_of
 from atlas.pictures.captions import plain_vector, quotient, spelt, tex_vector
 from atlas.pictures.layers import Arrow, Curve, Label, Layer, Plane, Scene, Space
 from atlas.pictures.quadric_panel import O, tolerance
-from atlas.pictures.sample import MOST as MANY
-from atlas.pictures.sample import curve, quarter_pixel
+from atlas.pictures.sample import MAX_POINTS, curve, quarter_pixel
 
 MARGIN = 10.0
 
@@ -58,9 +57,9 @@ def course(
 
 
 SIZE, SQUARE = (124.0, 66.0), (90.0, 90.0)
-MOST, FEW = 60.0, 12.0
+MAX_AXIS_TURNS, MAX_OMEGA_TURNS = 60.0, 12.0
 """Turns of the body, about any axis, for which its axis is followed at most, and for which Omega(t) is drawn."""
-SEEN = 0.02
+MIN_SEEN_LENGTH = 0.02
 """Length on the unit sphere that is seen in a figure."""
 _FINE = tolerance(3.0)
 _AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
@@ -102,7 +101,7 @@ def picture(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Return the figure of a motion over so many `periods` of its `period`, as far as `MOST` turns.
+    """Return the figure of a motion over so many `periods` of its `period`, as far as `MAX_AXIS_TURNS` turns.
 
     `setting` says whose motion it is and from where, for a caption and in plain words; `word` what has the period,
     nothing if it is not one. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
@@ -114,8 +113,8 @@ def picture(
     unit_of_time = period if not steady else 1 / first if first else 1.0
     length = positive(periods, "periods") * unit_of_time
     rate = turns(motion, min(length, unit_of_time))
-    length = min(length, MOST / rate) if rate else length
-    short = min(length, FEW / rate) if rate else length
+    length = min(length, MAX_AXIS_TURNS / rate) if rate else length
+    short = min(length, MAX_OMEGA_TURNS / rate) if rate else length
     counted = f"over {spelt(float(f'{length / unit_of_time:.3g}'))} of the {word}"
     span = counted if word and not steady else f"up to the time {float(f'{length:.3g}'):g}"
     axis, lasts, count = motion.third_axis, length, length * rate
@@ -151,7 +150,7 @@ def slow_turn(motion: Any, length: float) -> float:
     """Return the time of one precession, where nothing is seen of the axis for a `length` of time; 0 elsewhere."""
     rate = _number(motion, "precession_rate")
     looks = motion.third_axis(np.linspace(0.0, length, 65))
-    return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < SEEN else 0.0
+    return 2 * pi / abs(rate) if rate and np.ptp(looks, axis=0).max() < MIN_SEEN_LENGTH else 0.0
 
 
 def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
@@ -232,4 +231,4 @@ def turns(motion: Any, stop: float) -> float:
 
 def pieces(count: float) -> int:
     """Return into how many pieces the way of an axis is first cut, over so many turns."""
-    return max(32, ceil(min(8 * count, 2.0 * MANY)))
+    return max(32, ceil(min(8 * count, 2.0 * MAX_POINTS)))

@@ -18,8 +18,8 @@ from atlas.pictures.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 178.0, 60.0
 VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
-MANY = 200
-ASKEW = 25.0
+MAX_TURNS = 200
+VIEW_DEGREES = 25.0
 CLEAR = 0.6
 """The arrows of the fields keep off the paths by this part of their length."""
 Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
@@ -60,10 +60,10 @@ def picture(
         raise DomainError("Without a magnetic field and a charge nothing turns the path of this flight: no picture.")
     stop = positive(turns, "turns") * particle.period if stop is None else positive(stop, "stop")
     spun = rate * stop + stop / particle.period
-    if not spun < MANY:
+    if not spun < MAX_TURNS:
         raise DomainError(
-            f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn: give a stop up to "
-            f"{MANY * stop / spun:.3g}."
+            f"In this flight the body makes {spun:.3g} turns, and more than {MAX_TURNS} cannot be drawn: give a stop "
+            f"up to {MAX_TURNS * stop / spun:.3g}."
         )
     B = particle.B
     axes, view = across(flight, B), beside(flight, stop)
@@ -117,7 +117,9 @@ def across(flight: Flight, B: FloatArray) -> FloatArray:
 def beside(flight: Flight, stop: float) -> Space:
     """Return the view of panel (a): nearly across the way that the centre of mass goes, so that it fills the panel."""
     way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
-    return replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + ASKEW) if way[:2].any() else VIEW
+    return (
+        replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + VIEW_DEGREES) if way[:2].any() else VIEW
+    )
 
 
 def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:

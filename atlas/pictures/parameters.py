@@ -43,10 +43,10 @@ MEANINGS: Mapping[str, str] = {
 }
 """What the parameters mean that have one meaning in all recipes."""
 
-MOST = 40
+MAX_VALUES = 40
 """Values in a list: each is a curve or a panel."""
 
-SIZES = 1e-60, 1e60
+DRAWABLE_SIZES = 1e-60, 1e60
 """Numbers that can be drawn, zero apart: their fourth powers are floats."""
 
 COUNTS = {2: "two", 3: "three", 4: "four"}
@@ -144,8 +144,8 @@ def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
         plural = f"lists of {described(inner[0], None)}"
         if not any(isinstance(item, list | tuple) for item in value):
             value = [value[i : i + len(lists)] for i in range(0, len(value), len(lists))]
-    many = f"a list of 1 to {MOST} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
-    if not isinstance(value, list | tuple) or not (0 < len(value) <= MOST if free else len(value) == len(inner)):
+    many = f"a list of 1 to {MAX_VALUES} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
+    if not isinstance(value, list | tuple) or not (0 < len(value) <= MAX_VALUES if free else len(value) == len(inner)):
         raise _Unfit(many)
     try:
         return tuple(map(_fit, value, inner[:1] * len(value) if free else inner))
@@ -159,20 +159,20 @@ def _drawable(value: Any) -> bool:
         isinstance(value, Real)
         and not isinstance(value, bool)
         and (
-            value == 0 or SIZES[0] <= abs(value) <= SIZES[1]  # type: ignore[operator]
+            value == 0 or DRAWABLE_SIZES[0] <= abs(value) <= DRAWABLE_SIZES[1]  # type: ignore[operator]
         )
     )
 
 
 _PLAIN: Mapping[Any, tuple[str, Any]] = {
-    float: (f"a number, 0 or of a size between {SIZES[0]:g} and {SIZES[1]:g}", _drawable),
+    float: (f"a number, 0 or of a size between {DRAWABLE_SIZES[0]:g} and {DRAWABLE_SIZES[1]:g}", _drawable),
     int: ("a whole number", lambda value: isinstance(value, Integral) and not isinstance(value, bool)),
     bool: ("true or false", lambda value: isinstance(value, bool)),
     str: ("a word", lambda value: isinstance(value, str)),
 }
 
 _PLURAL = {
-    float: f"numbers, each 0 or of a size between {SIZES[0]:g} and {SIZES[1]:g}",
+    float: f"numbers, each 0 or of a size between {DRAWABLE_SIZES[0]:g} and {DRAWABLE_SIZES[1]:g}",
     int: "whole numbers",
     str: "words",
 }

@@ -20,7 +20,7 @@ O = np.zeros(3)
 WIDTH = 120.0
 _PAGE, _LEAST, _NAMES = np.array([WIDTH, 98.0]), 50.0, np.array([17.0, 14.0])
 _FLAT = 1e-3
-LONGEST = 2.2
+MAX_ARROW_RATIO = 2.2
 """The arrow along I^-1 B' is at most so many times as long as that of B': for a needle all else would be small."""
 LEGEND = (
     r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. The points of the "
@@ -166,7 +166,7 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
     if (inverse == prime).all():
         arrows = [Arrow(O, prime, "field", rf"$\mathbf{{B}}'={inverse_name}$")]
     else:
-        length, most = float(np.linalg.norm(inverse)), LONGEST * float(np.linalg.norm(prime))
+        length, most = float(np.linalg.norm(inverse)), MAX_ARROW_RATIO * float(np.linalg.norm(prime))
         inverse_name = f"${inverse_name}$" if length <= most else f"${inverse_name}$, cut"
         inverse = inverse * min(1.0, most / length)
         arrows = [Arrow(O, prime, "field", r"$\mathbf{B}'$"), Arrow(O, inverse, "field_inverse", inverse_name)]

@@ -8,7 +8,7 @@ from atlas.errors import DomainError
 from atlas.pictures.layers import FloatArray
 
 _ROUNDS = 40
-MOST = 1_000_000
+MAX_POINTS = 1_000_000
 """Points of a curve, beyond which it cannot be drawn."""
 _INCH, _DPI = 25.4, 300.0
 _LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
@@ -86,8 +86,10 @@ def _cut(
     scale: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
     """Return parameters and points; the sag of an arc falls with the square of its parts, which tells their number."""
-    if pieces > MOST:
-        raise DomainError(f"A curve over that many turns needs more than {MOST} points: ask for a shorter part of it.")
+    if pieces > MAX_POINTS:
+        raise DomainError(
+            f"A curve over that many turns needs more than {MAX_POINTS} points: ask for a shorter part of it."
+        )
     s = np.linspace(start, stop, pieces + 1)
     x = function(s)
     open_ = np.ones(pieces, dtype=bool)
@@ -108,10 +110,13 @@ def _cut(
             seen = ~np.any(out, axis=1)
         curved = seen & ~(sag <= _LEAVE * tolerance)
         wanted = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
-        if not wanted[curved & plain].sum() + _FEW * curved.sum() + len(s) < MOST or not np.isfinite(sag[seen]).all():
+        if (
+            not wanted[curved & plain].sum() + _FEW * curved.sum() + len(s) < MAX_POINTS
+            or not np.isfinite(sag[seen]).all()
+        ):
             raise DomainError(
-                f"A curve needs more than {MOST} points to be drawn to {tolerance:g}: its sizes or its turns are too "
-                "far from what is shown; choose parameters nearer to one another."
+                f"A curve needs more than {MAX_POINTS} points to be drawn to {tolerance:g}: its sizes or its turns are "
+                "too far from what is shown; choose parameters nearer to one another."
             )
         parts = np.ones(len(open_), dtype=int)
         parts[i[curved]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[curved], 2)

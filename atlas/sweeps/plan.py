@@ -16,7 +16,7 @@ from atlas.sweeps.families import FAMILIES, MISSING
 
 Columns = dict[str, NDArray[Any]]
 
-LARGEST = 10**11
+MAX_ROWS = 10**11
 """Rows of a table: some 10 TB of them."""
 
 
@@ -67,8 +67,8 @@ class Plan:
         if digits is not None and digits < 1:
             raise AtlasError(f"A number has at least one digit, not {digits}.")
         plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time)
-        if not 0 < plan.count <= LARGEST:
-            raise AtlasError(f"A table has from one row to {LARGEST:.0e}, not {plan.count}.")
+        if not 0 < plan.count <= MAX_ROWS:
+            raise AtlasError(f"A table has from one row to {MAX_ROWS:.0e}, not {plan.count}.")
         return plan
 
     @property

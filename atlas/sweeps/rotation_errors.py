@@ -14,7 +14,7 @@ from atlas.arithmetic.numbers import workprec
 from atlas.errors import DomainError
 from atlas.motions.elementary import certified as exact
 from atlas.motions.elementary.kernel import ElementaryMotion
-from atlas.motions.torus.rounded import REACH
+from atlas.motions.torus.rounded import MAX_PHASE
 
 BITS = 110
 """Relative accuracy of the true matrices, which are kept in two words."""
@@ -63,7 +63,7 @@ def plain_error(motion: ElementaryMotion, p: Any) -> FloatArray:
 
 def _rows(motion: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
     """Return the parameters of rows whose phases are within the limit, and which rows these are."""
-    near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= REACH
+    near = np.maximum(abs(motion.k * p["t"]), abs(motion.phi * p["t"])) <= MAX_PHASE
     names = ("ratio", "B2", "B3", "omega2", "t", *(name for name in ("omega3",) if name in p))
     return [p[name][near] for name in names], near
 

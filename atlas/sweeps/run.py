@@ -26,18 +26,18 @@ from atlas.sweeps.plan import Columns, Plan
 from atlas.sweeps.store import Span, Table, span_of
 from atlas.sweeps.tables import PARTS, write
 
-SECONDS, MOST = 2.0, 2**18
+PART_SECONDS, MAX_PART_ROWS = 2.0, 2**18
 """How long a part should take, and the most rows that it has, which a worker keeps in memory."""
-SHARES, SHORT = 16, 0.25
+PARTS_PER_WORKER, MIN_PART_SECONDS = 16, 0.25
 """Parts that each worker should still get, since some rows take longer; how long a part takes in any case."""
-FEW, EQUAL = 4096, 64
+MIN_PART_ROWS, EQUAL_PARTS = 4096, 64
 """Rows that are one part in any case, unless they have certified digits; twice as many after so many parts each, so
 that a table has hundreds of parts, whatever the time of a row is believed to be."""
-AHEAD = 4
+PARTS_AHEAD = 4
 """Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
 CODE = ("arithmetic", "bodies", "surfaces", "motions", "families", "sweeps")
 """Folders of the code that computes rows and writes them."""
-LONG = 1.0
+MIN_PARALLEL_SECONDS = 1.0
 """Seconds of work from which on processes are worth their start."""
 
 Progress = Callable[[int, int], None]
@@ -151,7 +151,7 @@ class Spans(Iterator[Span]):
         self.gaps = deque((start, stop) for start, stop in zip(ends[::2], ends[1::2], strict=True) if start < stop)
         self.left = sum(stop - start for start, stop in self.gaps)
         self.rows, self.workers = rows, workers
-        self.least = 1 if plan.digits else min(FEW, FAMILIES[plan.family].family.at_once)
+        self.least = 1 if plan.digits else min(MIN_PART_ROWS, FAMILIES[plan.family].family.at_once)
         self.given, self.pace = 0, inf
 
     def __next__(self) -> Span:
@@ -166,10 +166,12 @@ class Spans(Iterator[Span]):
         return start, end
 
     def _size(self) -> int:
-        """Return how many rows the next part has: SECONDS of them, fewer at the end, where all workers need some."""
-        least = self.least << min(self.given // EQUAL, 40)
-        share = self.left / (SHARES * self.workers)
-        return min(MOST, max(least, int(min(SECONDS / self.pace, max(SHORT / self.pace, share)))))
+        """Return the rows of the next part: PART_SECONDS of work, less at the end, where all workers need some."""
+        least = self.least << min(self.given // EQUAL_PARTS, 40)
+        share = self.left / (PARTS_PER_WORKER * self.workers)
+        return min(
+            MAX_PART_ROWS, max(least, int(min(PART_SECONDS / self.pace, max(MIN_PART_SECONDS / self.pace, share))))
+        )
 
     def learn(self, span: Span, seconds: float) -> None:
         """Take a part's time for that of the next ones."""
@@ -178,7 +180,7 @@ class Spans(Iterator[Span]):
     @property
     def long(self) -> bool:
         """Whether what is left is worth processes of its own."""
-        return self.left * self.pace > LONG
+        return self.left * self.pace > MIN_PARALLEL_SECONDS
 
 
 def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
@@ -233,7 +235,7 @@ def _parts(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) 
             for start, stop in spans:
                 rows = (there, start, stop) if there else (plan.list_of(start, stop), 0, stop - start)
                 waiting.append(engine.submit(make, *rows, table))
-                if len(waiting) > AHEAD * workers:
+                if len(waiting) > PARTS_AHEAD * workers:
                     yield waiting.popleft().result()
             while waiting:
                 yield waiting.popleft().result()

@@ -20,7 +20,7 @@ from atlas.sweeps.plan import Plan
 Columns = Mapping[str, NDArray[Any]]
 Parts = Sequence[Path]
 
-GROUP = 2**17
+ROW_GROUP = 2**17
 """Rows of a row group of Parquet."""
 
 
@@ -99,15 +99,15 @@ def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
 
 
 def write_parquet(out: Path, _: Plan, parts: Parts) -> None:
-    """Write row groups of GROUP rows, the last of fewer."""
+    """Write row groups of ROW_GROUP rows, the last of fewer."""
     with _pyarrow() as (arrow, parquet):
         rows = parquet.read_schema(parts[0]).empty_table()
         with parquet.ParquetWriter(out, rows.schema) as writer:
             for part in parts:
                 rows = arrow.concat_tables([rows, parquet.read_table(part)])
-                full = rows.num_rows // GROUP * GROUP
+                full = rows.num_rows // ROW_GROUP * ROW_GROUP
                 if full:
-                    writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=GROUP)
+                    writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=ROW_GROUP)
                     rows = rows.slice(full)
             if rows.num_rows:
                 writer.write_table(rows.combine_chunks())

@@ -13,11 +13,11 @@ import numpy as np
 
 from benchmarks.case import FloatArray, Solve
 
-Turn: TypeAlias = tuple[tuple[float, float, float], float]
+AxisAndRate: TypeAlias = tuple[tuple[float, float, float], float]
 """A unit vector and the frequency of the turn about it."""
 
 
-def lambdified(turns: Sequence[Turn]) -> Solve:
+def lambdified(turns: Sequence[AxisAndRate]) -> Solve:
     """Compile the product from SymPy, with common subexpressions taken out."""
     import sympy
 
@@ -27,7 +27,7 @@ def lambdified(turns: Sequence[Turn]) -> Solve:
     return lambda times: np.stack(entries(times), axis=-1).reshape(-1, 3, 3)
 
 
-def composed(turns: Sequence[Turn]) -> Solve:
+def composed(turns: Sequence[AxisAndRate]) -> Solve:
     """Compose SciPy's rotations."""
     from scipy.spatial.transform import Rotation
 

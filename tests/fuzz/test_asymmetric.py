@@ -23,7 +23,7 @@ def test_both_ways_meet(kind: str, seed: int, monkeypatch: pytest.MonkeyPatch) -
             reduced = asymmetric.AsymmetricMotion(*draw).rotation(t)
         except atlas.NotCertifiedError as reason:
             pytest.xfail(str(reason))
-        monkeypatch.setattr(asymmetric, "DIRECT", 100)
+        monkeypatch.setattr(asymmetric, "MAX_DIRECT_TIME", 100)
         direct = asymmetric.AsymmetricMotion(*draw).rotation(t)
         pairs = [(x, y) for row, other in zip(reduced, direct, strict=True) for x, y in zip(row, other, strict=True)]
         assert all(arb(x).overlaps(arb(y)) and arb(x).rad() < 1e-20 for x, y in pairs)

@@ -31,10 +31,10 @@ PROMISED = 4.0
 EDGE = 1e-140, 1e140
 """Sizes between which a scalar is promised; what is beyond is left out."""
 
-Pairs = Iterator[tuple[str, Any, Any]]
+Comparisons = Iterator[tuple[str, Any, Any]]
 
 
-def of_motion(random: Random, regime: str) -> Pairs:
+def of_motion(random: Random, regime: str) -> Comparisons:
     """Elementary motions, their hyperbola and quadric: (53), (54), (67), (71), (72), (79), theorem-stability."""
     m = extreme.motion(regime, random)
     I, B2, B3, w2 = mpf(m.I3) / mpf(m.I2), mpf(m.B2), mpf(m.B3), mpf(m.omega2)
@@ -58,7 +58,7 @@ def of_motion(random: Random, regime: str) -> Pairs:
         yield "least stability", curve.least_stability, 2 * abs(1 - I) * abs(B3) * b - (1 - I) * (B2**2 - 2 * B3**2)
 
 
-def of_closed(random: Random, regime: str) -> Pairs:
+def of_closed(random: Random, regime: str) -> Comparisons:
     """Motions that close: by (72) and (79), phi/k = L (x + 2)/(I b (x + 1)) with L = (1 - I) B3 and x = omega2/B2."""
     m = extreme.motion(regime, random)
     p, q = random.choice((-7, -2, -1, 1, 2, 3, 355)), random.choice((1, 2, 3, 5, 113))
@@ -72,7 +72,7 @@ def of_closed(random: Random, regime: str) -> Pairs:
     yield "closed period", closed.period, 2 * mp.pi * mpf(q // gcd(p, q)) / abs(k)
 
 
-def of_flight(random: Random, _: str) -> Pairs:
+def of_flight(random: Random, _: str) -> Comparisons:
     """Points of a body in flight, one in ten since its oracle is slow, in ulps of the way that they may have gone."""
     m = extreme.motion("ordinary", random)
     if random.random() > 0.1:
@@ -93,7 +93,7 @@ def of_flight(random: Random, _: str) -> Pairs:
     )
 
 
-def of_free(random: Random, _: str) -> Pairs:
+def of_free(random: Random, _: str) -> Comparisons:
     """Free bodies, (87)."""
     m = extreme.free_motion(random)
     I, (w1, w2, w3) = mpf(m.I), map(mpf, m.omega)
@@ -103,7 +103,7 @@ def of_free(random: Random, _: str) -> Pairs:
         yield "free period", motion.period, 2 * mp.pi / k
 
 
-def of_ball(random: Random, _: str) -> Pairs:
+def of_ball(random: Random, _: str) -> Comparisons:
     """Charged balls, (29)."""
     m = extreme.ball_motion(random)
     motion = atlas.BallMotion(m.inertia, m.larmor, (m.m2, m.m3))
@@ -111,7 +111,7 @@ def of_ball(random: Random, _: str) -> Pairs:
     yield from (("ball gamma", motion.gamma, true.gamma), ("ball k_hat", motion.k_hat, (true.k2, true.k3)))
 
 
-def of_particle(random: Random, _: str) -> Pairs:
+def of_particle(random: Random, _: str) -> Comparisons:
     """Point charges, (94), (97): the radius is that of what remains of the velocity without the drift."""
     m = extreme.particle_motion(random)
     motion = atlas.ParticleMotion(m.mu, m.E, m.B, m.position, m.velocity, m.c)
@@ -126,7 +126,7 @@ def of_particle(random: Random, _: str) -> Pairs:
         yield "particle period", motion.period, 2 * mp.pi * c / (abs(mpf(m.mu)) * b)
 
 
-def of_elliptic(random: Random, regime: str) -> Pairs:
+def of_elliptic(random: Random, regime: str) -> Comparisons:
     """Elliptic motions, theorem-elliptic and theorem-splitting; K turns by Euler's equations with v/(z I_i + D)."""
     m = ELLIPTIC[regime](random)
     motion = atlas.EllipticMotion(*m)
@@ -148,7 +148,7 @@ def of_elliptic(random: Random, regime: str) -> Pairs:
         yield "elliptic period", motion.period, 4 * mp.ellipk(modulus) / mp.sqrt(max(low, high))
 
 
-def of_top(random: Random, regime: str) -> Pairs:
+def of_top(random: Random, regime: str) -> Comparisons:
     """Tops, by the integrals of the energy, of M3 and of (M, n) over a nutation."""
     m = TOPS[regime](random)
     motion, true = atlas.TopMotion(*m), nutation(*m)
@@ -157,7 +157,7 @@ def of_top(random: Random, regime: str) -> Pairs:
         yield from _turns("top", motion, true)
 
 
-def of_general(random: Random, regime: str) -> Pairs:
+def of_general(random: Random, regime: str) -> Comparisons:
     """General motions: a top whose M is II (Omega + K), without a potential."""
     I, field, omega = GENERAL[regime](random)
     b = mp.sqrt(mp.fdot(map(mpf, field), map(mpf, field)))
@@ -168,7 +168,7 @@ def of_general(random: Random, regime: str) -> Pairs:
         yield from _turns("general", motion, true)
 
 
-def _turns(name: str, motion: Any, true: Nutation) -> Pairs:
+def _turns(name: str, motion: Any, true: Nutation) -> Comparisons:
     yield f"{name} period", motion.period, true.period
     if true.precession is not None and true.spin is not None:
         yield f"{name} precession per period", motion.precession_per_period, true.precession
@@ -181,7 +181,7 @@ def _cross(x: Sequence[Any], y: Sequence[Any]) -> list[Any]:
     return [x[i - 2] * y[i - 1] - x[i - 1] * y[i - 2] for i in range(3)]
 
 
-KINDS: tuple[tuple[Callable[[Random, str], Pairs], Sequence[str], int], ...] = (
+KINDS: tuple[tuple[Callable[[Random, str], Comparisons], Sequence[str], int], ...] = (
     (of_motion, [*REGIMES], 1000),
     (of_closed, [*REGIMES], 1000),
     (of_flight, ["flight"], 60),

@@ -6,15 +6,15 @@ from typing import NamedTuple
 
 from stress.regimes import near, number, sign, size
 
-Pair = tuple[float, float]
+TwoNumbers = tuple[float, float]
 
 
 class Top(NamedTuple):
     """What `atlas.TopMotion` takes, I2 = 1."""
 
-    inertia: Pair
-    coupling: Pair
-    direction: Pair
+    inertia: TwoNumbers
+    coupling: TwoNumbers
+    direction: TwoNumbers
     omega: tuple[float, float, float]
     linear: float
     quadratic: float
@@ -28,7 +28,7 @@ def rate_of(top: Top) -> float:
 
 
 def _ordinary(random: Random) -> Top:
-    def pair() -> Pair:
+    def pair() -> TwoNumbers:
         return number(random), number(random)
 
     I3 = random.choice((random.uniform(0.05, 2.0), 0.5, 1.0, 2.0))

@@ -274,7 +274,7 @@ def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch
     """R(20) by the periods and R(20) by Taylor series all the way have numbers in common, to 20 digits."""
     with ctx.workprec(80):
         reduced = Balls(*EXTREME[name]).rotation(20)
-        monkeypatch.setattr(asymmetric, "DIRECT", 100)
+        monkeypatch.setattr(asymmetric, "MAX_DIRECT_TIME", 100)
         assert overlap(reduced, Balls(*EXTREME[name]).rotation(20))
     assert narrow(reduced, 1e-16)
 

@@ -117,6 +117,6 @@ def test_rates_that_are_too_far_apart_have_no_closed_form_and_say_so_at_once(
 
 def test_integrals_without_digits_are_an_error_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     """As where the zeros are so far apart that the precision of the integrals has no digits between them."""
-    monkeypatch.setattr(clebsch_periods, "APART", 10**6)
+    monkeypatch.setattr(clebsch_periods, "MAX_COEFFICIENT_BITS", 10**6)
     motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (3e35, 1e36, 6e35), (1.0, 0.7, 2.0))
     assert motion.agreement == "certified at each time: integrals between zeros of the motion's torus lose all digits."

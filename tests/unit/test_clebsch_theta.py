@@ -134,9 +134,9 @@ def test_no_bound_is_given_where_powers_are_too_small(monkeypatch: pytest.Monkey
     corners = [rounding.into @ (0.55 * np.pi * np.array(x)) for x in product((-1, 1), repeat=2)]
     largest = rounding.sums.reach * np.abs(np.imag(corners)).max()
     assert largest > 10
-    monkeypatch.setattr(clebsch_rounding, "FARTHEST", largest * (1 - 1e-9))
+    monkeypatch.setattr(clebsch_rounding, "MAX_POWER_LOG", largest * (1 - 1e-9))
     assert rounding.accuracy() == np.inf
-    monkeypatch.setattr(clebsch_rounding, "FARTHEST", largest * (1 + 1e-9))
+    monkeypatch.setattr(clebsch_rounding, "MAX_POWER_LOG", largest * (1 + 1e-9))
     assert rounding.accuracy() == pytest.approx(7.12134e-15, rel=1e-3, abs=0.0)
 
 
@@ -257,7 +257,7 @@ def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_i
     assert abs(tau[1, 1]) > 2 - 2e-5
     assert np.abs(tau.real).max() <= 1
     with ctx.workprec(160):
-        for true, found in zip(balls.torus.periods(core.PERIODS), balls.torus.lattice.real, strict=True):
+        for true, found in zip(balls.torus.periods(core.PERIOD_BITS), balls.torus.lattice.real, strict=True):
             assert all(abs(x - y.real) < 1e-25 for x, y in zip((true.H, true.F), found, strict=False))
             turns = (true.angle + balls.b * found[2].real) / (2 * arb.pi())
             assert abs(turns - round(float(turns))) < 1e-25
@@ -298,7 +298,7 @@ def test_a_slip_is_noticed_and_the_certified_twin_answers(
 ) -> None:
     """With a slip in characteristics, T_c or an angle there is no closed form; `agreement` says why, R is proved."""
     one = _slipped(monkeypatch, slip)
-    monkeypatch.setattr(kernels, "CHECKED", (5.3,))
+    monkeypatch.setattr(kernels, "CHECK_TIMES", (5.3,))
     assert words in one.agreement
     assert one.agreement.startswith("certified at each time")
     assert (one.rotation(2.5) == one.certified.rotation(2.5)).all()
@@ -340,7 +340,7 @@ def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> N
         raise atlas.NotCertifiedError("not certified: it might grow.")
 
     monkeypatch.setattr(clebsch_proof, "distances", refuse)
-    monkeypatch.setattr(kernels, "CHECKED", (5.3, -6.1))
+    monkeypatch.setattr(kernels, "CHECK_TIMES", (5.3, -6.1))
     one = SingleAsymmetric(motion()._single().exact)
     assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", one.agreement)
 

@@ -44,7 +44,7 @@ def test_the_program_counts_as_we_do() -> None:
         return [float(number) for number in re.findall(r"-?\d[\d.]*", found)]
 
     assert numbers(r"STEPS = (\d+, GRID = \d+)") == [STEPS, GRID]
-    assert numbers(r"FINE = (\d+)", "motion.js") == [moves.FINE]
+    assert numbers(r"FINE = (\d+)", "motion.js") == [moves.TABLE_STEPS]
     assert numbers(r"TURNS = (\[.*?\])") == pytest.approx(np.degrees(labels._TURNS))
     steps = numbers(r"PLACES = .*?(\[[\d, ]*\]\.map\(\(step\) => .*?\]\))")
     assert steps == [*labels._STEPS, labels._TURN, labels._STEP]

@@ -109,9 +109,9 @@ def test_the_grid_is_the_same_motion(inputs: Any, monkeypatch: pytest.MonkeyPatc
     start = -step * 4321.25
     places = [0, 1, 127, 128, 4321, 4322, 6999, 7000]
     times = [Fraction(start) + i * Fraction(step) for i in places]
-    monkeypatch.setattr(general_grid, "SHORT", 10**6)
+    monkeypatch.setattr(general_grid, "MIN_GRID_COUNT", 10**6)
     for few in (0, 10**6):
-        monkeypatch.setattr(general_grid, "FEW", few)
+        monkeypatch.setattr(general_grid, "MIN_TABLE_COUNT", few)
         R = motion.rotation_grid(start, step, count)
         assert worst(R[places], Balls(*inputs), times) <= 12
     assert np.array_equal(motion.rotation_grid(start, step, 0), np.empty((0, 3, 3)))
@@ -123,7 +123,7 @@ def test_a_fine_grid_is_interpolated_to_the_last_digits(
     inputs: Any, a_period: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of a fine grid across t = 0, windows by themselves, the matrices at their ends are within 8 ulp of 1."""
-    monkeypatch.setattr(general_grid, "TRIED", 1)
+    monkeypatch.setattr(general_grid, "MAX_WINDOWS_TRIED", 1)
     motion = GeneralMotion(*inputs)
     period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
     count, step = 8191, float(period) / a_period

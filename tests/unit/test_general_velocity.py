@@ -135,7 +135,7 @@ def test_many_times_of_a_slender_body_are_as_true_as_one(monkeypatch: pytest.Mon
     assert max(map(off, motion.angular_velocity(t), true)) <= WANTED
     assert max(map(off, motion.angular_velocity(t.reshape(12, 5)).reshape(60, 3), true)) <= WANTED
     assert max(off(motion.angular_velocity(time), x) for time, x in zip(t[:9], true, strict=False)) <= WANTED
-    monkeypatch.setattr(single, "NEAR", np.inf)
+    monkeypatch.setattr(single, "MAX_OMEGA3_RATIO", np.inf)
     assert max(map(off, motion.angular_velocity(t), true)) > WANTED
 
 
@@ -171,5 +171,5 @@ def test_needles_across_the_field_keep_their_digits_in_arrays(monkeypatch: pytes
         return max(map(off, GeneralMotion(np.full(80, I), B, omega).angular_velocity(t), true))
 
     assert worst() <= WANTED / 2
-    monkeypatch.setattr(rows, "SMALL", np.inf)
+    monkeypatch.setattr(rows, "MAX_OMEGA3_CHANGE", np.inf)
     assert worst() > WANTED / 2

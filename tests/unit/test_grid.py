@@ -45,7 +45,7 @@ def true(start: float, step: float, i: int) -> mp.matrix:
 def tables(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Have grids of a thousand matrices made without tables, as they are, and with them."""
     if request.param:
-        monkeypatch.setattr(grid, "FEW", 0)
+        monkeypatch.setattr(grid, "MIN_GRID_COUNT", 0)
 
 
 @pytest.mark.usefixtures("tables")
@@ -90,10 +90,10 @@ def test_the_fine_table_is_rounded_once() -> None:
     turning, step = ElementaryMotion(I, (B2, B3), OMEGA2)._single(), 0.371
     assert turning is not None
     for back, table in grid.fine_tables(turning, step, [False, True]).items():
-        rows = table[0].reshape(grid.FINE, 3, 3)
-        for j in range(grid.FINE):
+        rows = table[0].reshape(grid.FINE_TIMES, 3, 3)
+        for j in range(grid.FINE_TIMES):
             column = true(0.0, -step if back else step, j)[:, 2]
-            for found, exact in zip(rows[grid.FINE - 1 - j if back else j, :, 2] / 2, column, strict=True):
+            for found, exact in zip(rows[grid.FINE_TIMES - 1 - j if back else j, :, 2] / 2, column, strict=True):
                 with mp.workdps(40):
                     assert abs(mpf(float(found)) - exact) <= 0.5 * float(np.spacing(abs(found))) + 2.0**-72
 
@@ -108,7 +108,7 @@ def test_the_balls_grid_agrees_with_its_times() -> None:
 
 def test_grids_of_every_length_end_where_they_should(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whole and broken blocks, forward and backward, agree with single times."""
-    monkeypatch.setattr(grid, "FEW", 0)
+    monkeypatch.setattr(grid, "MIN_GRID_COUNT", 0)
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
     for count in (0, 1, 2, 63, 64, 65, 128, 3071, 3072, 3100, 7999, 8000):
         for start, step in ((0.0, 2.0**-7), (-(2.0**-7) * (count // 3), 2.0**-7), (1.0, -(2.0**-7))):

@@ -84,7 +84,7 @@ def test_marks_start_where_the_figure_has_them() -> None:
     for layout in ("wide", "narrow"):
         assert len(found[layout]["marks"]) == 8
         for _, diameter, packed in found[layout]["marks"]:
-            table = np.frombuffer(b64decode(packed), "<i2").reshape(-1, 2) / moves.FINE
+            table = np.frombuffer(b64decode(packed), "<i2").reshape(-1, 2) / moves.TABLE_STEPS
             assert diameter > 0.0
             assert (np.abs(table - 0.5) <= 0.5).all()
             assert np.ptp(table[:, 0]) > 0.2

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from atlas import programs
 from atlas.book import pandoc, toml
 from atlas.book.load import load
-from atlas.book.texts import DEEPEST, Link, Texts, deepest
+from atlas.book.texts import MAX_DEPTH, Link, Texts, deepest
 from atlas.cli.app import atlas
 from atlas.errors import AtlasError
 
@@ -47,7 +47,7 @@ def test_a_text_may_be_nested_ten_deep() -> None:
 )
 def test_a_text_nested_too_deeply_is_refused_at_once(text: str) -> None:
     """Pandoc's time doubles with each level: beyond ten the text is refused, with its place."""
-    with pytest.raises(AtlasError, match=rf"^here: .* {DEEPEST} deep"):
+    with pytest.raises(AtlasError, match=rf"^here: .* {MAX_DEPTH} deep"):
         set_in_typst(text)
 
 

@@ -19,7 +19,7 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError
 from atlas.sweeps import run, store
-from atlas.sweeps.plan import LARGEST, Plan
+from atlas.sweeps.plan import MAX_ROWS, Plan
 from atlas.sweeps.store import Table
 
 GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
@@ -368,7 +368,7 @@ def test_a_sweep_goes_on_in_other_steps(tmp_path: Path, monkeypatch: pytest.Monk
     """Another measure of the time of a row, on a busier machine, does not begin it anew: what is missing is made."""
     kept = set[str]()
     for seconds in (1e-3, 5e-3, 1e-9):
-        monkeypatch.setattr(run, "SECONDS", seconds)
+        monkeypatch.setattr(run, "PART_SECONDS", seconds)
         made(monkeypatch, 2)
         with pytest.raises(Stopped):
             atlas.sweep("elementary", GRID, ["k"], tmp_path / "t.csv", jobs=1, digits=20)
@@ -382,4 +382,4 @@ def test_a_table_beyond_all_disks_is_refused() -> None:
     many = np.linspace(1.0, 2.0, 10**5)
     with pytest.raises(AtlasError, match="1e\\+11"):
         Plan.of("elementary", GRID | {"B2": many, "omega2": many}, ["k"])
-    assert LARGEST == 10**11
+    assert MAX_ROWS == 10**11

@@ -52,10 +52,10 @@ def test_a_period_that_is_too_long_is_tried_once(monkeypatch: pytest.MonkeyPatch
         raise NotCertifiedError("not certified: too long.")
 
     monkeypatch.setattr(Torus, "_enclosed", lost)
-    for bits in (128, 160, torus.GOOD, 2 * torus.GOOD, 2 * torus.GOOD):
+    for bits in (128, 160, torus.PERIOD_BITS, 2 * torus.PERIOD_BITS, 2 * torus.PERIOD_BITS):
         with pytest.raises(NotCertifiedError, match="too long"):
             found.periods(bits)
-    assert tried == [128, torus.GOOD, 2 * torus.GOOD]
+    assert tried == [128, torus.PERIOD_BITS, 2 * torus.PERIOD_BITS]
 
 
 def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -67,8 +67,8 @@ def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> No
         return real(flow, H, F, bits, proven=proven)
 
     monkeypatch.setattr(torus.Flow, "go", go)
-    monkeypatch.setattr(torus, "GOOD", 96)
-    monkeypatch.setattr(torus, "FIRST", 90)
+    monkeypatch.setattr(torus, "PERIOD_BITS", 96)
+    monkeypatch.setattr(torus, "FIRST_FLOW_BITS", 90)
     periods = made().periods(150)
     assert gone == [(90, False), (140, False), (200, True)] * 2
     for x, y in zip(periods, true, strict=True):

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import msgspec
 
 from atlas.book.blocks.composer import Composer
-from atlas.book.schema import Pair, StrictStruct
+from atlas.book.schema import StrictStruct, TwoNumbers
 from atlas.errors import AtlasError, unknown
 from atlas.families.sliders import TIME, Slider, sliders_of
 from atlas.motions.register import FAMILIES
@@ -36,7 +36,7 @@ class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     panels: tuple[Panel, ...] = ("plane", "body")
     sliders: tuple[str, ...] = ("I", "angle", "omega2", "omega3")
     start: dict[str, float] = msgspec.field(default_factory=dict)
-    at: Pair | None = None
+    at: TwoNumbers | None = None
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,11 @@ from atlas.book.tables import compute
 from atlas.book.tables.table import Column, Data, Request
 from atlas.errors import AtlasError, unknown
 
-MOST = 1000
+MAX_DIGITS = 1000
 """As many digits of a number as a table may ask for."""
-MANY = 12
+MAX_UNBROKEN_ROWS = 12
 """As many rows as a table may have that is not broken over pages of the PDF."""
-POWER = 5.75
+POWER_WIDTH = 5.75
 """Widths of a digit that a power of ten takes."""
 COMMANDS = {
     "trial": "atlas verify --record",
@@ -39,7 +39,7 @@ class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
     sets: tuple[str, ...] = ()
     parameters: dict[str, Any] = msgspec.field(default_factory=dict)
     caption: str | None = None
-    digits: Annotated[int, msgspec.Meta(ge=1, le=MOST)] = 10
+    digits: Annotated[int, msgspec.Meta(ge=1, le=MAX_DIGITS)] = 10
 
 
 class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
@@ -101,12 +101,14 @@ class TableView:
     @property
     def tight(self) -> bool:
         """Whether its rows are single lines, of numbers or in a long table."""
-        return bool(self.name) or len(self.rows) > MANY or all(column.numeric for column in self.columns[1:])
+        return (
+            bool(self.name) or len(self.rows) > MAX_UNBROKEN_ROWS or all(column.numeric for column in self.columns[1:])
+        )
 
     @property
     def tall(self) -> bool:
         """Whether it may be broken over pages: it would leave a hole where it does not fit."""
-        return len(self.rows) > MANY
+        return len(self.rows) > MAX_UNBROKEN_ROWS
 
     @property
     def words(self) -> bool:
@@ -166,7 +168,7 @@ def _view(
                 composer.text(column.unit, inline=True) if column.unit else None,
                 bool(numbers),
                 max((room(whole) for whole, _, _ in numbers), default=0.0),
-                max((room(fraction) + POWER * bool(power) for _, fraction, power in numbers), default=0.0),
+                max((room(fraction) + POWER_WIDTH * bool(power) for _, fraction, power in numbers), default=0.0),
             )
         )
     rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)

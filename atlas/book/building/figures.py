@@ -23,7 +23,7 @@ from atlas.sources import PACKAGE, Sources, digest
 
 OUT = Path("build/figures")
 FORMATS = ("svg", "pdf", "png")
-MOST = 8
+MAX_WORKERS = 8
 """As many workers as there may be when the user does not say how many."""
 Progress = Callable[[int, int, str], None]
 
@@ -183,7 +183,7 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
 
 def cores() -> int:
     """Return how many workers there are when the user does not say: one a core, within reason."""
-    return min(processors(), MOST)
+    return min(processors(), MAX_WORKERS)
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from atlas.trial.ledger.citation import cited
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
 _POWER = re.compile(r"1e\+?(-?)0*(\d+)")
-BEST, HUGE, SMALL = 0.5, 1e3, 1e-2
+MIN_ULPS, MAX_PLAIN, MIN_PLAIN = 0.5, 1e3, 1e-2
 """Half an ulp is as good as a rounded number can be; beyond the other two a power of ten is written."""
 _LETTERS = re.compile(r"(k_hat|Omega|omega|gamma|beta|phi|a(?=\d)|[RIBKkmtyvn])(\d*)|1e(-?\d+)")
 _FORMULA = re.compile(rf"(?:{_LETTERS.pattern}|[-\d()|/^=<])+")
@@ -166,7 +166,7 @@ def _stress() -> dict[str, Data]:
         ulps, regime = worst[name]
         broken = "**limit exceeded:** " if ulps > limits.get(name, math.inf) else ""
         limit = Number(f"{limits[name]:g}") if name in limits else "none"
-        rows.append((title(name), _ulps(ulps), limit, broken + title(regime) if ulps > BEST else ""))
+        rows.append((title(name), _ulps(ulps), limit, broken + title(regime) if ulps > MIN_ULPS else ""))
     note = (
         f"Worst of {record['values']:,} values as on {len(record['processors'])} kinds of x86 processors, rounded up. "
         "Half a unit is on record where less was found."
@@ -210,14 +210,14 @@ def _ulps(worst: float) -> Number:
     """Write an error in ulps; one beyond all bounds with its power of ten."""
     if not worst:
         return Number("0")
-    return Number(f"{worst:.3f}" if worst < HUGE else f"{worst:.1e}")
+    return Number(f"{worst:.3f}" if worst < MAX_PLAIN else f"{worst:.1e}")
 
 
 def _three(value: float | None) -> str | Number:
     """Return three digits of a number, of a small one two with its power of ten; a dash for none."""
     if value is None:
         return "–"
-    return Number(f"{value:.1e}" if 0 < abs(value) < SMALL else f"{value:.3g}")
+    return Number(f"{value:.1e}" if 0 < abs(value) < MIN_PLAIN else f"{value:.3g}")
 
 
 def _words(text: str) -> str:

@@ -10,9 +10,9 @@ from atlas.book.tables.table import RATE, Data, Request, certified, column, head
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import FAMILIES
 
-MANY, LARGEST = 6, 10_000
+MAX_FRACTIONS, MAX_DENOMINATOR = 6, 10_000
 """As many fractions as are shown, and the largest denominator."""
-PRINTED = 12
+PRINTED_DIGITS = 12
 """Digits that a double has for certain, and some to spare."""
 
 
@@ -62,7 +62,8 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
         except DomainError:
             continue  # no motion has this phi/k
         shown = [
-            Number(f"{x:.{min(digits, PRINTED)}g}") for x in (motion.omega2, motion.omega2 - omega2, motion.period)
+            Number(f"{x:.{min(digits, PRINTED_DIGITS)}g}")
+            for x in (motion.omega2, motion.omega2 - omega2, motion.period)
         ]
         rows.append((f"${p}/{q}$", *shown, miss))
     if not rows:
@@ -90,12 +91,12 @@ def convergents(value: Any) -> Iterator[tuple[int, int]]:
         yield from ((-p, q) for p, q in convergents(-value))
         return
     before, now = (0, 1), (1, 0)
-    for _ in range(MANY):
+    for _ in range(MAX_FRACTIONS):
         whole = value.floor().unique_fmpz()
         if whole is None:
             return
         before, now = now, (int(whole) * now[0] + before[0], int(whole) * now[1] + before[1])
-        if now[1] > LARGEST:
+        if now[1] > MAX_DENOMINATOR:
             return
         yield now
         value = value - whole

@@ -15,10 +15,10 @@ from atlas.book.tables.table import Data, heads
 from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.places import folder
 
-GRAVITY, MOLECULE, WARM = 9.81, 4.65e-26, 300.0
+GRAVITY, MOLECULE, ROOM_TEMPERATURE = 9.81, 4.65e-26, 300.0
 """In m/s^2; the mass of a molecule of nitrogen in kg, and the temperature of the gas in K."""
 
-SMALL = 1e-3
+MIN_COMPONENT = 1e-3
 """Part of the least amplitude of a line below which a component of it is none."""
 
 NOT_SEEN = 1e-7
@@ -97,7 +97,7 @@ def lines(asked: Lines) -> Data:
             parts = [f"{n:+d} {name}" for name, n in zip(spectrum.names, whole.tolist(), strict=True) if n]
             n = np.array([0.0, np.sin(asked.inclination), np.cos(asked.inclination)])
             sizes = [float(np.linalg.norm(component)) for component in (amplitude - (amplitude @ n) * n, amplitude @ n)]
-            seen = [_three(x if x > SMALL * asked.least else 0.0) for x in sizes]
+            seen = [_three(x if x > MIN_COMPONENT * asked.least else 0.0) for x in sizes]
             rows.append(
                 (
                     Number(f"{spin:g}"),
@@ -192,8 +192,8 @@ def beyond_larmor(asked: Design) -> Data:
             for quadratic in (0.0, magnetic)
         )
         offset = abs(body.I3 - body.I2) * b * b / 2 / (mass * GRAVITY)
-        speed = sqrt(8 * BOLTZMANN * WARM / (pi * MOLECULE))
-        drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * WARM) * speed * r**4 / body.I3
+        speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
+        drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * r**4 / body.I3
         pressure = abs(own) / (2 * pi) / drag
         turns = (b / (2 * pi), own / (2 * pi), both / (2 * pi))
         rows.append(tuple(map(_three, (r, *turns, both / own, offset, pressure))))

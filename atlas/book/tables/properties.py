@@ -14,7 +14,7 @@ from atlas.errors import AtlasError, DomainError, unknown
 from atlas.motions.register import FAMILIES, Family, Quantity
 from atlas.trial.ledger import EQUATIONS
 
-SPARE = 1 << 12
+SPARE_BITS = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
 _LETTERS = re.compile(
     r"(?<![\w\\'])(?:(B)(')?(?![\w'])|(omega|Omega|alpha|beta|nu|mu|[A-Zcekmn])('?)_?(\d|(?<=_)i)(?!\w)"
@@ -169,7 +169,7 @@ def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
     if not (q.certified or q.printed or q.checked):
         return q.value(thing.kernels())  # of kernels alone
     exact = thing.balls()
-    return certified(lambda: q.value(exact, exact=True), digits, spare=SPARE)
+    return certified(lambda: q.value(exact, exact=True), digits, spare=SPARE_BITS)
 
 
 def _parts(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:

@@ -4,7 +4,7 @@ Each formula takes I2, I3, B2, B3, omega2, and `omega3` where it is free, or the
 """
 
 from atlas.arithmetic.numbers import Number, Vector, length
-from atlas.bodies.formula_domain import CASES, FREE
+from atlas.bodies.formula_domain import CASES, FREE_CASES
 from atlas.bodies.formula_integrals import along_field, integrals
 from atlas.motions.elementary.formula_hyperbola import ordinate, precession, proper
 
@@ -12,14 +12,14 @@ from atlas.motions.elementary.formula_hyperbola import ordinate, precession, pro
 def constants(
     case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
 ) -> tuple[Number, tuple[Number, Number], Number, Number]:
-    """Return omega3, which in the cases FREE is as given, a vector (x, y) along the axis, k and phi."""
+    """Return omega3, which in the cases FREE_CASES is as given, a vector (x, y) along the axis, k and phi."""
     if case == "free body":
         along = omega2, I3 * omega3 / I2
         return omega3, along, length(*along), (I2 - I3) * omega3 / I2
     if case == "spin along the field":
         return omega3, (B2, B3), omega2, omega3
     k = precession(B2, B3, omega2)
-    if case in CASES[:FREE]:
+    if case in CASES[:FREE_CASES]:
         return omega3, (B2, B3), k, omega3 + B3
     curve = I2, I3, B2, B3, omega2
     return ordinate(*curve), (B2, B3), k, proper(*curve)

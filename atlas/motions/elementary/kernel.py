@@ -27,7 +27,7 @@ from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.rotation_rows import Group
 from atlas.arithmetic.words import ZERO, exact, floats
 from atlas.bodies.body import kept_ratio, moments
-from atlas.bodies.formula_domain import CASES, FREE, case_of, check_omega3
+from atlas.bodies.formula_domain import CASES, FREE_CASES, case_of, check_omega3
 from atlas.bodies.formula_integrals import NAMES
 from atlas.bodies.integrals import integrals, shape_factors
 from atlas.errors import AtlasError, DomainError
@@ -100,9 +100,9 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         if not self.shape:
             self._single()
         else:
-            self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
+            self._refuse((self._codes == len(CASES)) | ((self._codes < FREE_CASES) & (omega3 is None)))
             if omega3 is not None:
-                self._refuse((self._codes >= FREE) & (np.asarray(given_omega3) != self.omega3))
+                self._refuse((self._codes >= FREE_CASES) & (np.asarray(given_omega3) != self.omega3))
 
     def _refuse(self, rows: Any) -> None:
         """Raise the error of the first row for which there is no motion."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from atlas.motions.nutation.kernel_general import GeneralMotion
     from atlas.motions.nutation.top_hyperbola import TopHyperbola
 
-MOST = 10**8
+MAX_POINTS = 10**8
 """Points of a curve that are sampled in one call."""
 
 
@@ -199,11 +199,11 @@ class Hyperbola(Shown):
         `points` is how many in all, spread evenly in s from where |Y| to where |X| is `reach` times |B'|, or the
         values of s themselves (for I = 1, where there is no scale, of X/|B2| = ± e^s). The first branch has X > 0.
         Each omega3 is that of the double omega2, rounded once. A straight line (B2 = 0 or B3 = 0) is spread evenly, and
-        `points` must be a number; for B = 0 there is no curve: DomainError. More than MOST points are an AtlasError.
+        `points` must be a number; for B = 0 there is no curve: DomainError. More than MAX_POINTS are an AtlasError.
         """
         points = points if isinstance(points, int) else plain(real(points, "The points"))
-        if np.ndim(points) == 0 and points > MOST:
-            raise AtlasError(f"The number of points must be at most {MOST}, not {points:g}.")
+        if np.ndim(points) == 0 and points > MAX_POINTS:
+            raise AtlasError(f"The number of points must be at most {MAX_POINTS}, not {points:g}.")
         with workprec():
             b = nearest(length(*self._exact[2:]))
         extent = positive(reach, "reach") * b

@@ -26,7 +26,7 @@ from atlas.motions.nutation.certified_spheres import Sphere
 
 
 @dataclass(frozen=True)
-class Turning:
+class TurningPoint:
     """A simple turning point e, the other roots of Q, each as often as it counts, and w at each of them."""
 
     quartic: Quartic
@@ -113,7 +113,7 @@ class Nutation:
         self.quartic, self.sphere = quartic, sphere
         self.roots = tuple(quartic.roots())
         self.real = [root.value.real for root in self.roots if root.is_real]
-        self.turnings = dict[int, Turning]()
+        self.turnings = dict[int, TurningPoint]()
 
     def solution(self, *, trigonometric: bool = False) -> Solution:
         """Return all constants, with trigonometric sums if that is asked for and there is a period."""
@@ -129,11 +129,11 @@ class Nutation:
         alpha, beta = (self._parameter(pole, origin, acb(x)) for pole, x in ((-1, c), (1, s)))
         return Solution(self.lattice, origin, alpha, beta, self.sphere.precession, self.sphere.spin)
 
-    def turning(self, place: int) -> Turning:
+    def turning(self, place: int) -> TurningPoint:
         """Return a simple real root as a turning point."""
-        return self.turnings.setdefault(place, Turning(self.quartic, self.roots, place))
+        return self.turnings.setdefault(place, TurningPoint(self.quartic, self.roots, place))
 
-    def _start(self) -> Turning:
+    def _start(self) -> TurningPoint:
         """Return the turning point next to which the motion is fast: near a separatrix, the one it comes back from."""
         low, high = self.quartic.low, self.quartic.high
         if self.roots[low].multiplicity > 1:

@@ -20,16 +20,16 @@ from atlas.arithmetic.numbers import workprec
 from atlas.errors import DomainError
 from atlas.motions.nutation.certified_cayley_klein import Solution, Sum, infinite
 
-STEP = 80
+STEP_BITS = 80
 """Binary digits of the inputs that a step leaves alone."""
 
-KNOWN = 2.0**-66
+MAX_RADIUS = 2.0**-66
 """Radius of a derivative, beside the largest of its group, with which it is good for a double."""
 
-FLAT = 2.0**-60
+MAX_SLOPE_CHANGE = 2.0**-60
 """Largest change of the slope over a step, in parts of it: the step is then far from any border."""
 
-TRIES = 6
+MAX_TRIES = 6
 
 SEPARATRIX = "On a separatrix neighbours leave the motion for good: it has no sensitivity for all times."
 
@@ -106,12 +106,12 @@ def variations(
     Far from borders one step forward in each input will do, and one backward in all, which must undo the others. Raises
     DomainError where there are none.
     """
-    h = [scale / fmpq(2) ** STEP for scale in scales]
+    h = [scale / fmpq(2) ** STEP_BITS for scale in scales]
 
     def at(moved: Sequence[int], sign: int) -> Constants:
         return make(*(x + sign * h[i] if i in moved else x for i, x in enumerate(values)))
 
-    with workprec(4 * STEP + 64):
+    with workprec(4 * STEP_BITS + 64):
         try:
             ways = [at([], 0), *(at([i], 1) for i in places), at(places, -1)]
         except DomainError:
@@ -133,8 +133,8 @@ def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int
     """Return the derivatives of constants in the input at a place, also next to a border, by central differences."""
     small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
     lost = max(0, int(small.q).bit_length() - int(small.p).bit_length())
-    bits = STEP + lost
-    for _ in range(TRIES):
+    bits = STEP_BITS + lost
+    for _ in range(MAX_TRIES):
         h = scales[place] / fmpq(2) ** bits
         with workprec(4 * bits + 64):
             differences = _differences(make, values, place, h, scales[place])
@@ -205,7 +205,8 @@ class Groups:
         bend = sizes_of(_combined((ups, downs), (1, -1)))
         largest, whole = self._largest(np.maximum(up, down)), self._largest(size)
         return bool(
-            (bend <= FLAT * (largest + np.ldexp(whole, -STEP))).all() and ((up <= FLAT * whole) | (whole == 0)).all()
+            (bend <= MAX_SLOPE_CHANGE * (largest + np.ldexp(whole, -STEP_BITS))).all()
+            and ((up <= MAX_SLOPE_CHANGE * whole) | (whole == 0)).all()
         )
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:
@@ -214,7 +215,9 @@ class Groups:
         for row, scale in slopes:
             unit = float(arb(scale).mid())
             least = np.where(size == 0, self._largest(sizes_of(row)) * unit, size)
-            if not ((radius <= KNOWN * least) & (radii_of(row) * unit <= KNOWN * least) & (least < np.inf)).all():
+            if not (
+                (radius <= MAX_RADIUS * least) & (radii_of(row) * unit <= MAX_RADIUS * least) & (least < np.inf)
+            ).all():
                 return False
         return True
 

@@ -9,12 +9,20 @@ from flint import arb, fmpq
 
 from atlas.arithmetic.numbers import dot, rational, workprec
 from atlas.errors import DomainError
-from atlas.motions.nutation.certified_derivatives import KNOWN, STEP, TRIES, FloatArray, Row, radii_of, sizes_of
+from atlas.motions.nutation.certified_derivatives import (
+    MAX_RADIUS,
+    MAX_TRIES,
+    STEP_BITS,
+    FloatArray,
+    Row,
+    radii_of,
+    sizes_of,
+)
 
 SIDES = (((1, 0, -1), (1, 0, -1)), ((0, -1, -2), (3, -4, 1)), ((0, 1, 2), (-3, 4, -1)))
 """Steps h and the weights of twice a difference: on both sides or, at the border of what bodies there are, on one."""
 
-BENT = 2.0**-30
+MAX_DERIVATIVE_CHANGE = 2.0**-30
 """Largest change of a derivative over a step, in parts of it: of a difference that errs by the square of this."""
 
 
@@ -32,7 +40,7 @@ class Differences:
         scales: Sequence[fmpq],
     ) -> None:
         self.make, self.values, self.places, self.scales = make, values, places, scales
-        self._at(STEP + 20)
+        self._at(STEP_BITS + 20)
 
     def _at(self, bits: int) -> None:
         """Make the motions beside this one in each input."""
@@ -55,7 +63,7 @@ class Differences:
     def at(self, t: float) -> tuple[FloatArray, ...]:
         """Return v and R dOmega/dp at a time, (inputs, 3) each, R e3 and its slope. DomainError if unknown."""
         time = rational(t)
-        for _ in range(TRIES):
+        for _ in range(MAX_TRIES):
             with workprec(8 * self.bits):
                 here = self._state(self.here, time)
                 R, Omega = [here[i : i + 3] for i in (0, 3, 6)], here[9:]
@@ -64,7 +72,7 @@ class Differences:
             v, faster = (np.array([[float(x.mid()) for x in row] for row in rows]) for rows in (turns, changes))
             sizes = 1 + abs(v).max(1)
             radii = np.array([radii_of(x).max() for x in turns])
-            if ((radii <= KNOWN * sizes) & (np.array(bends) <= BENT * sizes)).all():
+            if ((radii <= MAX_RADIUS * sizes) & (np.array(bends) <= MAX_DERIVATIVE_CHANGE * sizes)).all():
                 return v, faster, *(np.array([float(arb(x).mid()) for x in y]) for y in axis)
             self._at(2 * self.bits)
         raise DomainError("The motion is too near to a case of its own for derivatives.")

@@ -18,13 +18,13 @@ from atlas.motions.nutation.certified_cayley_klein import Lattice, Sum, infinite
 from atlas.motions.nutation.certified_constants import Nutation
 from atlas.motions.nutation.certified_quartic import TopQuartic
 
-MODEST = 2
+MAX_HALF_ANGLE = 2
 """Half an angle that a double holds."""
 
 STEEP = arb("0.368")
 """A k is at most exp(k STEEP), 1/e being less."""
 
-ROUGH = 80
+ROUGH_BITS = 80
 """Binary digits with which a size is found where they suffice."""
 
 
@@ -58,7 +58,7 @@ class Swing:
         """Half of its largest part that is no multiple of time, about; a bound where that is modest."""
         half = self.lattice.half
         most = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
-        if most < MODEST:
+        if most < MAX_HALF_ANGLE:
             return most
         unit = 8 / self.lattice.rate if infinite(half) else half
 
@@ -66,9 +66,9 @@ class Swing:
             sizes = [abs(self.kappa * self.oscillation(unit * k / 8)) / 2 for k in range(1, 9)]
             return max(sizes, key=lambda x: float(x.mid()))
 
-        with workprec(ROUGH):
+        with workprec(ROUGH_BITS):
             rough = found()
-        return rough if rough.rel_accuracy_bits() > ROUGH // 4 else found()
+        return rough if rough.rel_accuracy_bits() > ROUGH_BITS // 4 else found()
 
     def oscillation(self, s: arb) -> arb:
         """Return the part that is no multiple of time."""

@@ -20,16 +20,16 @@ from atlas.motions.nutation.certified_swing import Crossing as ExactCrossing
 from atlas.motions.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
 from atlas.motions.nutation.swing import Crossing, Swing
 
-FIRST = 256
+FIRST_BITS = 256
 """Binary digits with which the constants are tried first."""
 
-MOST = 1 << 17
+MAX_BITS = 1 << 17
 """Binary digits beyond which they are not tried."""
 
-FREQUENCY, WEIGHT = 2.0**-120, 2.0**-80
+FREQUENCY_RADIUS, WEIGHT_RADIUS = 2.0**-120, 2.0**-80
 """Radius to which frequencies (of the largest) and weights (of themselves) are known before they are rounded."""
 
-FAINT = 1e-70
+MIN_WEIGHT = 1e-70
 """Next to a separatrix alpha and beta may both become so small, over the common factor, that their squares vanish."""
 
 KINDS: Mapping[str, Callable[..., Functions]] = {
@@ -47,7 +47,7 @@ class CayleyKlein:
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
-        self.precision, self.sloping, self._solution = FIRST, slopes, solution
+        self.precision, self.sloping, self._solution = FIRST_BITS, slopes, solution
         while not self._are_constants_known(solution, self.precision):
             self.precision = _doubled(self.precision)
 
@@ -69,7 +69,9 @@ class CayleyKlein:
                 parts = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
                 parts += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
                 sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in parts]
-                if all(_radius(x) <= WEIGHT * float(y) for four, y in zip(parts, sizes, strict=True) for x in four):
+                if all(
+                    _radius(x) <= WEIGHT_RADIUS * float(y) for four, y in zip(parts, sizes, strict=True) for x in four
+                ):
                     return [float(x.mid()) for four in parts for x in four]
             precision = _doubled(precision)
 
@@ -98,7 +100,7 @@ class CayleyKlein:
             self.values = np.concatenate([_real_parts(table, largest) for table in tables])
             self.lost = self._lost(tables[0])
             least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
-            self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
+            self.faint = bool(least < MIN_WEIGHT or lattice.reach > -np.log(MIN_WEIGHT))
         return True
 
     @cached_property
@@ -128,9 +130,9 @@ class CayleyKlein:
 
 def _doubled(precision: int) -> int:
     """Return twice the precision. Raises DomainError where more digits are hopeless."""
-    if 2 * precision > MOST:
+    if 2 * precision > MAX_BITS:
         raise DomainError(
-            f"The constants of this motion are not known with {MOST} binary digits: it is too near to a case of "
+            f"The constants of this motion are not known with {MAX_BITS} binary digits: it is too near to a case of "
             "its own, as is a separatrix, or its rates are of sizes too different."
         )
     return 2 * precision
@@ -170,7 +172,9 @@ def _reducible(turns: list[arb], origin: arb) -> bool:
     if not all(x.is_finite() for x in turns):
         return False
     scale = max(abs(x) for x in turns)
-    return all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) and bool(_radius(origin) <= FREQUENCY)
+    return all(_radius(x) <= FREQUENCY_RADIUS * scale.mid() for x in turns) and bool(
+        _radius(origin) <= FREQUENCY_RADIUS
+    )
 
 
 def _weights(solution: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
@@ -197,7 +201,7 @@ def _radius(x: arb) -> float:
 def _is_known(x: acb, largest: arb) -> bool:
     """Whether a weight is known to itself, or too small to matter."""
     radius = max(_radius(x.real), _radius(x.imag))
-    return radius <= WEIGHT * float(abs(x).mid()) or radius <= WEIGHT**2 * float(largest)
+    return radius <= WEIGHT_RADIUS * float(abs(x).mid()) or radius <= WEIGHT_RADIUS**2 * float(largest)
 
 
 def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:

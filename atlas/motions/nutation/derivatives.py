@@ -19,12 +19,12 @@ from atlas.arithmetic.inputs import FloatArray
 from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_derivatives import Variation
 from atlas.motions.nutation.certified_differences import Differences
-from atlas.motions.nutation.derivatives_pair import Array, Pair
+from atlas.motions.nutation.derivatives_pair import Array, VariedPair
 
 BLOCK = 2048
 """Times at once: products of so few the library does not thread."""
 
-MUCH, LOST = 256.0, 4096.0
+LARGE_TERM, LOST_TERM = 256.0, 4096.0
 """Sizes of terms in v, beside 1 and beside 1 + |v|, from which they may cancel, and from which they do too much."""
 
 
@@ -37,7 +37,9 @@ class Weighted:
     inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its own, besides.
     """
 
-    def __init__(self, pair: Pair, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> None:
+    def __init__(
+        self, pair: VariedPair, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
+    ) -> None:
         self.pair, self.axes, self.names = pair, left @ pair.axes, names
         self.parts = []
         for i, table in enumerate(pair.tables):
@@ -55,7 +57,7 @@ class Weighted:
         self.sizes = np.column_stack([sizes @ abs(columns) + abs(spun), fixed])
         self.weights = [sizes @ (abs(x[2:].real) + abs(x[2:].imag)) for x in pair.tables]
         sizes = sum(x.sum(1) for x in self.weights) + self.sizes[:, 3::4].max(1)
-        self.cancels = pair.hyperbolic or not (sizes < MUCH).all()
+        self.cancels = pair.hyperbolic or not (sizes < LARGE_TERM).all()
 
     def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
         """Return v at times (m,), (3, N, m), dv/dt if asked for; and the sizes of v's terms, (N, m), 0 if all small."""
@@ -103,7 +105,7 @@ class Weighted:
                 changes = ((vectors[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
                 vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], changes)
         basis_size = abs(basis[0]).max(0)
-        if not self.cancels and (self.sizes @ basis_size.max(1)).max() < LOST:
+        if not self.cancels and (self.sizes @ basis_size.max(1)).max() < LOST_TERM:
             return vectors, 0.0
         terms = sum(x @ abs(y) for x, y in zip(self.weights, f, strict=True)) * 2 / np.sqrt(square)
         return vectors, terms + self.sizes @ basis_size
@@ -151,7 +153,7 @@ class Varied:
     """
 
     def __init__(self, variations: Sequence[Variation], differences: Callable[[], Differences]) -> None:
-        self.pairs = [(group, Pair([variations[i] for i in group])) for group in _alike(variations)]
+        self.pairs = [(group, VariedPair([variations[i] for i in group])) for group in _alike(variations)]
         self._make = differences
 
     @cached_property
@@ -186,7 +188,7 @@ class Varied:
                         x[block] = y.transpose(2, 1, 0)
             if not np.any(terms):
                 continue
-            alone = ~(terms <= LOST * (1 + abs(out[0][block]).max(2).T)).all(0)
+            alone = ~(terms <= LOST_TERM * (1 + abs(out[0][block]).max(2).T)).all(0)
             for j in (i + np.flatnonzero(alone)).tolist():
                 v, faster, axis, more = self.differences.at(float(t[j]))
                 out[0][j] = names @ v @ left.T + turns + np.outer(spins, left @ axis)

@@ -15,13 +15,13 @@ from atlas.motions.nutation.certified_derivatives import Tables, TooNearError, V
 NEGLIGIBLE = 2.0**-64
 """Part of the largest term of a sum below which a term is left out."""
 
-SERIES, SMALL = 14, 0.1
+SERIES_TERMS, MAX_SERIES_ARGUMENT = 14, 0.1
 """Terms of the series in A u^2 of the derivative in A of the integral of nu, and up to where it is taken."""
 
 Array: TypeAlias = np.ndarray[Any, Any]
 
 
-class Pair:
+class VariedPair:
     """alpha and beta of one motion in doubles, with their derivatives in several inputs, at any time."""
 
     def __init__(self, variations: Sequence[Variation]) -> None:
@@ -129,7 +129,7 @@ class Pair:
 class Swing:
     """What the integral of nu adds to the turn about a top's axis, and its derivatives."""
 
-    def __init__(self, value: Tables, slopes: Sequence[Tables], pair: Pair) -> None:
+    def __init__(self, value: Tables, slopes: Sequence[Tables], pair: VariedPair) -> None:
         self.pair, self.A = pair, float(value["A"][0].mid())
         self.kappa, self.twist = (_double(value[x]).real[0] for x in ("swing", "twist"))
         kappas, twists, constants, As, rates = (
@@ -177,10 +177,10 @@ class Swing:
         if A:
             integral = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
         by_A = (o * e / (e * e - A * o * o) - integral / 2) / A if A else 2 * (o / e) ** 3 / 3
-        near = abs(A) * o * o < SMALL * e * e
+        near = abs(A) * o * o < MAX_SERIES_ARGUMENT * e * e
         u = o[near] / e[near]
         square, series = A * u * u, np.zeros(u.size)
-        for n in range(SERIES, 0, -1):
+        for n in range(SERIES_TERMS, 0, -1):
             series = series * square + 2 * n / (2 * n + 1)
         by_A[near] = series * u**3
         return integral, by_A

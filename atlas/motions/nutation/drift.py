@@ -25,13 +25,13 @@ from atlas.bodies.body import moments
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 
-NODES, MOST = 16, 4096
+FIRST_NODES, MAX_NODES = 16, 4096
 """Points of the midpoint rule that are tried first, and most of them."""
 
 TOLERANCE, SETTLED = 1e-9, 1e-12
 """Relative error of the steps, and of the averages."""
 
-NARROW, WITHIN_A_STEP = 1e-6, 1e-2
+MIN_WIDTH, WITHIN_A_STEP = 1e-6, 1e-2
 """Width of a nutation that is none, and what a steady motion may lack of its energy; within a step that is tried."""
 
 
@@ -163,7 +163,7 @@ def _start(motion: Any) -> tuple[Body, FloatArray, float]:
         if not size:
             raise DomainError("A body without a field has no direction: take a TopMotion with no coupling.")
         body, b = Body(1.0, I3 / I2, size, size * I3 / I2, 0.0, 0.0), b / size
-    if np.hypot(b[0], b[1]) < NARROW:
+    if np.hypot(b[0], b[1]) < MIN_WIDTH:
         raise DomainError("The axis stands along the field, where a nutation has no phase to average over.")
     J, k, nu = np.array([body.I2, body.I2, body.I3]), np.array([body.k2, body.k2, body.k3]), float(b[2])
     h = (J * Omega * Omega).sum() / 2 + body.linear * nu + body.quadratic * nu * nu / 2
@@ -174,7 +174,7 @@ def _start(motion: Any) -> tuple[Body, FloatArray, float]:
 class Averages:
     """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and what varies with it."""
 
-    def __init__(self, body: Body, state: FloatArray, near: float, lacking: float = NARROW) -> None:
+    def __init__(self, body: Body, state: FloatArray, near: float, lacking: float = MIN_WIDTH) -> None:
         self.body, self.state = body, state
         (I2, I3, k2, k3, a, A), (h, M3, p) = body, state
         # I2 nu'^2/(1 - nu^2) + ..., by powers of nu
@@ -188,7 +188,7 @@ class Averages:
         low, high = self.ends
         self.middle, half = (low + high) / 2, (high - low) / 2
         rest = np.polydiv(Q, np.polymul([1.0, -low], [-1.0, high]))[0]
-        count, before = NODES, np.full(3, np.nan)
+        count, before = FIRST_NODES, np.full(3, np.nan)
         more = np.array([0.0, abs(k2 / I2) + abs(M3 / I2), abs(M3) + abs(p)])
         while True:
             s = (np.arange(count) + 0.5) * (np.pi / count)
@@ -204,7 +204,7 @@ class Averages:
             if np.all(abs(means - before) <= SETTLED * (abs(means) + more)):
                 break
             count, before = 2 * count, means
-            if count > MOST or not np.isfinite(self.period):
+            if count > MAX_NODES or not np.isfinite(self.period):
                 raise DomainError(
                     "The motion comes to a separatrix or a pole, where averaging over its nutation fails."
                 )
@@ -222,11 +222,13 @@ class Averages:
 def _turning_points(Q: FloatArray, near: float, lacking: float) -> tuple[float, float]:
     """Return the two roots of Q between -1 and 1 that enclose a nu or are next to it; of a steady motion one twice."""
     roots = np.roots(Q)
-    inside = np.sort(roots.real[(abs(roots.imag) < NARROW) & (abs(roots.real) < 1 + NARROW)].clip(-1.0, 1.0))
-    pairs = [(float(x), float(y)) for x, y in pairwise(inside) if np.polyval(Q, (x + y) / 2) > 0 or y - x < NARROW]
+    inside = np.sort(roots.real[(abs(roots.imag) < MIN_WIDTH) & (abs(roots.real) < 1 + MIN_WIDTH)].clip(-1.0, 1.0))
+    pairs = [(float(x), float(y)) for x, y in pairwise(inside) if np.polyval(Q, (x + y) / 2) > 0 or y - x < MIN_WIDTH]
     if not pairs:  # a step may leave a steady motion less energy than the least
         extremes = np.roots(np.polyder(Q))
-        tops = [x.real for x in extremes if abs(x.imag) < NARROW and abs(x) < 1 and np.polyval(np.polyder(Q, 2), x) < 0]
+        tops = [
+            x.real for x in extremes if abs(x.imag) < MIN_WIDTH and abs(x) < 1 and np.polyval(np.polyder(Q, 2), x) < 0
+        ]
         if not tops or np.polyval(Q, tops).max() < -lacking * abs(Q).max():
             raise DomainError("There is no motion with these constants: the drift is too fast for averages.")
         top = float(min(tops, key=lambda x: abs(x - near)))

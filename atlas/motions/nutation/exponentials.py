@@ -12,16 +12,16 @@ from atlas.arithmetic.words import middle, turn_of
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_cayley_klein import Parameter, infinite
 
-FINE = 128
+FINE_TIMES = 128
 """Times in the fine table."""
 
-CANCELLING = 8.0
+MAX_CANCELLATION = 8.0
 """The sums are used where the weights exceed what they leave at any time by no more than this factor."""
 
-STEEP = 6.0
+MAX_PERIOD_RATIO = 6.0
 """Ratio of the real to the imaginary period from which on the sums are not even tried."""
 
-TERMS = 24
+MAX_TERMS = 24
 """Exponentials beyond which the product would cost more than it saves."""
 
 NEGLIGIBLE = 2.0**-60
@@ -47,9 +47,9 @@ class Exponentials:
         return Phases(self._turned(step), self._turned(start))
 
     def fine(self, step: fmpq) -> FloatArray:
-        """Return z_m exp(i f_m j step), j < FINE, as rows for cos and for sin of the coarse phase, (2 M, 2, FINE)."""
-        phases, work = Phases(self._turned(step)), room(len(self.turns), FINE)
-        half, rest, sign, _ = phases.angles(np.arange(float(FINE)), work)
+        """Return z_m exp(i f_m j step), j < FINE_TIMES, rows for cos and sin of coarse phases, (2 M, 2, FINE_TIMES)."""
+        phases, work = Phases(self._turned(step)), room(len(self.turns), FINE_TIMES)
+        half, rest, sign, _ = phases.angles(np.arange(float(FINE_TIMES)), work)
         angle = 2 * (half.astype(np.longdouble) + rest)
         z = 2 * self.weights[:, None] * (sign * np.cos(angle) + 1j * (sign * np.sin(angle))).astype(complex)
         return np.concatenate([np.stack([z.real, z.imag], 1), np.stack([-z.imag, z.real], 1)])
@@ -68,13 +68,13 @@ def exponentials(exact: Nutating, precision: int) -> tuple[Exponentials, Exponen
             return None
         if (
             not (infinite(solution.lattice.half) or infinite(solution.lattice.imaginary))
-            and float(solution.lattice.half / solution.lattice.imaginary) > STEEP
+            and float(solution.lattice.half / solution.lattice.imaginary) > MAX_PERIOD_RATIO
         ):
             return None
         parts = (solution.alpha, solution.beta)
         unit = max(abs(x.factor * w) for x in parts for w in (*x.sum.odd, *x.sum.even))
         pair = Exponentials(solution.alpha, solution.origin, unit), Exponentials(solution.beta, solution.origin, unit)
-    return pair if all(len(x.turns) <= TERMS for x in pair) and cancelling(*pair) <= CANCELLING else None
+    return pair if all(len(x.turns) <= MAX_TERMS for x in pair) and cancelling(*pair) <= MAX_CANCELLATION else None
 
 
 def cancelling(alpha: Exponentials, beta: Exponentials) -> float:

@@ -21,10 +21,10 @@ from atlas.motions.nutation.certified_cayley_klein import Solution, Sum, infinit
 NEGLIGIBLE = 2.0**-58
 """Part of the first term below which a term is left out."""
 
-SATURATED = 700.0
+MAX_EXPONENT = 700.0
 """From there on exp(-x) is nothing beside one, and exp x nearly infinite."""
 
-RAISED = 2.0**500
+SECH_SCALE = 2.0**500
 """What sech x is multiplied by where x leaves that range: one of alpha and beta may be as small as it is there."""
 
 
@@ -111,7 +111,7 @@ class Hyperbolic:
             first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
             self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
         self.line = Line(slope, start)
-        self.distant = words(self.reach, 2) if self.periodic and self.reach > SATURATED else None
+        self.distant = words(self.reach, 2) if self.periodic and self.reach > MAX_EXPONENT else None
         self.sech = any(sum_.doubled for sum_ in sums)
         polynomials = [self._polynomials(sum_) for sum_ in sums]
         self.powers = max(self._needed(weights) for weights in polynomials)
@@ -124,7 +124,7 @@ class Hyperbolic:
         if not self.sech:
             return polynomial
         if sum_.doubled and self.distant:
-            polynomial = [x / RAISED for x in polynomial]
+            polynomial = [x / SECH_SCALE for x in polynomial]
         return none + polynomial if sum_.doubled else polynomial + none
 
     def _needed(self, weights: list[acb]) -> int:
@@ -142,7 +142,7 @@ class Hyperbolic:
     def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
         """Fill the rows (m, N) from x + rest, both (N,)."""
         # m = exp|x| - 1 keeps its digits for small and large x; what x lacks is added to first order
-        m = np.expm1(np.minimum(np.abs(x), SATURATED))
+        m = np.expm1(np.minimum(np.abs(x), MAX_EXPONENT))
         up = m + WHOLE
         rest = np.copysign(1.0, x) * rest
         lacking = rest * up
@@ -172,7 +172,7 @@ class Hyperbolic:
             down *= over
             down *= 2.0
             if self.distant:
-                down *= RAISED * np.exp(np.minimum(SATURATED - np.abs(x), 0.0))
+                down *= SECH_SCALE * np.exp(np.minimum(MAX_EXPONENT - np.abs(x), 0.0))
             n = 2 * self.powers
             np.multiply(rows[:n], down, out=rows[n : 2 * n])
 
@@ -210,7 +210,7 @@ class Line:
         self.start, self.start_rest = words(start, 2)
         head = self.slope * SPLITTER - (self.slope * SPLITTER - self.slope)
         self.halves = float(head), float(self.slope - head)
-        self.longest = (2 * SATURATED + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
+        self.longest = (2 * MAX_EXPONENT + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
     def at(self, t: FloatArray, rest: FloatArray | float) -> tuple[FloatArray, FloatArray]:
         """Return x at t + rest, and what rounding left out of it."""

@@ -24,35 +24,35 @@ from atlas.arithmetic.numbers import rational
 from atlas.arithmetic.phase import Phases, room
 from atlas.arithmetic.rotation import BLOCK, combined
 from atlas.motions.nutation.cayley_klein import Evaluation, Products
-from atlas.motions.nutation.exponentials import FINE, Exponentials
+from atlas.motions.nutation.exponentials import FINE_TIMES, Exponentials
 from atlas.motions.nutation.single import SingleMotion
 
-COARSE = 34
+COARSE_TIMES = 34
 """Coarse times in one product."""
 
-GROUP = 16 * COARSE
+GROUP = 16 * COARSE_TIMES
 """Coarse times whose exponentials are made at once."""
 
-FEW = 100_000
+MIN_TABLE_COUNT = 100_000
 """Shorter grids do without: their tables would cost more."""
 
 NODES, LENGTHS = 16, (512, 384, 256, 192, 128, 96, 64)
 """Times at which polynomials are made, and numbers of times that they may serve."""
 
-SMOOTH = 2.0**-50
+MAX_LAST_COEFFICIENT = 2.0**-50
 """Largest of their last two coefficients: those left out are far smaller then."""
 
-TURNED, TRIED, MANY = 3.0, 60, 375
+MAX_WINDOW_TURN, MAX_WINDOWS_TRIED, WINDOWS_AT_ONCE = 3.0, 60, 375
 """Angle by which all phases together turn in a window that is tried at most, windows tried, and windows at once."""
 
-SHORT = 8000
+MIN_GRID_COUNT = 8000
 """Shorter grids are evaluated time by time."""
 
 
-CLOSE = 2.0**-20
+NEAR_ZERO_TIME = 2.0**-20
 """Part of the longest time below which a time is near zero."""
 
-TINY = 2.0**-900
+MIN_TIME_DIGIT = 2.0**-900
 """Last digit of the times from which on none of their products is lost."""
 
 
@@ -63,18 +63,18 @@ def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) 
         return
     check_grid(start, step, count, motion.parts.phases.reach)
     grid = Grid(motion, start, step)
-    length = window(grid, count) if count >= SHORT else 0
+    length = window(grid, count) if count >= MIN_GRID_COUNT else 0
     if length:
         fill_windows(grid, length, out)
         return
-    sums = motion.exponentials if count >= FEW else None
+    sums = motion.exponentials if count >= MIN_TABLE_COUNT else None
     if sums is None:
         fill_each(grid, out)
         return
-    blocks, rest = divmod(count, FINE)
-    fill_products(motion, sums, rational(start), rational(step), out[: blocks * FINE])
+    blocks, rest = divmod(count, FINE_TIMES)
+    fill_products(motion, sums, rational(start), rational(step), out[: blocks * FINE_TIMES])
     if rest:
-        fill_each(grid, out[count - rest :], blocks * FINE)
+        fill_each(grid, out[count - rest :], blocks * FINE_TIMES)
     if step and 0 <= (first := -rational(start) / rational(step)) < count:
         i = int(first.ceil())
         fill_each(grid, out[i : i + 1], i)
@@ -105,8 +105,15 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
     first, last = (start + step * float(index[i]) for i in (0, -1))
     far = max(abs(first), abs(last))
     digit = 2.0 ** (frexp(far)[1] - 52)
-    away = start == 0 or far == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
-    if not (abs(start) <= far <= phases.near and digit > TINY and (away or abs(step) > 2 * CLOSE * far)):
+    away = (
+        start == 0
+        or far == 0
+        or first / far > NEAR_ZERO_TIME < last / far
+        or -first / far > NEAR_ZERO_TIME < -last / far
+    )
+    if not (
+        abs(start) <= far <= phases.near and digit > MIN_TIME_DIGIT and (away or abs(step) > 2 * NEAR_ZERO_TIME * far)
+    ):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low
     origin, stride = (round(x / digit) * digit for x in (start, step))
@@ -116,7 +123,7 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
         low = index * (step - stride)
         low += start - origin
         i = 0 if away else np.abs(times).argmin()
-        if start and abs(times[i]) <= CLOSE * far:
+        if start and abs(times[i]) <= NEAR_ZERO_TIME * far:
             moment = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
             times[i], low[i] = moment.hi, moment.low
     return times, low
@@ -167,7 +174,7 @@ class Windows:
         index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
         values = self.values[: index.size]
         self.grid.fill(self.evaluation, index.reshape(-1), values)
-        smooth = np.abs(self.last @ values.reshape(NODES, -1)).max() <= SMOOTH
+        smooth = np.abs(self.last @ values.reshape(NODES, -1)).max() <= MAX_LAST_COEFFICIENT
         return values.reshape(NODES, j - i, 9).swapaxes(0, 1), bool(smooth)
 
 
@@ -175,8 +182,8 @@ def window(grid: Grid, count: int) -> int:
     """Return how many times a polynomial may serve, by what the first windows show; zero if too few to be worth it."""
     angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.parts.frequencies)
     for length in LENGTHS:
-        size = min(count // length, TRIED)
-        if length * angle <= TURNED and Windows(grid, length, size).at(0, size)[1]:
+        size = min(count // length, MAX_WINDOWS_TRIED)
+        if length * angle <= MAX_WINDOW_TURN and Windows(grid, length, size).at(0, size)[1]:
             return length
     return 0
 
@@ -186,42 +193,42 @@ def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
     rows, count = out.reshape(-1, 9), len(out) // length
 
     def fill(low: int, high: int) -> None:
-        windows = Windows(grid, length, min(high - low, MANY))
-        for i in range(low, high, MANY):
-            j = min(i + MANY, high)
+        windows = Windows(grid, length, min(high - low, WINDOWS_AT_ONCE))
+        for i in range(low, high, WINDOWS_AT_ONCE):
+            j = min(i + WINDOWS_AT_ONCE, high)
             values, smooth = windows.at(i, j)
             if smooth:
                 np.matmul(windows.table, values, out=rows[i * length : j * length].reshape(j - i, length, 9))
             else:
                 fill_each(grid, out[i * length : j * length], i * length)
 
-    shared(fill, count, MANY, length)
+    shared(fill, count, WINDOWS_AT_ONCE, length)
     fill_each(grid, out[count * length :], count * length)
 
 
 def fill_products(
     motion: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
 ) -> None:
-    """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE."""
-    phases = [x.coarse(start, step * FINE) for x in sums]
+    """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE_TIMES."""
+    phases = [x.coarse(start, step * FINE_TIMES) for x in sums]
     tables = [np.ascontiguousarray(x.fine(step).swapaxes(0, 1)) for x in sums]
     rows = out.reshape(-1, 9)
 
     def fill(low: int, high: int) -> None:
         """Fill the blocks low to high."""
-        q, products = np.empty((4, COARSE, FINE)), Products(COARSE * FINE)
+        q, products = np.empty((4, COARSE_TIMES, FINE_TIMES)), Products(COARSE_TIMES * FINE_TIMES)
         for i in range(low, high, GROUP):
             j = min(i + GROUP, high)
             coarse = [circles(x, np.arange(float(i), float(j))) for x in phases]
-            for k in range(i, j, COARSE):
-                m = min(COARSE, j - k)
+            for k in range(i, j, COARSE_TIMES):
+                m = min(COARSE_TIMES, j - k)
                 for place, (functions, table) in enumerate(zip(coarse, tables, strict=True)):
                     for half in (0, 1):
                         np.matmul(functions[k - i : k - i + m], table[half], out=q[place + 2 * half, :m])
-                matrices = products.of_pair(q[:, :m].reshape(4, m * FINE))
-                combined(matrices, motion.entries, rows[k * FINE : (k + m) * FINE])
+                matrices = products.of_pair(q[:, :m].reshape(4, m * FINE_TIMES))
+                combined(matrices, motion.entries, rows[k * FINE_TIMES : (k + m) * FINE_TIMES])
 
-    shared(fill, len(out) // FINE, GROUP, FINE)
+    shared(fill, len(out) // FINE_TIMES, GROUP, FINE_TIMES)
 
 
 def circles(phases: Phases, i: FloatArray) -> FloatArray:

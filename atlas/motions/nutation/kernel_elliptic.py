@@ -10,7 +10,7 @@ from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, ke
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.bodies.clebsch_integrals import conserved
 from atlas.motions.nutation.certified_elliptic import EllipticMotion as Balls
-from atlas.motions.nutation.constants import FIRST
+from atlas.motions.nutation.constants import FIRST_BITS
 from atlas.motions.nutation.kernel import NutatingMotion
 from atlas.motions.nutation.rows_elliptic import EllipticAtTimes, EllipticBlocks, EllipticScalars
 from atlas.motions.nutation.rows_scalars import IN_ARRAYS
@@ -23,7 +23,7 @@ CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
 
 def balls(*row: float) -> Balls:
     """Return one motion as balls: I1, I2, I3, B1, B2, B3, z, branch."""
-    with workprec(FIRST):
+    with workprec(FIRST_BITS):
         return Balls(row[:3], row[3:6], *row[6:])
 
 

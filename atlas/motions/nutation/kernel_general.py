@@ -13,7 +13,7 @@ from atlas.bodies.certified_body import Moments
 from atlas.bodies.formula_integrals import NAMES, constants
 from atlas.bodies.integrals import integrals, shape_factors
 from atlas.motions.nutation.certified_general import GeneralMotion as Balls
-from atlas.motions.nutation.constants import FIRST
+from atlas.motions.nutation.constants import FIRST_BITS
 from atlas.motions.nutation.kernel import SymmetricMotion
 from atlas.motions.nutation.rows_scalars import IN_ARRAYS, KINDS
 from atlas.motions.nutation.single import SingleGeneral
@@ -24,7 +24,7 @@ CONSTANTS = (*NAMES[:4], "(M,B')")
 
 def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
     """Return the motion with R(0) = 1 from the field and the angular velocity in the body, six exact numbers."""
-    with workprec(FIRST):
+    with workprec(FIRST_BITS):
         return SingleGeneral(Balls.at_state(Moments(I2, I3), state[3:], state[:3]))
 
 

@@ -18,7 +18,7 @@ from atlas.bodies.units import system
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.nutation.certified_top import TopMotion as Balls
 from atlas.motions.nutation.certified_top_steady import SteadyPrecession
-from atlas.motions.nutation.constants import FIRST
+from atlas.motions.nutation.constants import FIRST_BITS
 from atlas.motions.nutation.kernel import SymmetricMotion
 from atlas.motions.nutation.rows import TopsAtTimes
 from atlas.motions.nutation.rows_blocks import TopBlocks
@@ -30,7 +30,7 @@ from atlas.surfaces.kernel import TopQuadric
 
 def balls(*row: float) -> Balls:
     """Return one motion as balls: I2, I3, k2, k3, n2, n3, the three components of omega, linear, quadratic."""
-    with workprec(FIRST):
+    with workprec(FIRST_BITS):
         return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
 
 

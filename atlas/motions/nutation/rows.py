@@ -12,21 +12,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, largest
-from atlas.arithmetic.phase import LIMIT, Phases, room
-from atlas.arithmetic.rotation_rows import LOST, REACH
+from atlas.arithmetic.phase import MAX_PHASE, Phases, room
+from atlas.arithmetic.rotation_rows import MAX_FREQUENCY, MAX_LOST_PHASE
 from atlas.lazy import cached_property
-from atlas.motions.nutation.rows_blocks import KNOWN, Block, Blocks, Constants
-from atlas.motions.nutation.rows_pair import Pair, multiples
+from atlas.motions.nutation.rows_blocks import WEIGHT_RADIUS, Block, Blocks, Constants
+from atlas.motions.nutation.rows_pair import SpherePair, multiples
 from atlas.motions.nutation.rows_spheres import sphere_of_velocity
 from atlas.motions.nutation.rows_swing import TURN_ERROR, Swings
 
-CANCELLING = 6.0
-"""By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `Pairs`."""
+MAX_CANCELLATION = 6.0
+"""Largest ratio of the weights to alpha and beta: keeps entries of R within 1e-14, see `CayleyKleinAtTimes`."""
 
-SMALL = 3.0
+MAX_OMEGA3_CHANGE = 3.0
 """By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
 
-FAST = 16.0
+MAX_RATE_TERMS = 16.0
 """By how much the sizes of what the rates are sums of may exceed the largest rate: up to 12 they were within 3 ulp."""
 
 
@@ -46,9 +46,9 @@ class Third(NamedTuple):
 def _velocity(block: Block) -> tuple[Constants, Third]:
     """Return the constants of the angular velocity of a block, and those of its third component."""
     r = block.roots
-    pair = Pair(block.means, sphere_of_velocity(r))
+    pair = SpherePair(block.means, sphere_of_velocity(r))
     constants, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
-    return constants._replace(is_certain=constants.is_certain & (change.size.rel < KNOWN)), Third(
+    return constants._replace(is_certain=constants.is_certain & (change.size.rel < WEIGHT_RADIUS)), Third(
         np.ldexp(r.omega[2].hi, block.exponents),
         np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
         np.ldexp(change.size.hi, block.exponents),
@@ -135,12 +135,12 @@ class MotionsAtTimes:
         pair.vector(out, first=1)
         out[:, 2] = pair.third(third)
         pair.turn_back(out)
-        self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * largest(out)))
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > MAX_OMEGA3_CHANGE * largest(out)))
 
-    def _pair(self, constants: Constants, swings: Swings | None = None) -> "Pairs":
+    def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
         """Return a pair, and keep which motions it does not hold."""
         own = self._taken(swings) if swings and swings.twisted[self._index].any() else None
-        pair = Pairs(self._taken(constants), self._times, own)
+        pair = CayleyKleinAtTimes(self._taken(constants), self._times, own)
         self.extreme = pair.extreme
         return pair
 
@@ -163,16 +163,17 @@ class TopsAtTimes(MotionsAtTimes):
         pair = self._pair(constants, swings)
         bound = velocity(pair, out)
         out *= np.stack([pair.constants.azimuth[0], pair.constants.azimuth[0], np.ones(len(out))], -1)
-        slow = bound > FAST * swings.fastest[self._index]
+        slow = bound > MAX_RATE_TERMS * swings.fastest[self._index]
         self.extreme = np.union1d(self.extreme, np.flatnonzero(slow))
 
 
-class Pairs:
-    """Pairs in a row, each at one time; `extreme` are the places of those that have to be made alone.
+class CayleyKleinAtTimes:
+    """alpha and beta of motions paired with times; `extreme` holds the indices that need the scalar path.
 
     alpha and beta are known to 4 u (u = 2^-53) of the sum of the sizes of their weights, times F: 2 u for cos y and
     sin y, 1/2 u for a weight, 3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below
-    CANCELLING times the length of (alpha, beta), each entry of R is within 2 sqrt(2) 4 u CANCELLING + 10 u = 8.7e-15.
+    MAX_CANCELLATION times the length of (alpha, beta), each entry of R is within
+    2 sqrt(2) 4 u MAX_CANCELLATION + 10 u = 8.7e-15.
     Of tops `swings` add what the integral of nu turns; `kappa` is as it is in Omega3.
     """
 
@@ -191,15 +192,19 @@ class Pairs:
             self.square = (self.pair.real**2 + self.pair.imag**2).sum(axis=0)
             sizes = abs(c.rates)
             good = (
-                c.is_certain & (c.weight <= CANCELLING * np.sqrt(self.square)) & (abs(c.sizes) > 1 / REACH).all(axis=0)
+                c.is_certain
+                & (c.weight <= MAX_CANCELLATION * np.sqrt(self.square))
+                & (abs(c.sizes) > 1 / MAX_FREQUENCY).all(axis=0)
             )
-            good &= ((c.lack * abs(t) <= LOST) & (sizes * abs(t) <= LIMIT) & (sizes < REACH)).all(axis=0)
+            good &= ((c.lack * abs(t) <= MAX_LOST_PHASE) & (sizes * abs(t) <= MAX_PHASE) & (sizes < MAX_FREQUENCY)).all(
+                axis=0
+            )
             if swings:
                 turn, error = swings.half(half, t)
                 both = np.cos(turn).astype(float) + 1j * np.sin(turn).astype(float)
                 for x in (self.pair, self.turned):
                     x[:] = np.where(swings.twisted, x * [both, both.conj()], x)
-                long = abs(c.words[0, :2] * t).max(axis=0) > LIMIT / np.pi
+                long = abs(c.words[0, :2] * t).max(axis=0) > MAX_PHASE / np.pi
                 good &= ~(swings.twisted & (long | ~(error < TURN_ERROR)))
             self.extreme = np.flatnonzero(~good)
 
@@ -270,7 +275,7 @@ def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
     return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])
 
 
-def velocity(pair: Pairs, out: FloatArray) -> FloatArray:
+def velocity(pair: CayleyKleinAtTimes, out: FloatArray) -> FloatArray:
     """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
     c, rates = pair.constants, pair.constants.rates
     with np.errstate(all="ignore"):

@@ -13,21 +13,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen, constant, stacked
+from atlas.arithmetic.double_double import BLOCK, MAX_INPUT, DoubleDouble, blocks, chosen, constant, stacked
 from atlas.arithmetic.given import broadcast, ldexp, part
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.rotation_rows import PER_RADIAN
 from atlas.lazy import cached_property
 from atlas.motions.nutation.rows_means import Means
-from atlas.motions.nutation.rows_pair import TERMS, Pair
+from atlas.motions.nutation.rows_pair import MAX_TERMS, SpherePair
 from atlas.motions.nutation.rows_roots import Roots, in_plane, roots_of, roots_of_tops
 from atlas.motions.nutation.rows_spheres import sphere_of_field
 from atlas.motions.nutation.rows_swing import Swings, SwingSums, swing_sums
 
-SPREAD = 2.0**-60
+MIN_FREQUENCY_RATIO = 2.0**-60
 """Least part of the largest frequency that another one is, if it is not zero."""
 
-KNOWN = 2.0**-57
+WEIGHT_RADIUS = 2.0**-57
 """Radius to which weights are known before they are rounded."""
 
 
@@ -35,9 +35,9 @@ class Constants(NamedTuple):
     """Constants of the pairs of motions in a row, the last axis of each.
 
     `words` (2, 3, m) and `lack` (3, m) are the frequencies l of alpha and beta and M in half turns, in two words, and
-    what they may be off; `rates` (3, m) the same in radians. `even` and `odd` (TERMS, 2, m), of which `terms` matter,
-    `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos
-    and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
+    what they may be off; `rates` (3, m) the same in radians. `even` and `odd` (MAX_TERMS, 2, m), of which `terms`
+    matter, `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m)
+    are cos and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
     """
 
     words: FloatArray
@@ -71,9 +71,9 @@ class Block:
         return Means(self.roots)
 
     @cached_property
-    def pair(self) -> Pair:
+    def pair(self) -> SpherePair:
         """Pair of the axis and of the field."""
-        return Pair(self.means, sphere_of_field(self.roots))
+        return SpherePair(self.means, sphere_of_field(self.roots))
 
     @cached_property
     def swing(self) -> SwingSums | None:
@@ -107,15 +107,19 @@ class Block:
             words=np.where(twisted, words, constants.words), lack=np.where(twisted, lack, constants.lack)
         )
 
-    def constants_of(self, pair: Pair) -> Constants:
+    def constants_of(self, pair: SpherePair) -> Constants:
         """Return the constants of a pair."""
         r, means, sphere = self.roots, pair.means, pair.sphere
         (words, lack), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
         even, odd, terms, *_ = pair.sums
         factor, lost = pair.factors
-        known = ((lost < KNOWN) & (pair.zeros.growth.rel < KNOWN)).all(axis=0) & (means.nome.rel < KNOWN)
+        known = ((lost < WEIGHT_RADIUS) & (pair.zeros.growth.rel < WEIGHT_RADIUS)).all(axis=0) & (
+            means.nome.rel < WEIGHT_RADIUS
+        )
         known &= (
-            np.isfinite(lack).all(axis=0) & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < KNOWN) & (terms <= TERMS)
+            np.isfinite(lack).all(axis=0)
+            & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < WEIGHT_RADIUS)
+            & (terms <= MAX_TERMS)
         )
         return Constants(
             words,
@@ -208,7 +212,7 @@ def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:
     """
     with np.errstate(all="ignore"):
         I2, _, k2, k3, n2, n3, *omega, linear, quadratic = columns
-        plain = np.logical_and.reduce([(x == 0) | ((abs(x) > 1 / ORDINARY) & (abs(x) < ORDINARY)) for x in columns])
+        plain = np.logical_and.reduce([(x == 0) | ((abs(x) > 1 / MAX_INPUT) & (abs(x) < MAX_INPUT)) for x in columns])
         if plain.all():
             return [None] * len(columns), 0
         body, length = _exponent(I2, plain), _exponent(np.maximum(abs(n2), abs(n3)), plain)
@@ -227,4 +231,4 @@ def _exponent(x: FloatArray, plain: Any) -> Any:
 def _alike(sizes: Sequence[Any]) -> Any:
     """Return where the least number that is not zero is not too small beside the largest."""
     x = np.array(sizes)
-    return np.where(x == 0, np.inf, x).min(axis=0) >= SPREAD * x.max(axis=0)
+    return np.where(x == 0, np.inf, x).min(axis=0) >= MIN_FREQUENCY_RATIO * x.max(axis=0)

@@ -20,19 +20,19 @@ import numpy as np
 from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.lazy import cached_property
-from atlas.motions.nutation.rows import MotionsAtTimes, Pairs
-from atlas.motions.nutation.rows_blocks import KNOWN, Block, Blocks, Constants
-from atlas.motions.nutation.rows_pair import Pair
-from atlas.motions.nutation.rows_roots import Turning, poles_of
+from atlas.motions.nutation.rows import CayleyKleinAtTimes, MotionsAtTimes
+from atlas.motions.nutation.rows_blocks import WEIGHT_RADIUS, Block, Blocks, Constants
+from atlas.motions.nutation.rows_pair import SpherePair
+from atlas.motions.nutation.rows_roots import TurningPoints, poles_of
 from atlas.motions.nutation.rows_scalars import HALF_TURN, Rounded, Scalars, of_period, rounded
 from atlas.motions.nutation.rows_spheres import Sphere, half_angles
 
-PLANE = 1 + 1e-12
+PLANE_FACTOR = 1 + 1e-12
 """Factor to the largest moment from which on a body is all but plane, and whether it is one is told exactly."""
 
 
 @dataclass(frozen=True)
-class EllipticRoots(Turning):
+class EllipticRoots(TurningPoints):
     """The turning points of u + K_a, with what else the sphere of K takes, for rows (m,).
 
     `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
@@ -133,12 +133,12 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     L = -(square * sides[0] * sides[1])
     sizes = np.array([np.broadcast_to(y.hi, shape) for y in I])
     certain = [
-        (sizes > 0).all(0) & (2 * PLANE * sizes.max(0) < sizes.sum(0)) & (abs(branch.hi) == 1),  # there is a motion
+        (sizes > 0).all(0) & (2 * PLANE_FACTOR * sizes.max(0) < sizes.sum(0)) & (abs(branch.hi) == 1),  # it moves
         *(y.rel < 0.5 for y in x), square.hi > 0,
         (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
         np.count_nonzero(np.broadcast_arrays(*(y.hi for y in K)), axis=0) > 1,
         w.hi < 0, w.rel < 0.5,
-        *(y.rel < KNOWN for y in rates),  # next to rest they are differences of what is all but one
+        *(y.rel < WEIGHT_RADIUS for y in rates),  # next to rest they are differences of what is all but one
     ]  # fmt: skip
     return EllipticRoots(
         rate=v * first * second * z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
@@ -178,11 +178,11 @@ class EllipticBlock(Block):
     roots: EllipticRoots  # type: ignore[assignment]  # what both have is a Turning
 
     @cached_property
-    def pair(self) -> Pair:
+    def pair(self) -> SpherePair:
         """Pair of the axis a, on the sphere of K."""
         r = self.roots
         length, half = r.b.hi, r.precession.scaled(-1)
-        return Pair(
+        return SpherePair(
             self.means,
             Sphere(
                 roots=r,
@@ -255,7 +255,7 @@ class EllipticAtTimes(MotionsAtTimes):
         rates = [np.broadcast_to(rate.hi, r.elliptic.shape) for rate in r.rates]
         return block.constants, Axes(r.frame, np.array(rates))
 
-    def _pair(self, constants: Constants, _: Any = None) -> Pairs:
+    def _pair(self, constants: Constants, _: Any = None) -> CayleyKleinAtTimes:
         """Return the pair, and keep which motions it does not hold."""
         return super()._pair(constants)
 

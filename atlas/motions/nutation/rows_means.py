@@ -9,12 +9,12 @@ from typing import Any
 
 from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant
 from atlas.lazy import cached_property
-from atlas.motions.nutation.rows_roots import Turning
+from atlas.motions.nutation.rows_roots import TurningPoints
 
-MEANS = 12
+MAX_MEANS = 12
 """Steps of the means in two words."""
 
-ENOUGH = 2.0**-107
+MEANS_TOLERANCE = 2.0**-107
 """Difference of the means, in parts of them, below which they are one."""
 
 Circle = tuple[DoubleDouble, DoubleDouble]
@@ -39,13 +39,13 @@ class Level:
     @cached_property
     def is_merged(self) -> Any:
         """Where both means are one."""
-        return ~(self.difference.hi > ENOUGH * self.a.hi)
+        return ~(self.difference.hi > MEANS_TOLERANCE * self.a.hi)
 
 
 class Means:
     """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; the start."""
 
-    def __init__(self, roots: Turning) -> None:
+    def __init__(self, roots: TurningPoints) -> None:
         self.roots = roots
         r, (f0, f1, f2) = roots, roots.f
         low, high = r.ends[0], r.ends[1]
@@ -66,7 +66,7 @@ class Means:
         both = a + g
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
         levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / both, larger * smaller, both)]
-        while len(levels) < MEANS and not levels[-1].is_merged.all():
+        while len(levels) < MAX_MEANS and not levels[-1].is_merged.all():
             last = levels[-1]
             a, g = last.sum.scaled(-1), last.product.sqrt()
             both, square = a + g, last.difference * last.difference

@@ -21,13 +21,13 @@ from atlas.arithmetic.double_double import (
 )
 from atlas.arithmetic.inputs import FloatArray
 from atlas.lazy import cached_property
-from atlas.motions.nutation.rows_means import ENOUGH, Circle, Level, Means
+from atlas.motions.nutation.rows_means import MEANS_TOLERANCE, Circle, Level, Means
 from atlas.motions.nutation.rows_spheres import Sphere
 
-STEPS = 60
+MAX_MEANS = 60
 """Steps of what is made along with the means."""
 
-TERMS = 9
+MAX_TERMS = 9
 """Most terms of a sum."""
 
 NEGLIGIBLE = 2.0**-58
@@ -46,7 +46,7 @@ class Zeros(NamedTuple):
 
 
 class Sums(NamedTuple):
-    """Weights of cos k y and i sin k y, (TERMS, 2, m), how many matter, and the sums at the start.
+    """Weights of cos k y and i sin k y, (MAX_TERMS, 2, m), how many matter, and the sums at the start.
 
     `ends` are the sums where Omega3 is `low` and `high`, without i: those of `even`, and of `odd` with signs by turns.
     """
@@ -59,7 +59,7 @@ class Sums(NamedTuple):
 
 
 class Change(NamedTuple):
-    """Omega3 - omega3 is size S(M t) S(M t + 2 y0)/(|alpha|^2 + |beta|^2), S the sum of weights (TERMS, m) sin k y.
+    """Omega3 - omega3 is size S(M t) S(M t + 2 y0)/(|alpha|^2 + |beta|^2), S the sum of weights (MAX_TERMS, m) sin k y.
 
     Both zeros are real: so the change keeps its digits where Omega3 is small beside its largest values.
     """
@@ -69,7 +69,7 @@ class Change(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Pair:
+class SpherePair:
     """alpha and beta of a sphere."""
 
     means: Means
@@ -96,7 +96,7 @@ class Pair:
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
         first = m.levels[0]
         x = chosen(first.difference.hi == 0, constant(0.0, d), first.difference / d)
-        levels = [m.level(n) for n in range(STEPS + 1)]
+        levels = [m.level(n) for n in range(MAX_MEANS + 1)]
         total, product = _steps(levels, p, d, x, Q)
         return Q + total + ONE, ((p + first.a) / d * product).sqrt().sqrt()
 
@@ -134,11 +134,11 @@ class Pair:
         up, sign = zeros.growth, np.where(zeros.beside, -1.0, 1.0)
         down, weight, power = ONE / up, constant(1.0, self.means.nome), constant(1.0, self.means.nome)
         more, less = up * up, down * down
-        even, odd = np.zeros((2, TERMS, *up.hi.shape))
+        even, odd = np.zeros((2, MAX_TERMS, *up.hi.shape))
         terms, matters = np.ones(weight.hi.shape, dtype=int), np.ones(weight.hi.shape, dtype=bool)
         zero = constant(0.0, up)
         sums, ends = (zero, zero), (zero, zero)
-        for n, circle in zip(range(TERMS), multiples(*self.means.start), strict=False):
+        for n, circle in zip(range(MAX_TERMS), multiples(*self.means.start), strict=False):
             flip = self._signs[n] * np.where(zeros.beside, (-1.0) ** n, 1.0)
             weights, lower = signed(weight, flip), signed(down, sign)
             # a term that does not matter in a row is none of it, whatever the rows beside it need
@@ -158,7 +158,7 @@ class Pair:
     @cached_property
     def _signs(self) -> list[Any]:
         """Signs of the powers of the nome."""
-        return [np.where(self.means.four, 1.0, (-1.0) ** (n * (n + 1) // 2)) for n in range(TERMS)]
+        return [np.where(self.means.four, 1.0, (-1.0) ** (n * (n + 1) // 2)) for n in range(MAX_TERMS)]
 
     @cached_property
     def change(self) -> Change:
@@ -166,8 +166,8 @@ class Pair:
         r, square = self.means.roots, self.means.nome * self.means.nome
         weight, power = constant(1.0, square), constant(1.0, square)
         zero = constant(0.0, square)
-        weights, at_low, at_high = np.zeros((TERMS, *square.hi.shape)), zero, zero
-        count = min(int(self.sums.terms.max(initial=1)), TERMS)
+        weights, at_low, at_high = np.zeros((MAX_TERMS, *square.hi.shape)), zero, zero
+        count = min(int(self.sums.terms.max(initial=1)), MAX_TERMS)
         for n, (cos, sin) in zip(range(count), multiples(*self.means.start), strict=False):
             signs = self._signs[n]
             weight = chosen(self.sums.terms > n, weight, zero)
@@ -198,7 +198,7 @@ class Pair:
     def _by_slopes(self) -> Any:
         """The same where alpha or beta is zero at the start: by its derivative."""
         cos, sin = (x.hi for x in self.means.start)
-        terms = zip(range(1, 2 * TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
+        terms = zip(range(1, 2 * MAX_TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin), strict=False)
         slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
         return self.sphere.slopes / (2 * self.means.rate.hi * slopes)
 
@@ -225,7 +225,7 @@ def _steps(
     by_product = d * (d + m.difference) / p.scaled(1)
     half = (p + m.product / p).scaled(-1)
     p, d = better(after.a + by_product, half), better(half - after.a, by_product)
-    going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
+    going = (np.maximum(abs(Q.hi), x.hi) > MEANS_TOLERANCE).any(axis=0)
     ended = DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
     if not going.any() or len(levels) == 2:
         return ended

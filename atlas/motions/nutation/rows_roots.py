@@ -26,10 +26,10 @@ from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.words import words
 from atlas.lazy import cached_property
 
-STEPS = 60
+MAX_ROOT_STEPS = 60
 """Most steps to a turning point in doubles; next to a double root more would be needed."""
 
-NEWTON = 2.0**-24
+MAX_LAST_STEP = 2.0**-24
 """Largest last step, in parts of the root and of the distance to the next, that one Newton step makes good."""
 
 ROUNDING = 2.0**-98
@@ -37,7 +37,7 @@ ROUNDING = 2.0**-98
 
 
 @dataclass(frozen=True)
-class Turning:
+class TurningPoints:
     """Turning points `low` <= 0 <= `high`, where `exact`, and the other factor of Q, f0, f1, f2; f < 0 between them.
 
     `poles` (2, m) are where nu, the cosine of the angle between axis and field, is -1 and 1; `rate` that of v at 0.
@@ -93,7 +93,7 @@ class Turning:
 
 
 @dataclass(frozen=True)
-class Roots(Turning):
+class Roots(TurningPoints):
     """The turning points of motions, with what else their spheres take; `a` and `top` of tops alone.
 
     `moving`, `steady` are where theta is certain to vary, or not to; `b` is the length of (n2, n3), I c3 the momentum
@@ -293,7 +293,7 @@ def _first(q: FloatArray, reach: FloatArray, still: Any) -> FloatArray:
     q = np.where(still, np.concatenate([q[1:], 0 * q[:1]]), q)
     roots, rows = np.zeros_like(reach), np.arange(reach.size)
     v = roots
-    for n in range(STEPS):
+    for n in range(MAX_ROOT_STEPS):
         value = np.maximum((((q[4] * v + q[3]) * v + q[2]) * v + q[1]) * v + q[0], 0.0)
         slope = ((4 * q[4] * v + 3 * q[3]) * v + 2 * q[2]) * v + q[1]
         places = v, reach, np.clip(-q[3] / (4 * q[4]), v, reach)
@@ -332,5 +332,5 @@ def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:
     error = 2 * lost / abs(slope) + abs(step) * (2.0**-48 * slopes / abs(slope) + 4 * steep**2)
     hi = v - step
     lo = (v - hi) - step
-    rel = np.where((v == 0) & (q0 == 0), 0.0, np.where(steep < NEWTON, error / abs(hi), np.inf))
+    rel = np.where((v == 0) & (q0 == 0), 0.0, np.where(steep < MAX_LAST_STEP, error / abs(hi), np.inf))
     return DoubleDouble(np.where(v == 0, 0.0, hi), np.where(v == 0, 0.0, lo), rel)

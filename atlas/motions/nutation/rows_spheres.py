@@ -12,7 +12,7 @@ import numpy as np
 from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.lazy import cached_property
-from atlas.motions.nutation.rows_roots import Roots, Turning
+from atlas.motions.nutation.rows_roots import Roots, TurningPoints
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Sphere:
     first; `sizes` are the factors from the unit sphere to the vector, across the axis and, with a sign, along it.
     """
 
-    roots: Turning
+    roots: TurningPoints
     poles: DoubleDouble
     torques: DoubleDouble
     amplitudes: DoubleDouble

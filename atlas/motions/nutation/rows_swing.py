@@ -18,17 +18,17 @@ import numpy as np
 from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant, signed
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.rotation_rows import PER_RADIAN
-from atlas.motions.nutation.rows_means import ENOUGH, Circle, Means
-from atlas.motions.nutation.rows_pair import TERMS
+from atlas.motions.nutation.rows_means import MEANS_TOLERANCE, Circle, Means
+from atlas.motions.nutation.rows_pair import MAX_TERMS
 from atlas.motions.nutation.rows_roots import Roots, Top
 
-STEPS = 60
+MAX_MEANS = 60
 """Most steps of the means."""
 
-KNOWN = 2.0**-64
+PHASE_RADIUS = 2.0**-64
 """Radius to which the phase at t = 0 is known before it is rounded."""
 
-FAINT = 2.0**-72
+NEGLIGIBLE = 2.0**-72
 """Part of the first term below which a term is left out."""
 
 TURN_ERROR = 2.0**-53
@@ -41,7 +41,7 @@ LAST = float(np.finfo(np.longdouble).eps)
 
 
 class SwingSums(NamedTuple):
-    """The rate, and the weights of cos 2 n y in E and of sin 2 n y in O, (TERMS, m), y the phase since nu was largest.
+    """The rate, and the weights of cos 2 n y in E and of sin 2 n y in O, (MAX_TERMS, m); y is 0 at the largest nu.
 
     `known` bounds the relative error of the weights.
     """
@@ -77,7 +77,7 @@ class Swings(NamedTuple):
     def of(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
         """Return it for the tops of a block."""
         A, kappa, (cos, sin) = r.A, top.kappa, means.start
-        nothing = np.zeros((TERMS, *A.hi.shape), dtype=np.longdouble)
+        nothing = np.zeros((MAX_TERMS, *A.hi.shape), dtype=np.longdouble)
         sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))
         size = np.sqrt(abs(extended(A)))
         start = np.array([extended(cos * cos - sin * sin), extended((cos * sin).scaled(1))])
@@ -94,7 +94,7 @@ class Swings(NamedTuple):
             before=nothing[0],
             slope=abs(kappa.hi) * r.width.hi / means.rate.hi,
             lack=np.ldexp(turns.hi * turns.rel, exponents),
-            known=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < KNOWN, sums.known, np.inf),
+            known=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < PHASE_RADIUS, sums.known, np.inf),
             fastest=np.ldexp(top.rates, exponents),
         )
         return swings._replace(before=swings.half_of(*start)[0])
@@ -110,7 +110,7 @@ class Swings(NamedTuple):
         """Return half the turn from cosine and sine of 2 y, and its error."""
         even, odd, first, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
         lost_even, lost_odd = abs(self.even[0]), 0 * abs(sin)
-        for n in range(1, TERMS):
+        for n in range(1, MAX_TERMS):
             if not (self.even[n].any() or self.odd[n].any()):
                 break
             even, odd = even + self.even[n] * first[0], odd + self.odd[n] * first[1]
@@ -130,20 +130,20 @@ def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
     size = abs(A).sqrt()
     cos, sin = angle_of_infinity(means, A, size)
     sense = np.where(beside, -1.0, 1.0)
-    even, odd = np.zeros((2, TERMS, *nu.hi.shape), dtype=np.longdouble)
+    even, odd = np.zeros((2, MAX_TERMS, *nu.hi.shape), dtype=np.longdouble)
     even[0] = 1
     one, zero = constant(1.0, nu), constant(0.0, nu)
     first, before, twice = (cos, sin), (one, zero), cos.scaled(1)
     weight, power, total, slope = means.nome.scaled(1), means.nome, one, zero
     matters, known = np.ones(nu.hi.shape, dtype=bool), np.zeros(nu.hi.shape)
-    for n in range(1, TERMS):
+    for n in range(1, MAX_TERMS):
         c, s = _on_lattice(n, first, size, means.four)
         a, b = (chosen(matters, weight * x, zero) for x in (c, signed(s, -sense)))
         total, slope = total + a, slope + b.scaled(1) * constant(float(n), b)
         turned = np.where(beside, (-1.0) ** n, 1.0)
         even[n], odd[n] = extended(a) * turned, extended(b) * turned
         known = np.where(matters, np.fmax(known, np.fmax(a.rel, b.rel)), known)
-        matters &= weight.hi * np.maximum(abs(c.hi), size.hi * abs(s.hi)) > FAINT
+        matters &= weight.hi * np.maximum(abs(c.hi), size.hi * abs(s.hi)) > NEGLIGIBLE
         if not matters.any():
             break
         power = power * square
@@ -178,12 +178,12 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
     e, h = chosen(means.four, broad, lean / size), chosen(means.four, lean, size * broad)
     root = m[0].difference.sqrt()
     whole, turns, ended = (h / root, e / root), list[Circle](), list[Any]()
-    for n in range(STEPS):
+    for n in range(MAX_MEANS):
         level, after = means.level(n), means.level(n + 1)
         twice, product = p.scaled(1), e * h
         unit = (twice * after.sum).sqrt()
         turns.append(((p + after.g) / unit, -(product / unit)))
-        ended.append(level.is_merged & (abs(turns[-1][1].hi) * size.hi < ENOUGH))
+        ended.append(level.is_merged & (abs(turns[-1][1].hi) * size.hi < MEANS_TOLERANCE))
         if ended[-1].all():
             break
         root = twice.sqrt()

@@ -23,7 +23,7 @@ from atlas.motions.nutation.cayley_klein import Evaluation, entries
 from atlas.motions.nutation.certified import Nutating
 from atlas.motions.nutation.certified_general import GeneralMotion
 from atlas.motions.nutation.certified_top import TopMotion
-from atlas.motions.nutation.constants import FIRST, CayleyKlein
+from atlas.motions.nutation.constants import FIRST_BITS, CayleyKlein
 from atlas.motions.nutation.exponentials import Exponentials, exponentials
 
 BITS = 60
@@ -58,7 +58,7 @@ class SingleMotion:
     def _tilt(self) -> list[float]:
         """Cosine and sine of theta(0), and of chi(0)."""
         # at the precision of the other constants, which share the sphere
-        c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST - 64)
+        c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], FIRST_BITS - 64)
         with workprec(2 * BITS):  # else it would be that of the caller
             return [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
 
@@ -145,11 +145,11 @@ class SingleMotion:
         return evaluate(real(t, "The time"), shape, out, prepare)
 
 
-NEAR, SLENDER = 2.3, 1.45
+MAX_OMEGA3_RATIO, MAX_SLENDER_RATIO = 2.3, 1.45
 """By how much the largest value that Omega3 could have may exceed the largest component of Omega at a time, and, of the
 largest Omega across the axis, where it never does: sqrt(1/I) for I > 0.48."""
 
-FEW = 16
+BALL_BLOCK = 16
 """Times for which balls are made at once."""
 
 
@@ -175,16 +175,16 @@ class SingleGeneral(SingleMotion):
         parts, weights, across, along = self.velocity
         Omega = self._linear(weights, t, (3,), out, parts)
         # Omega3 is within some u of the largest that it could be; of a slender body that exceeds all there is of Omega
-        if along > SLENDER * across:
+        if along > MAX_SLENDER_RATIO * across:
             rows = Omega.reshape(-1, 3)
-            small = np.flatnonzero(along > NEAR * largest(rows))
+            small = np.flatnonzero(along > MAX_OMEGA3_RATIO * largest(rows))
             rows[small, 2] = self._third(np.ravel(real(t, "The time"))[small])
         return Omega
 
     def _third(self, t: FloatArray) -> FloatArray:
         """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""
         out, left = np.empty((t.size, 3)), np.arange(t.size)
-        if t.size > FEW:
+        if t.size > BALL_BLOCK:
             from atlas.motions.nutation.rows import MotionsAtTimes, Rows
             from atlas.motions.nutation.rows_blocks import Blocks
 

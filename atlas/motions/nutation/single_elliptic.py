@@ -13,7 +13,7 @@ from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.single import BITS, SingleMotion
 
-WITHIN = 3.6e-15
+MAX_ERROR = 3.6e-15
 """Bound on errors of entries of R, and of the vector that turns like K, beside its length."""
 
 
@@ -38,7 +38,7 @@ class SingleElliptic(SingleMotion):
 
     def accuracy(self, size: float) -> float:
         """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
-        return float(WITHIN * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
+        return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""

@@ -22,21 +22,21 @@ Numbers: TypeAlias = NDArray[Any]
 NEGLIGIBLE, ACCURATE = 2.0**-60, 2.0**-60
 """Part of the first term below which a term is left out, and of itself to which a term is known before rounding."""
 
-MERGED = 2.0**-500
+MERGED_KAPPA = 2.0**-500
 """Part of kappa, a frequency like sqrt(|A|), below which that is so small that the function `at` is its argument."""
 
-FAR = 18.0
+MAX_EXP_ARGUMENT = 18.0
 """From there on exp(2 x) + 1 is exp(2 x)."""
 
 
 HALF_TURN = 4 * np.arctan(np.longdouble(1))
 """pi in extended precision."""
 
-LARGE, STEEP = 2.0, 16.0
+MAX_DOUBLE_ANGLE, MAX_DOUBLE_SLOPE = 2.0, 16.0
 """Angle, and change of it by a radian of the phase, from which on a double is too coarse, and extended precision is
 taken where the processor has it."""
 
-ALLOWED = 2.0**-54
+MAX_LAST_DIGIT = 2.0**-54
 """Last digit of half the turn, in radians, beyond which that is too coarse as well, and balls are taken."""
 
 
@@ -49,15 +49,15 @@ class Swing:
     def __init__(self, exact: Exact) -> None:
         lattice, size = exact.lattice, abs(exact.A).sqrt()
         largest, steepest = exact.largest, exact.steepest
-        self.type = np.longdouble if not (largest < LARGE and steepest < STEEP) else np.float64
+        self.type = np.longdouble if not (largest < MAX_DOUBLE_ANGLE and steepest < MAX_DOUBLE_SLOPE) else np.float64
         self.form, self.reach = lattice.form, lattice.reach
-        merged = not size > MERGED * abs(exact.kappa)
+        merged = not size > MERGED_KAPPA * abs(exact.kappa)
         self.sign = 0 if merged else 1 if exact.A > 0 else -1
         self.factor = self._number(exact.kappa if merged else exact.kappa / size)
         if not infinite(lattice.half):
             self.twist = self._number(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
             steepest += abs(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
-        self.is_coarse = self.is_large and not (steepest + largest) * float(np.finfo(self.type).eps) < ALLOWED
+        self.is_coarse = self.is_large and not (steepest + largest) * float(np.finfo(self.type).eps) < MAX_LAST_DIGIT
         odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
         odd = odd if merged else [x * size for x in odd]
         count = max(self._needed(odd), self._needed(even))
@@ -141,10 +141,10 @@ class Swing:
             rest += np.exp(2 * n * x - (k + 1) * d + fallen + 2 * nearer)
             rest += np.exp(2 * n * d - (k + 1) * x + fallen + 2 * nearer)
         ratio = odd / rest
-        near = np.log1p(ratio * np.exp(2 * np.minimum(nearer, FAR)))
+        near = np.log1p(ratio * np.exp(2 * np.minimum(nearer, MAX_EXP_ARGUMENT)))
         with np.errstate(divide="ignore"):
             far = np.log(ratio) + 2 * nearer
-        return np.asarray(np.where(nearer < FAR, near, far) / 2)
+        return np.asarray(np.where(nearer < MAX_EXP_ARGUMENT, near, far) / 2)
 
     def _at(self, odd: Numbers, even: Numbers) -> Numbers:
         """Return the turn of O and E."""
@@ -160,7 +160,7 @@ class Crossing:
 
     def __init__(self, exact: ExactCrossing) -> None:
         self.sense, self.factor = exact.sense, float((exact.kappa / (2 * exact.slope)).mid())
-        self.is_coarse = not abs(self.factor) < LARGE
+        self.is_coarse = not abs(self.factor) < MAX_DOUBLE_ANGLE
 
     def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
         """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""

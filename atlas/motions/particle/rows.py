@@ -27,7 +27,7 @@ from atlas.motions.particle import formula as particle
 SERIES = np.array([(-1) ** n / factorial(2 * n + 3) for n in range(12, -1, -1)])
 """Coefficients of (x - sin x)/x^3 in powers of x^2, highest first: to the last digit for |x| < 2."""
 
-TINY = 2.0**-500
+MIN_ARGUMENT = 2.0**-500
 """Below it, 0 included, each function is its limit to far less than an ulp, while x^2 would underflow."""
 
 
@@ -49,7 +49,7 @@ class Gyration:
 
 def gyration(x: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> Gyration:
     """Return the functions at x (m,), given cos x, sin x and 1 - cos x, found from a better reduced x than x itself."""
-    tiny = np.abs(x) < TINY
+    tiny = np.abs(x) < MIN_ARGUMENT
     divisor = np.where(tiny, 1.0, x)
     s, g = sin / divisor, versine / divisor
     f, h = g / divisor, (1.0 - s) / divisor
@@ -68,7 +68,7 @@ CASES = (
 KINDS = (
     "parabola", "straight line", "point", "circle", "cycloid", "prolate trochoid", "curtate trochoid",
 )  # fmt: skip
-ELSEWHERE = (1.0, 0.0, 0.0, 1.0)
+FREE_PARTICLE = (1.0, 0.0, 0.0, 1.0)
 """mu and B of the particle that stands in the formulas for one without a magnetic force, which is set right after."""
 
 TOO_LARGE = {
@@ -84,7 +84,7 @@ class Charge:
         self.inputs, self.mu, self.y0 = inputs, inputs[0], np.array(inputs[11:])
         self.force = (self.mu != 0) & _any(inputs[5:8])
         self.driven = (self.mu != 0) & _any(inputs[2:5])
-        mu, *B = (np.where(self.force, x, y) for x, y in zip((self.mu, *inputs[5:8]), ELSEWHERE, strict=True))
+        mu, *B = (np.where(self.force, x, y) for x, y in zip((self.mu, *inputs[5:8]), FREE_PARTICLE, strict=True))
         self.safe = [mu, *inputs[1:5], *B, *inputs[8:]]
         with np.errstate(over="ignore"):
             _check(self.mu * np.array(inputs[2:5]), "The acceleration mu E")

@@ -24,8 +24,8 @@ from atlas.arithmetic.numbers import workprec
 from atlas.errors import NotCertifiedError
 from atlas.motions.torus.approximate_periods import (
     BITS,
-    EACH,
-    FINE,
+    PATHS_PER_ZERO,
+    RELATION_BITS,
     Curve,
     Integrals,
     complex_of,
@@ -35,19 +35,19 @@ from atlas.motions.torus.approximate_periods import (
     sums,
 )
 
-WHOLE = 1e-9
+INTEGER_TOLERANCE = 1e-9
 """How near to whole numbers the coefficients of a conjugate period are."""
 
-MORE, FEWEST = 8, 4
+MAX_PATHS_PER_ZERO, MIN_PATHS = 8, 4
 """Paths for each zero where fewer do not give all periods, and the fewest that may."""
 
-PARTS = 100
+MAX_PATH_PARTS = 100
 """Parts of all paths from which on no more paths are gone: it takes long, and relations stay unseen."""
 
-AREAS, SLIGHT = 160, 8
+AREA_BITS, AREA_INTEGER_BITS = 160, 8
 """Bits of areas in the search for the polarization, and of an integer there: near symmetry its values are large."""
 
-TURNS = 60
+MAX_REDUCTIONS = 60
 """Rounds of Siegel's reduction at most."""
 
 Whole = NDArray[np.int64]
@@ -87,11 +87,11 @@ def lattice(motion: Integrals) -> Lattice:
     with workprec(BITS):
         curve = Curve(motion)
         try:
-            return _of_paths(curve, EACH)
+            return _of_paths(curve, PATHS_PER_ZERO)
         except NotCertifiedError:
-            if sum(len(list(curve.parts(*path))) for path in curve.paths(EACH)) > PARTS:
+            if sum(len(list(curve.parts(*path))) for path in curve.paths(PATHS_PER_ZERO)) > MAX_PATH_PARTS:
                 raise
-            return _of_paths(curve, MORE)
+            return _of_paths(curve, MAX_PATHS_PER_ZERO)
 
 
 def _of_paths(curve: Curve, each: int) -> Lattice:
@@ -99,7 +99,7 @@ def _of_paths(curve: Curve, each: int) -> Lattice:
     ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(each)
     for path in paths:
         ways.append(list(curve.along(*path)))
-        if len(ways) >= FEWEST:
+        if len(ways) >= MIN_PATHS:
             try:
                 gone = zip(paths, ways, strict=False)
                 return replace(_of_ways(ways), paths=tuple((*ends, way[0]) for ends, way in gone))
@@ -140,7 +140,9 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
             "not certified: the periods found for the motion's torus depend on one another."
         ) from error
     whole = np.array([[round(float(conjugation[i, j].mid())) for j in range(4)] for i in range(4)])
-    if not all(abs(float(conjugation[i, j].mid()) - whole[i, j]) < WHOLE for i in range(4) for j in range(4)):
+    if not all(
+        abs(float(conjugation[i, j].mid()) - whole[i, j]) < INTEGER_TOLERANCE for i in range(4) for j in range(4)
+    ):
         raise NotCertifiedError(
             "not certified: the periods found for the motion's torus are no lattice with conjugates."
         )
@@ -150,7 +152,7 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
 def _real_first(conjugation: Whole) -> list[list[int]]:
     """Return a basis of the lattice whose first two are a basis of its real periods."""
     rows = [
-        [*(int(x) << FINE for x in row), *(int(i == j) for j in range(4))]
+        [*(int(x) << RELATION_BITS for x in row), *(int(i == j) for j in range(4))]
         for i, row in enumerate(conjugation - np.eye(4, dtype=int))
     ]
     reduced = [[int(x) for x in row] for row in fmpz_mat(rows).lll().tolist()]
@@ -167,7 +169,7 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
     zeta = np.linalg.solve(np.array([a1, a2 / 2]).T, vectors[:2].T)
     gram = (zeta.conj().T @ np.linalg.solve(_riemann(vectors, basis).imag, zeta)).real
     rows = np.eye(2, dtype=int)
-    for _ in range(TURNS):
+    for _ in range(MAX_REDUCTIONS):
         (first, both), (_, second) = rows @ gram @ rows.T
         if second < first:
             rows = rows[::-1]
@@ -183,14 +185,17 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
     areas = [periods[i][0] * periods[j][1] - periods[i][1] * periods[j][0] for i, j in PAIRS]
     size = max(abs(complex_of(x)) for x in areas)
     rows = [
-        [*(nearest(y / size * arb(2) ** AREAS) for y in (x.real, x.imag)), *(int(i == j) << SLIGHT for j in range(6))]
+        [
+            *(nearest(y / size * arb(2) ** AREA_BITS) for y in (x.real, x.imag)),
+            *(int(i == j) << AREA_INTEGER_BITS for j in range(6)),
+        ]
         for i, x in enumerate(areas)
     ]
     for row in fmpz_mat(rows).lll().tolist():
-        whole = [int(x) >> SLIGHT for x in row[2:]]
+        whole = [int(x) >> AREA_INTEGER_BITS for x in row[2:]]
         n = dict(zip(PAIRS, whole, strict=True))
         pfaffian = n[0, 1] * n[2, 3] - n[0, 2] * n[1, 3] + n[0, 3] * n[1, 2]
-        if max(abs(int(x)) for x in row[:2]) > 1 << AREAS // 2 or abs(pfaffian) != 2:
+        if max(abs(int(x)) for x in row[:2]) > 1 << AREA_BITS // 2 or abs(pfaffian) != 2:
             continue
         form = np.zeros((4, 4), dtype=int)
         for (i, j), sign in zip(PAIRS, (1, -1, 1, 1, -1, 1), strict=True):
@@ -229,7 +234,7 @@ def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
     vectors = matrix_of(acb_mat(periods))[:, :2]
     if _riemann(vectors, basis)[0, 0].imag < 0:
         basis = basis * np.array([[1], [1], [-1], [-1]])
-    for _ in range(TURNS):
+    for _ in range(MAX_REDUCTIONS):
         basis = _shifted(vectors, _minkowski(vectors, basis))
         tau = _riemann(vectors, basis)
         sizes = abs(tau[0, 0]), abs(tau[1, 1]) / 2
@@ -249,7 +254,7 @@ def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.comple
 
 def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
     """Turn the basis so that Im tau has small entries beside its diagonal."""
-    for _ in range(TURNS):
+    for _ in range(MAX_REDUCTIONS):
         Y = _riemann(vectors, basis).imag
         a1, a2, b1, b2 = basis
         # b1 -> b1 - k b2 goes with a2 -> a2 + 2 k a1, and b2 -> b2 - 2 k b1 with a1 -> a1 + k a2

@@ -13,10 +13,10 @@ from flint import acb, acb_poly, arb, fmpq, fmpq_poly
 from atlas.motions.torus.approximate_periods import Integrals, centre, complex_of, value
 from atlas.motions.torus.approximate_theta_sums import Array
 
-POINTS, TERMS = 7, 64
+FIT_POINTS, TAYLOR_TERMS = 7, 64
 """Points of a fit, and terms of Taylor's series there."""
 
-NEAR = 9
+CIRCLE_RATIO = 9
 """They lie on a circle that is so many times smaller than that of convergence."""
 
 Vector = list[acb]
@@ -66,7 +66,7 @@ def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
     """Return Taylor coefficients of M, K and N along the flow of H, nine or six rows."""
     rows = [[x] for x in start.all]
     A = [1 / I for I in moments]
-    for n in range(TERMS):
+    for n in range(TAYLOR_TERMS):
         back = [row[::-1] for row in rows]
         new = list[acb]()
         for i in range(3):
@@ -92,10 +92,12 @@ def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
 def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
     """Return times on a circle about zero and the states at them along the flow of H."""
     rows = series(moments, start)
-    growth = max(abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TERMS, TERMS - 1, TERMS - 2))
+    growth = max(
+        abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TAYLOR_TERMS, TAYLOR_TERMS - 1, TAYLOR_TERMS - 2)
+    )
     states = list[tuple[acb, State]]()
-    for k in range(POINTS):
-        t = centre((acb(0, 2 * arb.pi() * k / POINTS)).exp() / arb(growth) / NEAR)
+    for k in range(FIT_POINTS):
+        t = centre((acb(0, 2 * arb.pi() * k / FIT_POINTS)).exp() / arb(growth) / CIRCLE_RATIO)
         values = [centre(acb_poly(row)(t)) for row in rows]
         states.append((t, State(values[:3], values[3:6], values[6:])))
     return states

@@ -28,36 +28,36 @@ from atlas.errors import NotCertifiedError
 BITS = 240
 """Precision of the integrals: of zeros that are closer than 2^-50, as a disk has them, half is lost."""
 
-LOST = 8
+MIN_KNOWN_BITS = 8
 """Fewest bits of an integrand that are known; there are fewer where zeros are next to the pole of z."""
 
-APART = 200
+MAX_COEFFICIENT_BITS = 200
 """Largest difference, in bits, between coefficients of the polynomial of the zeros: that of a spin 2^50 times the
 field, or of a field 2^100 times the spin. Isolating the zeros takes hours for the largest."""
 
-NODES, ROOM = 64, 1.1
+NODES, ELLIPSE_LOG = 64, 1.1
 """Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
-is left out is 2^-200, exp(-2 NODES ROOM)."""
+is left out is 2^-200, exp(-2 NODES ELLIPSE_LOG)."""
 
-BESIDE = 1e-10
+MIN_SINE = 1e-10
 """Sine of the angle with a path, as seen from its nearer end, from which on a place is not on the path."""
 
 SHORTEST = fmpq(1, 2**100)
 """Shortest part of a path, in units of half a turn."""
 
-SAME = 2.0**-200
+ZERO_TOLERANCE = 2.0**-200
 """Distance, in units of a period, up to which the end of a path is a zero, found with other digits."""
 
-NEAR, FAR = 2, 4
+PATH_CELLS, ZERO_CELLS = 2, 4
 """Cells along each period of wp to which paths go, and those whose zeros are taken into account."""
 
-EACH = 3
+PATHS_PER_ZERO = 3
 """Paths that are gone for each of the four zeros, the best of each pair first."""
 
-FINE, ONE = 90, 46
+RELATION_BITS, RELATION_INTEGER_BITS = 90, 46
 """Bits of the periods in a search for integer relations, and of an integer there: a relation is one to their half."""
 
-Pair = tuple[arb, arb]
+PeriodPair = tuple[arb, arb]
 Array = NDArray[np.complex128]
 
 
@@ -118,7 +118,7 @@ class Integrals:
         return [(z, sign * value(self.P, z).sqrt()) for z in roots for sign in (1, -1)]
 
 
-def real_periods(motion: Integrals) -> list[Pair]:
+def real_periods(motion: Integrals) -> list[PeriodPair]:
     """Return two approximate pairs of real times, as short as can be; fewer where the paths are too long."""
     with workprec(BITS):
         curve = Curve(motion)
@@ -177,11 +177,11 @@ class Curve:
     def _held(self, x: acb) -> acb:
         return x if self.proven else centre(x)
 
-    def paths(self, each: int = EACH) -> list[tuple[acb, acb]]:
+    def paths(self, each: int = PATHS_PER_ZERO) -> list[tuple[acb, acb]]:
         """Return straight paths between zeros, so many for each of four, those farthest from others first."""
         found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
         starts = [(zero, self.distances(zero)) for zero in self.zeros]
-        for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(NEAR)):
+        for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(PATH_CELLS)):
             stop = zero + x + y
             from_stop = self.distances(stop)
             for i, (start, from_start) in enumerate(starts[: j + 1]):
@@ -189,7 +189,7 @@ class Curve:
                 if way == 0:
                     continue
                 w = _elliptic(*_fractions(from_start, from_stop, way))
-                if (w.real > BESIDE * abs(w)).all():
+                if (w.real > MIN_SINE * abs(w)).all():
                     found.setdefault((i, j), []).append((w.real.min(), start, stop))
         rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
         chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
@@ -198,13 +198,13 @@ class Curve:
     def distances(self, end: acb) -> Array:
         """Return the places of zeros and of the pole from the end of a path, (5, cells), each to a double's digits."""
         sizes = float(self.real.mid()), float(self.imaginary.imag.mid())
-        cells = np.arange(-FAR, FAR + 1)
+        cells = np.arange(-ZERO_CELLS, ZERO_CELLS + 1)
         rows = []
         for zero in (*self.zeros, acb(0)):
             near = self.in_cell(zero - end)
             shift = complex_of(zero - end - near)
             m, n = (round(x / size) for x, size in zip((shift.real, shift.imag), sizes, strict=True))
-            least = 0j if abs(complex_of(near)) < SAME * min(sizes) else complex_of(near)
+            least = 0j if abs(complex_of(near)) < ZERO_TOLERANCE * min(sizes) else complex_of(near)
             rows.append(least + np.add.outer((cells + m) * sizes[0], 1j * (cells + n) * sizes[1]).ravel())
         return np.array(rows)
 
@@ -215,7 +215,7 @@ class Curve:
     def parts(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
         first, last = (np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._beside(start, stop))
-        near = _elliptic(first, last).real < ROOM
+        near = _elliptic(first, last).real < ELLIPSE_LOG
         return _parts(first[near], last[near])
 
     def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
@@ -244,7 +244,7 @@ class Curve:
             sin, cos = s.sin_cos()
             z, v = self.at(start + way * (1 - cos) / 2)
             square = (g(z) + 2 * self.motion.c * v) / sin**2
-            if square.rel_accuracy_bits() < LOST:
+            if square.rel_accuracy_bits() < MIN_KNOWN_BITS:
                 raise NotCertifiedError("not certified: integrals between zeros of the motion's torus lose all digits.")
             root = centre(square).sqrt()
             if before is not None and _far(root - before) > _far(root + before):
@@ -260,7 +260,7 @@ class Curve:
 def _check_sizes(polynomial: fmpq_poly) -> None:
     """Raise NotCertifiedError where coefficients are too far apart for its roots."""
     sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
-    if max(sizes) - min(sizes) > APART:
+    if max(sizes) - min(sizes) > MAX_COEFFICIENT_BITS:
         raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
 
 
@@ -293,7 +293,7 @@ def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
         if high - low < SHORTEST:
             raise NotCertifiedError("not certified: zeros of the motion's torus are too close to one another.")
         a, b = (int(x.p) / int(x.q) for x in (low, high))
-        if (_elliptic((places - a) / (b - a), (b - places) / (b - a)).real >= ROOM).all():
+        if (_elliptic((places - a) / (b - a), (b - places) / (b - a)).real >= ELLIPSE_LOG).all():
             yield low, high
         else:
             middle = (low + high) / 2
@@ -309,14 +309,14 @@ def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
     count = len(vectors)
     rows = [
         [
-            *(nearest(x / size * arb(2) ** FINE) for x, size in zip(row, sizes, strict=True)),
-            *(int(i == j) << ONE for j in range(count)),
+            *(nearest(x / size * arb(2) ** RELATION_BITS) for x, size in zip(row, sizes, strict=True)),
+            *(int(i == j) << RELATION_INTEGER_BITS for j in range(count)),
         ]
         for i, row in enumerate(vectors)
     ]
     reduced = fmpz_mat(rows).lll().tolist()
-    large = [row for row in reduced if max(abs(int(x)) for x in row[:width]) > 1 << FINE // 2]
-    return [[int(x) >> ONE for x in row[width:]] for row in large]
+    large = [row for row in reduced if max(abs(int(x)) for x in row[:width]) > 1 << RELATION_BITS // 2]
+    return [[int(x) >> RELATION_INTEGER_BITS for x in row[width:]] for row in large]
 
 
 def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:

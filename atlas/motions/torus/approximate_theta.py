@@ -28,13 +28,13 @@ from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS, Array, F
 GRIDS, CANDIDATES = (16, 48), 24
 """Points along each real period among which the start is looked for, a few first; and those of them that are tried."""
 
-NEWTON = 12
+NEWTON_STEPS = 12
 """Steps of Newton's method."""
 
-FITTED = 1e-18
+MAX_RESIDUAL = 1e-18
 """Largest residual of a fit, beside its values."""
 
-Pair = tuple[acb, acb]
+ComplexPair = tuple[acb, acb]
 
 
 class ThetaMotion:
@@ -81,7 +81,7 @@ class ThetaMotion:
         zeta = self.X.solve(acb_mat([[T[0]], [T[1]]]))
         return [centre(zeta[0, 0]), centre(zeta[1, 0])]
 
-    def pairs(self, zeta: Sequence[acb]) -> list[Pair]:
+    def pairs(self, zeta: Sequence[acb]) -> list[ComplexPair]:
         """Return the four pairs of theta functions at zeta."""
         theta = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
         return [(theta[0, 4 * e + d], theta[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
@@ -117,14 +117,14 @@ class ThetaMotion:
         ]
         return denominator, forms[3:], forms[:3]
 
-    def _form(self, pairs: list[list[Pair]], values: Vector, places: Sequence[int]) -> Form:
+    def _form(self, pairs: list[list[ComplexPair]], values: Vector, places: Sequence[int]) -> Form:
         """Return the form that has some values."""
         tried = list[tuple[float, Form]]()
         for place in places:
             weights, error = _least_squares([list(p[place]) for p in pairs], values)
             tried.append((error, Form(place, (weights[0], weights[1]))))
         error, form = min(tried, key=lambda x: x[0])
-        if not error < FITTED:
+        if not error < MAX_RESIDUAL:
             raise NotCertifiedError(f"not certified: theta functions do not fit the motion, by {error:.1g}.")
         self.misfit = max(self.misfit, error)
         return form
@@ -160,7 +160,7 @@ class ThetaMotion:
         a, b, c, d = (acb(complex(rates[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
         times = [acb(complex(x)) for x in T]
         before = np.inf
-        for _ in range(NEWTON):
+        for _ in range(NEWTON_STEPS):
             states = self.state(self.zeta(times)).all
             f, g = start[i] - states[i], start[j] - states[j]
             far = abs(complex_of(f)) + abs(complex_of(g))
@@ -174,7 +174,7 @@ class ThetaMotion:
         zeta = self._near_real(self.zeta(times)) if reduced else self.zeta(times)
         error = max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False))
         self.misfit = max(self.misfit, error)
-        if not error < FITTED:
+        if not error < MAX_RESIDUAL:
             raise NotCertifiedError("not certified: Newton's method does not find the start on the motion's torus.")
         return zeta
 
@@ -202,7 +202,7 @@ class ThetaMotion:
     def _turned(self) -> list[Form]:
         """Return the forms of N, which has besides the factor exp(i l (zeta - start))."""
         points = around(self.motion.moments, self.at_start)
-        shifted, factors = list[list[Pair]](), Vector()
+        shifted, factors = list[list[ComplexPair]](), Vector()
         for t, _ in points:
             way = self.zeta((t, acb(0)))
             zeta = [x + y for x, y in zip(way, self.start, strict=True)]
@@ -253,7 +253,7 @@ class Rough:
     def near(self, times: Array, target: Array) -> Array | None:
         """Return times at which the state is the target, by Newton's method from several; None where all go astray."""
         size, before = float(np.linalg.norm(target)), np.inf
-        for _ in range(NEWTON):
+        for _ in range(NEWTON_STEPS):
             states = self.states(times)
             far = np.linalg.norm(states - target, axis=1)
             if far.min(initial=np.inf) < 1e-9 * size:

@@ -22,10 +22,10 @@ from atlas.motions.torus.approximate_periods import complex_of, matrix_of
 CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Pairs (e, d): theta[c,e; 0,d] for c = 0, 1."""
 
-LEFT_OUT = 46.0
+LEFT_OUT_LOG = 46.0
 """Logarithm of what terms that are left out are smaller by than the largest one, wherever they are summed."""
 
-HALF = 0.55
+HALF_TURN = 0.55
 """Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
 
 PRODUCT, ROUNDED = 2.24, 1.01
@@ -35,7 +35,7 @@ WEIGHT = 1.1
 """Units of 2^-53 by which a sum over Q, which is rounded once, is wrong: 0.1 are for what lower words and sums of them
 lack, and for terms that are left out."""
 
-SPLIT = 22
+SPLIT_BITS = 22
 """Binary digits of the upper words of weights and of powers: in sums of 2^7 of their products no digit is lost."""
 
 SPLITTER = 2.0**27 + 1
@@ -90,7 +90,7 @@ class Sums:
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
-        places = needed(hat, forms, origin, region, LEFT_OUT)
+        places = needed(hat, forms, origin, region, LEFT_OUT_LOG)
         low, high = places.min(axis=0), places.max(axis=0)
         centre = np.round((low + high) / 2).astype(int)
         self.table: Array = np.zeros((len(forms), *(high - low + 1)), complex)
@@ -149,7 +149,7 @@ class Sums:
         for before, after in zip(powers[0, :-1], powers[0, 1:], strict=True):
             np.multiply(before, step, out=after)
         np.multiply(powers[0], 1j, out=powers[1])
-        cut = (1.5 * 2.0 ** (52 - SPLIT) * self.sizes[parity])[:, None]
+        cut = (1.5 * 2.0 ** (52 - SPLIT_BITS) * self.sizes[parity])[:, None]
         np.add(words[0], cut, out=words[2])
         words[2] -= cut
         np.subtract(words[0], words[2], out=words[1])
@@ -177,7 +177,7 @@ class Sums:
             sums[..., there] = table[rows][forms][:, :, chosen].swapaxes(0, 1)
         real, less = (np.concatenate([x.real, x.imag], -1).reshape(-1, len(sizes)) for x in (words, rest))
         largest = (abs(real) * sizes).max(axis=-1, keepdims=True) + np.finfo(float).tiny
-        unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT) / sizes
+        unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT_BITS) / sizes
         upper = np.round(real / unit) * unit
         return forms, upper, np.concatenate([real - upper + less, upper], axis=-1)
 

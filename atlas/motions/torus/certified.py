@@ -30,22 +30,22 @@ from atlas.motions.torus.certified_torus import Torus, frequencies, turned
 NEAR = fmpq(1, 1 << 16)
 """Times up to so many are gone in one series about t = 0, whose numbers have their digits however small they are."""
 
-DIRECT = 16
+MAX_DIRECT_TIME = 16
 """Times up to so many units of 1/rate are gone at once, without periods."""
 
-FARTHEST = 128
+MAX_FLOW_TIME = 128
 """Times up to so many are gone where there are no periods."""
 
 NEARLY = fmpq(1, 1 << 40)
 """Difference of two moments, beside the largest, that may come from rounding."""
 
-KEPT = 256
+STATE_CACHE_SIZE = 256
 """States that are kept, for what else is asked at the same times."""
 
-MANY = 600
+MAX_GROWTH_PRECISION = 600
 """Bits from which on growing errors get no more."""
 
-GUARD = 48
+GUARD_BITS = 48
 """Bits by which a way is gone more precisely than the matrix is wanted: so many are lost on it as a rule."""
 
 
@@ -75,8 +75,8 @@ class OnTorus:
     @property
     def frequencies(self) -> list[arb]:
         """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
-        periods = self.torus.periods(ctx.prec + GUARD)
-        with workprec(ctx.prec + GUARD):
+        periods = self.torus.periods(ctx.prec + GUARD_BITS)
+        with workprec(ctx.prec + GUARD_BITS):
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
@@ -97,20 +97,20 @@ class OnTorus:
         key = t, ctx.prec
         arrived = self._arrived.get(key)
         if arrived is None:
-            if len(self._arrived) >= KEPT:
+            if len(self._arrived) >= STATE_CACHE_SIZE:
                 self._arrived.clear()
             arrived = self._arrived[key] = self._state(t)
         return arrived
 
     def _state(self, t: fmpq) -> tuple[Arrival, arb]:
-        bits, more = ctx.prec + GUARD, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
+        bits, more = ctx.prec + GUARD_BITS, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
         with workprec(bits + more):
             turn = -t * self.b
-        if abs(t) <= DIRECT:
+        if abs(t) <= MAX_DIRECT_TIME:
             return self.torus.flow.go(t, fmpq(0), bits), turn
         if not self.is_regular:
             return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
-        if abs(t) <= FARTHEST and self.torus.spin is not None and self.torus.pushed is None:
+        if abs(t) <= MAX_FLOW_TIME and self.torus.spin is not None and self.torus.pushed is None:
             return self._directly(t, "the motion is next to an unstable spin"), turn
         try:
             first, second = self.torus.periods(ctx.prec + more)
@@ -139,17 +139,17 @@ class OnTorus:
 
     def _directly(self, t: fmpq, why: str) -> Arrival:
         """Go the whole way, if it is not too long."""
-        if abs(t) > FARTHEST:
+        if abs(t) > MAX_FLOW_TIME:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
-                f"{nearest_float(FARTHEST / self.rate):.6g}.{self._remedy}"
+                f"{nearest_float(MAX_FLOW_TIME / self.rate):.6g}.{self._remedy}"
             )
-        bits = ctx.prec + 2 * GUARD
+        bits = ctx.prec + 2 * GUARD_BITS
         while True:
             try:
                 return self.torus.flow.go(t, fmpq(0), bits)
             except GrowthError:  # next to an unstable spin
-                if bits > MANY:
+                if bits > MAX_GROWTH_PRECISION:
                     raise
                 bits *= 2
 

@@ -34,25 +34,25 @@ from atlas.motions.torus.certified_torus import Period
 RATE = 1.0
 """Logarithm of the ellipse on which integrands are bounded: smaller than that which is free of other zeros."""
 
-GUARD = 96
+GUARD_BITS = 96
 """Bits more than are wanted: next to a zero Psi and sin(s)^2 lose some."""
 
-HALVINGS = 12
+MAX_HALVINGS = 12
 """Halvings, at most, of the way between two nodes along which a root is continued."""
 
 Forms: TypeAlias = Callable[[acb], tuple[list[acb], acb]]
 """The forms but for way ds/(2 r), and r^2, as functions of s."""
 
-WHOLE = 1e-9
+INTEGER_TOLERANCE = 1e-9
 """How near to whole numbers the coefficients of a period of the torus in those of a basis are."""
 
-THIN = 40
+MIN_S_BITS = 40
 """Bits of s from which on what a ball about it makes of eta is narrow."""
 
-SHORTEST = 2.0**-10
+MIN_PATH_PART = 2.0**-10
 """Least part of a path that is gone at once."""
 
-AROUND, FINEST = 64, 2.0**-12
+ELLIPSE_BALLS, MIN_TURN_PART = 64, 2.0**-12
 """Balls on an ellipse at first, and the least part of a turn that one covers."""
 
 
@@ -61,7 +61,7 @@ def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
 
     NotCertifiedError where an integral is not proved.
     """
-    with workprec(int(ctx.prec) + GUARD):
+    with workprec(int(ctx.prec) + GUARD_BITS):
         curve, near = Curve(motion, proven=True), Curve(motion)
         ways = [
             _integrals(curve, near, *path) if any(row[k] for row in lattice.weights) else [acb(0)] * 4
@@ -92,7 +92,11 @@ def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
     ((T_H, T_F, T_c, S),) = sums(basis, whole)
     turn = 2 * arb.pi()
     turns = ((-b * T_c.real - period.angle) / turn).unique_fmpz()
-    same = abs(weights - whole[0]).max() < WHOLE and T_H.real.overlaps(period.H) and T_F.real.overlaps(period.F)
+    same = (
+        abs(weights - whole[0]).max() < INTEGER_TOLERANCE
+        and T_H.real.overlaps(period.H)
+        and T_F.real.overlaps(period.F)
+    )
     if turns is None or not same:
         raise NotCertifiedError("not certified: it is not certain which cycle of the curve a period of the torus is.")
     return S.real / turn + turns * arb(c) / b
@@ -114,7 +118,7 @@ def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> l
 
     def forms(s: acb) -> tuple[list[acb], acb]:
         z, v, eta = values(s)
-        if not s.rel_accuracy_bits() > THIN:  # by the mean value: z and v are of one u
+        if not s.rel_accuracy_bits() > MIN_S_BITS:  # by the mean value: z and v are of one u
             middle = centre(s)
             eta = values(middle)[2] + 2 * (v * value(dg, z) + c * value(dP, z)) * way * (
                 ((s + middle) / 2).sin() * ((s - middle) / 2).sin()
@@ -128,7 +132,7 @@ def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> l
         middle, half = arb.pi() * (low + high) / 2, arb.pi() * (high - low) / 2
         largest = _largest(forms, middle, half)
         if largest is None:
-            if high - low < SHORTEST:
+            if high - low < MIN_PATH_PART:
                 raise NotCertifiedError("not certified: an integrand on the motion's torus has no bound.")
             parts += [((low + high) / 2, high), (low, (low + high) / 2)]
             continue
@@ -150,7 +154,7 @@ def _root(square: acb) -> acb:
     return square.sqrt() if square.real > 0 else acb(0, 1) * (-square).sqrt()
 
 
-def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = HALVINGS) -> acb:
+def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX_HALVINGS) -> acb:
     """Return the root of r^2 at a place, continued from another one on the path."""
     here = forms(place)[1]
     if (forms(place.union(to))[1] / here).real > 0:
@@ -169,7 +173,7 @@ def _zero_at(curve: Curve, place: acb) -> acb:
 
 def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
     """Return what the forms over r are at most on the ellipse about a part of a path, None where that is not found."""
-    most, left = [arb(0)] * 4, [(k / AROUND, 1 / AROUND) for k in range(AROUND)]
+    most, left = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
     while left:
         place, width = left.pop()
@@ -177,7 +181,7 @@ def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
         numerators, r2 = forms(acb(middle + half * long * angle.cos(), half * short * angle.sin()))
         size = abs(r2)
         if not (size > 0 and numerators[1].is_finite() and float(size.rad()) < float(size.mid()) / 2):
-            if width < FINEST:
+            if width < MIN_TURN_PART:
                 return None
             left += [(place, width / 2), (place + width / 2, width / 2)]
             continue

@@ -20,8 +20,8 @@ constants were found.
 
 The weights are balls; sums of exponentials of them are taken in doubles. A product of few factors, an exponential of an
 argument below `ARGUMENT` and a sum of fewer than `ARGUMENT` terms are off by less than 4 `ARGUMENT` 2^-53 < `FLOATS`
-beside the sum of sizes, so that a sum of positive terms is off by a factor below `WIDER` with ease; where arguments or
-sums are larger there is no bound.
+beside the sum of sizes, so that a sum of positive terms is off by a factor below `WIDENING` with ease; where arguments
+or sums are larger there is no bound.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -38,16 +38,16 @@ from atlas.errors import NotCertifiedError
 from atlas.motions.nutation.certified_cayley_klein import matrix
 from atlas.motions.torus.approximate_periods import BITS, centre, complex_of, matrix_of, nearest
 from atlas.motions.torus.approximate_theta import ThetaMotion
-from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS, HALF, Array, near, weights_at
+from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS, HALF_TURN, Array, near, weights_at
 from atlas.motions.torus.certified_torus import Period, Torus
 
-SPARE = 40
+SPARE_BITS = 40
 """Bits beyond those of the constants."""
 
 LEFT_OUT = 240.0
 """Logarithm of what products of terms that are left out are smaller by than the largest one."""
 
-FAINT = 90.0
+FAINT_LOG = 90.0
 """Logarithm of what terms of D that are left out, and those of a defect that are bounded alike in the whole cell, are
 smaller by than the largest one."""
 
@@ -55,16 +55,16 @@ ARGUMENT, FLOATS = 2000, 1e-12
 """Bounds on arguments and numbers of exponentials in a sum in doubles, and on its rounding errors beside the sum of
 their sizes."""
 
-WIDER = 2.0
+WIDENING = 2.0
 """By how much bounds in doubles are widened: far more than their rounding can matter."""
 
-SMALL, ENOUGH = 1e-6, 1e-17
+MAX_DISTANCE, WANTED_BOUND = 1e-6, 1e-17
 """Distance from the motion up to which growth is bounded, and the bound on it that is wanted."""
 
 PARTS = (1, 2, 3, 5)
 """Into so many parts each period is divided, the first number that does."""
 
-CELLS, HALVINGS, MOST = 24, 8, 1 << 15
+CELLS_PER_PERIOD, MAX_HALVINGS, MAX_SQUARES = 24, 8, 1 << 15
 """Parts of each period in which |D| is bounded from below, how often one is halved if need be, and how many squares of
 them are looked at together at most: where D is no larger than its rounding errors, halving helps none."""
 
@@ -81,26 +81,26 @@ Place = tuple[int, int]
 def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
     """Return proven bounds on how far M, K and N of the forms are from the motion in a cell of the periods, (3,).
 
-    The cell reaches from -HALF to HALF of both, from the start. Where errors might grow too much on the way from there,
-    the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes. Raises
-    NotCertifiedError where there is no bound.
+    The cell reaches from -HALF_TURN to HALF_TURN of both, from the start. Where errors might grow too much on the way
+    from there, the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes.
+    Raises NotCertifiedError where there is no bound.
     """
     _check_characteristics(theta)
-    with workprec(BITS + SPARE), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+    with workprec(BITS + SPARE_BITS), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         cell = Cell(theta, periods)
-        H, F = HALF * abs(cell.times).sum(axis=1)
+        H, F = HALF_TURN * abs(cell.times).sum(axis=1)
         rates, sizes = cell.rates() * np.array([[H], [F]]), _sizes(theta)
-        spread = HALF * np.sum([_growth(theta, sizes, *times) for times in cell.times.T], axis=0)
+        spread = HALF_TURN * np.sum([_growth(theta, sizes, *times) for times in cell.times.T], axis=0)
         widths = [max(float(x.rad()) for x in way) for way in zip(*((p.H, p.F, p.angle) for p in periods), strict=True)]
         moved = _growth(theta, sizes, widths[0], 0.0) + _growth(theta, sizes, 0.0, widths[1])
         off = moved @ sizes + np.array([0, 0, widths[2] * sizes[2]])
         for parts in PARTS:
             growth = _exponential(spread / parts)
-            if np.max(growth @ rates.sum(axis=0)) < ENOUGH:
-                places = 2 * HALF * ((np.arange(parts) + 0.5) / parts - 0.5)
+            if np.max(growth @ rates.sum(axis=0)) < WANTED_BOUND:
+                places = 2 * HALF_TURN * ((np.arange(parts) + 0.5) / parts - 0.5)
                 apart = [_apart(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
-                distance = WIDER * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
-                if np.max(distance) < SMALL:
+                distance = WIDENING * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
+                if np.max(distance) < MAX_DISTANCE:
                     return np.asarray(distance)
     raise NotCertifiedError("not certified: what theta functions miss might grow too much over the motion's torus.")
 
@@ -110,20 +110,20 @@ def drifts(theta: ThetaMotion, periods: Sequence[Period], taken: Sequence[Period
 
     Raises NotCertifiedError where they go too far for a bound.
     """
-    with workprec(BITS + SPARE):
+    with workprec(BITS + SPARE_BITS):
         far, turn = np.zeros(3), 2 * arb.pi()
         for p, q in zip(periods, taken, strict=True):
             turns = (p.angle - q.angle) / turn
             far += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
     sizes = _sizes(theta)
     growth = TURNS * _growth(theta, sizes, far[0], far[1])
-    if not growth.sum() < SMALL:
+    if not growth.sum() < MAX_DISTANCE:
         raise NotCertifiedError("not certified: the periods are not known well enough for long times.")
-    return np.asarray(WIDER * (growth @ sizes + [0, 0, TURNS * far[2] * sizes[2]]))
+    return np.asarray(WIDENING * (growth @ sizes + [0, 0, TURNS * far[2] * sizes[2]]))
 
 
 class Cell:
-    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF, and what they leave there."""
+    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF_TURN, and their remainders."""
 
     def __init__(self, theta: ThetaMotion, periods: Sequence[Period]) -> None:
         self.theta, inverse = theta, theta.X.inv()
@@ -135,9 +135,9 @@ class Cell:
         self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
         self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
         self.Y = matrix_of(self.hat).imag
-        self.corners = self.into @ (HALF * np.array(list(product((-1, 1), repeat=2))).T)
+        self.corners = self.into @ (HALF_TURN * np.array(list(product((-1, 1), repeat=2))).T)
         self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
-        self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT / np.pi)
+        self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT_LOG / np.pi)
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
         self.narrow = float(np.linalg.eigvalsh(self.Y)[0])
         self.away = np.linalg.solve(self.Y, np.array([complex_of(s).imag for s in self.shift]))
@@ -147,29 +147,29 @@ class Cell:
         weights = max(abs(complex_of(x)) for form in self.forms for x in form.weights)
         self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
         """Bound on the sum of factors of the products in a defect."""
-        self.largest_factor = float(np.exp(HALF * np.abs(turns.imag).sum()))
+        self.largest_factor = float(np.exp(HALF_TURN * np.abs(turns.imag).sum()))
         """That of N, exp(i l (zeta - start))."""
 
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
         S, size, beyond = self._defects()
-        most = size + HALF * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
+        most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
         top = most.max()
         if not np.isfinite(top):
             return np.full((2, 3), np.inf)
-        matters = most.max(axis=1) > top - FAINT
+        matters = most.max(axis=1) > top - FAINT_LOG
         faint = np.exp(most[~matters] - top).sum(axis=0) + np.exp(beyond - top)
         S, size = S[matters], np.exp(size[matters] - top)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
         ways, twice = (self.places - self.middle) @ self.into, ((S - 2 * self.middle) @ self.into).imag
         weight = max(abs(complex_of(x)) for x in self.theta.denominator.weights)
-        spare = weight * np.exp(self._highest(0.0) - top / 2) * _beyond(FAINT, np.pi / 4 * self.narrow)
-        if max(2 * HALF * max(abs(ways).max(), abs(twice).max()), len(ways), len(S)) > ARGUMENT:
+        spare = weight * np.exp(self._highest(0.0) - top / 2) * _beyond(FAINT_LOG, np.pi / 4 * self.narrow)
+        if max(2 * HALF_TURN * max(abs(ways).max(), abs(twice).max()), len(ways), len(S)) > ARGUMENT:
             return np.full((2, 3), np.inf)
-        half, worst = HALF / CELLS, np.zeros(6)
-        line = np.arange(-CELLS + 1, CELLS, 2) * half
+        half, worst = HALF_TURN / CELLS_PER_PERIOD, np.zeros(6)
+        line = np.arange(-CELLS_PER_PERIOD + 1, CELLS_PER_PERIOD, 2) * half
         x = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
-        for _ in range(HALVINGS):
+        for _ in range(MAX_HALVINGS):
             terms = weights * np.exp(1j * x @ ways.T)
             value, slopes, far = abs(terms.sum(axis=1)), abs(terms @ ways).sum(axis=1), half * abs(ways).sum(axis=1)
             below = value - half * slopes - abs(terms) @ (far**2 / 2 * np.exp(far) + FLOATS) - spare
@@ -177,10 +177,10 @@ class Cell:
             above = np.exp(-x[good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
             worst = np.maximum(worst, (above / below[good, None] ** 2).max(axis=0, initial=0.0))
             if good.all():
-                return np.asarray(WIDER * worst.reshape(2, 3) * [1, 1, self.largest_factor])
+                return np.asarray(WIDENING * worst.reshape(2, 3) * [1, 1, self.largest_factor])
             half /= 2
             x = np.concatenate([x[~good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
-            if len(x) > MOST:
+            if len(x) > MAX_SQUARES:
                 break
         return np.full((2, 3), np.inf)
 
@@ -353,7 +353,7 @@ def _sizes(theta: ThetaMotion) -> Floats:
     motion = theta.motion
     K, most = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
     M = np.sqrt(float(arb(motion.F).upper()) + most * K * K)
-    return np.array([1e-9 + SMALL + (1 + 1e-9) * x for x in (M, K, 2**0.5)])
+    return np.array([1e-9 + MAX_DISTANCE + (1 + 1e-9) * x for x in (M, K, 2**0.5)])
 
 
 def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:

@@ -32,7 +32,7 @@ Matrix = NDArray[np.float64]
 Series = list[list[int]]
 Rates = tuple[list[fmpq], list[fmpq], list[fmpq]]
 
-ORDER = 0.27
+TERMS_PER_BIT = 0.27
 """Terms of a series for each bit: a step is what makes the last one less than a unit."""
 
 PARTS = 1 << 20
@@ -44,33 +44,20 @@ TERMS = 40
 ROUNDING = 1e-12
 """Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
 
-PRECISE, LARGE = 4000, 400
+MAX_PRECISION, MIN_FLINT_PRECISION = 4000, 400
 """Binary digits beyond which a step takes too long, and those from which flint's integers are faster than Python's."""
 
-PARTS = 1 << 20
-"""The whole way is cut into steps that are multiples of this part."""
-
-TERMS = 40
-"""Terms of the derivative of a step, in floats."""
-
-ROUNDING = 1e-12
-"""Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
-
-PRECISE, MANY, LARGE = 4000, 600, 400
-"""Binary digits beyond which a step takes too long, those from which on growing errors get no more, and those
-from which flint's integers are faster than Python's."""
-
-MOST = 4000
+MAX_STEPS = 4000
 """Steps of a way; a longer one is not gone."""
 
-SMALL = 8
+MIN_COEFFICIENT_BITS = 8
 """Binary digits of a coefficient above which rounding does not matter to its size."""
 
-STIFF = 8.0
+MAX_LIPSCHITZ = 8.0
 """Largest Lipschitz constant of the right-hand side times a step: TERMS give its derivative, and errors little room."""
 
-SKEW, FLAT = 1e8, 1e-4
-"""Largest condition number of a matrix of errors, and the shortest edge of a box of errors beside its longest."""
+MAX_CONDITION = 1e8
+"""Largest condition number of a matrix of errors."""
 
 BLOCK = 16
 """Coefficients of a block that are summed one by one."""
@@ -125,10 +112,10 @@ class Flow:
 
         Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
         """
-        if bits > PRECISE:
+        if bits > MAX_PRECISION:
             raise NotCertifiedError(
-                f"not certified: so many digits would take more than {PRECISE} binary ones; of three moments some 1000 "
-                "decimal ones can be had, fewer of numbers near zero."
+                f"not certified: so many digits would take more than {MAX_PRECISION} binary ones; of three moments "
+                "some 1000 decimal ones can be had, fewer of numbers near zero."
             )
         way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, proven=proven)
         while way.left:
@@ -147,7 +134,7 @@ class _Way:
         size = _float(sum(abs(x) for x in start), bits) + 1e-300
         rate = float(max(abs(x) for row in rates for x in row)) * size
         self.guess = max(1, min(PARTS, int(PARTS / max(rate, 1e-9))))
-        self.order = max(12, int(ORDER * bits))
+        self.order = max(12, int(TERMS_PER_BIT * bits))
         self.X: Matrix = np.eye(6)
         self.w: Matrix = np.ones(6)  # the start is rounded
         self.q_error = 1.0
@@ -155,19 +142,19 @@ class _Way:
     def step(self) -> None:
         """Go one step, as long as the series allows."""
         self.steps += 1
-        if self.steps > MOST:
-            raise NotCertifiedError(f"not certified: more than {MOST} steps of Taylor's series would be needed.")
+        if self.steps > MAX_STEPS:
+            raise NotCertifiedError(f"not certified: more than {MAX_STEPS} steps of Taylor's series would be needed.")
         h = fmpq(self.guess, PARTS)
         rows = self._series(h)
         sizes = [max(abs(row[n]) for row in rows).bit_length() for n in range(self.order + 1)]
-        last = max((n for n, size in enumerate(sizes) if size > SMALL), default=0)
+        last = max((n for n, size in enumerate(sizes) if size > MIN_COEFFICIENT_BITS), default=0)
         falls = (sizes[0] - sizes[last]) / last if last else 2.0 * sizes[0]
         scale = 2.0 ** min(1.0, falls - sizes[0] / self.order)  # the last terms become a unit
         parts = max(1, min(self.left, int(self.guess * min(1.0, scale))))  # larger ones would swell the roundings
         factor = fmpq(parts, self.guess)
         rows = [_scaled(row, factor) for row in rows]
-        if self.proven and (lipschitz := self._sizes(rows, fmpq(parts, PARTS))[3]) > STIFF:
-            factor = fmpq(max(1, int(parts * STIFF / lipschitz)), parts)
+        if self.proven and (lipschitz := self._sizes(rows, fmpq(parts, PARTS))[3]) > MAX_LIPSCHITZ:
+            factor = fmpq(max(1, int(parts * MAX_LIPSCHITZ / lipschitz)), parts)
             parts, rows = int(parts * factor), [_scaled(row, factor) for row in rows]
         if self.proven:
             self._account(rows, fmpq(parts, PARTS))
@@ -184,7 +171,7 @@ class _Way:
         b = self.bits
         V, first, second = self._scaled_rates(h)
         rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
-        for n, c in enumerate(_products(rows, self.order, BLOCK if b >= LARGE else self.order)):
+        for n, c in enumerate(_products(rows, self.order, BLOCK if b >= MIN_FLINT_PRECISION else self.order)):
             for i in range(3):
                 rows[i].append((first[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
                 rows[3 + i].append((c[6 + i] - c[9 + i]) // ((n + 1) << b))
@@ -196,7 +183,7 @@ class _Way:
     def _account(self, rows: Series, h: fmpq) -> None:
         """Take the step's errors into the bounds."""
         W, K, size_V, lipschitz = self._sizes(rows, h)
-        if not lipschitz < 2 * STIFF:
+        if not lipschitz < 2 * MAX_LIPSCHITZ:
             raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
         state, turn = self._defect(rows, h, W, K)
         spread = exp(lipschitz)
@@ -207,7 +194,7 @@ class _Way:
         added = (
             state * spread + len(rows[0]) * 6 + 1
         )  # the 1 is for terms of second order in errors below 2^(-3/4 bits)
-        if not np.linalg.cond(J @ self.X) < SKEW:
+        if not np.linalg.cond(J @ self.X) < MAX_CONDITION:
             self._straighten()
         following: Matrix = J @ self.X
         self.w = self.w + _inverse_rows(following) * ((eta + ROUNDING * np.linalg.norm(J)) * before + added)
@@ -331,7 +318,7 @@ def _inverse_rows(X: Matrix) -> Matrix:
 
 def _units(x: fmpq, bits: int) -> int:
     units = (int(x.p) << bits) // int(x.q)
-    return units if bits < LARGE else fmpz(units)
+    return units if bits < MIN_FLINT_PRECISION else fmpz(units)
 
 
 def _scaled(row: list[int], factor: fmpq) -> list[int]:
@@ -348,7 +335,7 @@ def _scaled(row: list[int], factor: fmpq) -> list[int]:
 def _float(x: int, bits: int) -> float:
     """Return a number of units of 2^-bits in doubles, infinity beyond all of them."""
     try:
-        return x / (1 << bits) if bits < LARGE else float(fmpq(x, 1 << bits))
+        return x / (1 << bits) if bits < MIN_FLINT_PRECISION else float(fmpq(x, 1 << bits))
     except OverflowError:
         return inf
 

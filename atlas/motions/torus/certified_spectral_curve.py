@@ -29,7 +29,7 @@ APPROXIMATE, BITS = 30, 200
 """Digits of a Riemann matrix that is not proved, of some 50 that are computed with so many bits."""
 
 
-TELLING = 64
+CYCLE_BITS = 64
 """Bits of periods by which it is told which cycles they are."""
 
 
@@ -67,7 +67,7 @@ class SpectralCurve:
         """
         i = self.torus.integrals
         b = arb(i.square).sqrt()
-        J = [*(action(self._cycles, p.least(), i.c, b) for p in self.torus.periods(TELLING)), arb(i.c) / b]
+        J = [*(action(self._cycles, p.least(), i.c, b) for p in self.torus.periods(CYCLE_BITS)), arb(i.c) / b]
         return [x * self.unit * self.rate for x in J]
 
     @by_precision

@@ -25,22 +25,22 @@ from atlas.motions.torus.approximate_lattice import Lattice, lattice
 from atlas.motions.torus.approximate_periods import Integrals, nearest, real_periods
 from atlas.motions.torus.certified_flow import CYCLE, Arrival, Flow, jacobian
 
-GOOD, FIRST = 320, 200
+PERIOD_BITS, FIRST_FLOW_BITS = 320, 200
 """Bits to which periods are proved at once from where they start, and those of a first flow that improves them."""
 
-GUARD = 40
+GUARD_BITS = 40
 """Bits by which a flow is computed more precisely than its arrival must be known."""
 
-ROUGH = 1e-20
+MAX_PERIOD_ERROR = 1e-20
 """Largest error, in units of time, of a period that is improved."""
 
 NEXT = fmpq(1, 2**40)
 """Components across a principal axis, beside those along it, up to which a motion is next to a spin."""
 
-STABLE, APART = 1e-6, 1e-6
+MAX_GROWTH, MIN_DETERMINANT = 1e-6, 1e-6
 """Largest growth of a small push beside its frequencies, and the least determinant of two pairs of these."""
 
-ROUNDS = 4
+NEWTON_ROUNDS = 4
 """Rounds of Newton's method from the periods of small pushes."""
 
 
@@ -92,10 +92,10 @@ class Torus:
             try:
                 first, second = (self._enclosed(start, bits) for start in self._approximate())
             except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
-                if bits >= GOOD:
+                if bits >= PERIOD_BITS:
                     self._lost = bits, str(why)
                     raise
-                first, second = self.periods(GOOD)
+                first, second = self.periods(PERIOD_BITS)
             self._known[bits] = first, second
         return self._known[bits]
 
@@ -121,10 +121,10 @@ class Torus:
         size = np.linalg.norm(H), np.linalg.norm(F)
         values, vectors = np.linalg.eig(H / size[0] + F / (2 * size[1]))
         waves = vectors[:, values.imag > 0].T
-        if abs(values.real).max() > STABLE * abs(values).max() or len(waves) != 2:
+        if abs(values.real).max() > MAX_GROWTH * abs(values).max() or len(waves) != 2:
             return None
         rates = np.array([[(w.conj() @ x @ w).imag / (w.conj() @ w).real for x in (H, F)] for w in waves])
-        if abs(np.linalg.det(rates / size)) < APART:
+        if abs(np.linalg.det(rates / size)) < MIN_DETERMINANT:
             return None
         first, second = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
         return [tuple(first), tuple(second)]
@@ -134,9 +134,9 @@ class Torus:
             starts = []
             for T_H, T_F in self.pushed:
                 r, step = (arb(T_H).fmpq(), arb(T_F).fmpq()), np.inf
-                for _ in range(ROUNDS):
-                    r, step = self._improved(r, FIRST)
-                if not step < ROUGH:
+                for _ in range(NEWTON_ROUNDS):
+                    r, step = self._improved(r, FIRST_FLOW_BITS)
+                if not step < MAX_PERIOD_ERROR:
                     break
                 starts.append(r)
             else:
@@ -164,17 +164,17 @@ class Torus:
 
     def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
         """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""
-        r, precision = start, bits if bits <= GOOD else FIRST
+        r, precision = start, bits if bits <= PERIOD_BITS else FIRST_FLOW_BITS
         while precision < bits:
             r, size = self._improved(r, precision)
-            if not size < ROUGH:
+            if not size < MAX_PERIOD_ERROR:
                 raise NotCertifiedError("not certified: Newton's method does not find a period of the torus.")
-            precision = 2 * precision - GUARD
+            precision = 2 * precision - GUARD_BITS
         return self._proven(r, bits, self._coordinates())
 
     def _improved(self, r: tuple[fmpq, fmpq], precision: int) -> tuple[tuple[fmpq, fmpq], float]:
         """Return a period after a step of Newton's method, and the size of the step."""
-        with workprec(precision + GUARD):
+        with workprec(precision + GUARD_BITS):
             step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, self._coordinates())
             H, F = (x.mid() for x in step)
             return (r[0] + H.fmpq(), r[1] + F.fmpq()), max(float(abs(H)), float(abs(F)))
@@ -194,8 +194,8 @@ class Torus:
         return (g * Y[i] - f * Y[j]) / determinant, (f * X[j] - g * X[i]) / determinant
 
     def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
-        with workprec(bits + 2 * GUARD):
-            arrival = self.flow.go(*r, bits + GUARD)
+        with workprec(bits + 2 * GUARD_BITS):
+            arrival = self.flow.go(*r, bits + GUARD_BITS)
             first = self._newton(arrival, self.W, self.K, chosen)
             reach = 4 * max((abs(x).upper() for x in first), key=float)
             box = arb(0, reach)

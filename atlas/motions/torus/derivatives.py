@@ -25,22 +25,22 @@ from atlas.motions.torus.approximate_theta_sums import Array, weights_at
 from atlas.motions.torus.certified_torus import Torus
 from atlas.motions.torus.theta import Constants, ThetaKernel
 
-STEP, WEAK = 56, 28
+STEP_BITS, WEAK_FIELD_BITS = 56, 28
 """Binary digits behind the point that a step leaves alone, and how many more in a weak field.
 
 Moments and rates are near 1 in the units of the torus.
 """
 
-NEAR = 2.0**-20
+MAX_CHANGE = 2.0**-20
 """Largest change of a constant, beside the largest of its kind, that a step explains."""
 
-WHOLE = 1e-3
+INTEGER_TOLERANCE = 1e-3
 """How near to whole numbers are those by which a basis goes into another."""
 
-PART = 512
+BLOCK = 512
 """Times at once."""
 
-ROUNDING, BOUND = 2.0**-52, 1e-9
+ROUNDING, MAX_ERROR = 2.0**-52, 1e-9
 """Error of a term of v, in parts of it, and that of v, in parts of 1 + |v|, up to which it is given."""
 
 
@@ -62,9 +62,9 @@ class TorusVaried:
             # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
             left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
             b = max(abs(float(arb(x).mid())) for x in values[3:6])
-            weak = min(max(round(-2 * np.log2(b)), 0), WEAK)  # constants bend on the scale of a weak field
+            weak = min(max(round(-2 * np.log2(b)), 0), WEAK_FIELD_BITS)  # constants bend on the scale of a weak field
             for place in set(places) - left:
-                step = STEP + weak * (place in (3, 4, 5))
+                step = STEP_BITS + weak * (place in (3, 4, 5))
                 moved = _moved(values, place, step, motion.rate, kernel.made_of[0])
                 derivatives[place] = _slopes(here, _tables(moved, box, peak), step)
             by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
@@ -102,9 +102,9 @@ class TorusVaried:
     ) -> list[FloatArray]:
         """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
-        for i in range(0, t.size, PART):
-            for block, values in zip(out, self._block(t[i : i + PART], slopes), strict=True):
-                block[i : i + PART] = np.einsum("np,pmk->mnk", names, values) @ left.T
+        for i in range(0, t.size, BLOCK):
+            for block, values in zip(out, self._block(t[i : i + BLOCK], slopes), strict=True):
+                block[i : i + BLOCK] = np.einsum("np,pmk->mnk", names, values) @ left.T
         out[0] += turns
         return out
 
@@ -137,7 +137,7 @@ class TorusVaried:
         v = np.stack([turned[..., 2, 1], turned[..., 0, 2], turned[..., 1, 0]], -1)
         terms = abs(self.d_frame).max(2) @ abs(rows).max(1)
         terms += np.tensordot(sizes[:, [0, 0, 1]], abs(self.frame).max(1), (1, 0))
-        if not (ROUNDING * terms <= BOUND * (1 + abs(v).max(2))).all():
+        if not (ROUNDING * terms <= MAX_ERROR * (1 + abs(v).max(2))).all():
             raise DomainError("The field is too weak beside the angular velocity for derivatives in it in floats.")
         if not slopes:
             return [v]
@@ -174,7 +174,7 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
 
     def next_to(rows: tuple[list[acb], list[acb]]) -> tuple[list[acb], list[acb]]:
         whole = np.linalg.solve(reals(periods).T, reals(rows).T).T
-        if not abs(whole - np.rint(whole)).max() < WHOLE:
+        if not abs(whole - np.rint(whole)).max() < INTEGER_TOLERANCE:
             raise _other_form()
         first, second = (
             [sum((round(n) * period[k] for n, period in zip(row, periods, strict=True)), acb(0)) for k in range(3)]
@@ -203,7 +203,7 @@ def _slopes(here: list[list[Any]], there: list[list[Any]], step: int) -> list[Ar
     slopes: list[Array] = []
     for first, second in zip(here, there, strict=True):
         change = np.array([complex_of(acb(y - x)) for x, y in zip(first, second, strict=True)], dtype=complex)
-        if not abs(change).max() <= NEAR * max(abs(complex_of(acb(x))) for x in first):
+        if not abs(change).max() <= MAX_CHANGE * max(abs(complex_of(acb(x))) for x in first):
             raise _other_form()
         slopes.append(np.asarray(change * 2.0**step, dtype=np.complex128))
     return slopes

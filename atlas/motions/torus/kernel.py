@@ -16,21 +16,21 @@ from atlas.lazy import cached_property
 from atlas.motions.base import Motion
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.kernel import scalar
-from atlas.motions.nutation.single_elliptic import WITHIN, SingleElliptic, SingleEulerTop
+from atlas.motions.nutation.single_elliptic import MAX_ERROR, SingleElliptic, SingleEulerTop
 from atlas.motions.torus.certified import AsymmetricMotion as Balls
 from atlas.motions.torus.rounded import Certified
-from atlas.motions.torus.theta import LOST, ThetaKernel, closed_form
+from atlas.motions.torus.theta import MAX_ROUNDING, ThetaKernel, closed_form
 
 BITS = 60
 """Relative accuracy of a frequency before it is rounded, once."""
 
-KEPT = 16
+MOTION_CACHE_SIZE = 16
 """Motions that are kept with what was found of them."""
 
-CHECKED = (5.3, -61.7, 2.9e5, -8.1e11)
+CHECK_TIMES = (5.3, -61.7, 2.9e5, -8.1e11)
 """Times, over the largest rate, at which a closed form is held against the certified twin; the last if it is proved."""
 
-WORST = 1e-14
+MAX_DIFFERENCE = 1e-14
 """Largest difference from it."""
 
 
@@ -59,7 +59,7 @@ class SingleAsymmetric:
         closed, known = self._first
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, known
-        times, differences = [t / self.size for t in (CHECKED if closed.proved is None else CHECKED[-1:])], []
+        times, differences = [t / self.size for t in (CHECK_TIMES if closed.proved is None else CHECK_TIMES[-1:])], []
         for t in times:
             try:
                 differences.append(self._difference(closed, t))
@@ -68,7 +68,7 @@ class SingleAsymmetric:
                     return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
                 break
         worst, times = max(differences), times[: len(differences)]
-        if not worst <= min(closed.accuracy, WORST):
+        if not worst <= min(closed.accuracy, MAX_DIFFERENCE):
             return None, f"certified at each time: theta functions differ from the certified twin by {worst:.1e}."
         known = (
             f"not proved; agrees with the certified twin within {worst:.1e} at {len(times)} times up to |t| = "
@@ -89,8 +89,8 @@ class SingleAsymmetric:
         except DomainError:  # next to the line about which its axis turns
             return None, "certified at each time: Jacobi's functions are too small for a float."
         error = single.accuracy(self.size)
-        balls = "" if error <= LOST else ", and Omega, of so slender a body, is certified at each time"
-        adds = WITHIN if balls else error
+        balls = "" if error <= MAX_ROUNDING else ", and Omega, of so slender a body, is certified at each time"
+        adds = MAX_ERROR if balls else error
         return single, f"proved for this motion, at all times; rounding adds {adds:.1e} at most{balls}"
 
     def _difference(self, closed: ThetaKernel, t: float) -> float:
@@ -120,13 +120,13 @@ class SingleAsymmetric:
     def accuracy(self) -> float:
         """Bound on what rounding adds, that of a value which is rounded once where there is no closed form."""
         if isinstance(self.closed, SingleElliptic):
-            return WITHIN if self._slender else self.closed.accuracy(self.size)
+            return MAX_ERROR if self._slender else self.closed.accuracy(self.size)
         return self.closed.accuracy if self.closed else 2.0**-52
 
     @property
     def _slender(self) -> bool:
         """Whether Jacobi's functions would lose digits of Omega, which has a large factor along an axis."""
-        return isinstance(self.closed, SingleElliptic) and not self.closed.accuracy(self.size) <= LOST
+        return isinstance(self.closed, SingleElliptic) and not self.closed.accuracy(self.size) <= MAX_ROUNDING
 
     @property
     def agreement(self) -> str:
@@ -165,7 +165,7 @@ class SingleAsymmetric:
         return products
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=MOTION_CACHE_SIZE)
 def _single(*row: Any) -> SingleAsymmetric:
     """Return a motion; those made last are kept, since a sweep asks for the same one at many times."""
     return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))

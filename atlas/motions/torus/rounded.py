@@ -17,16 +17,16 @@ from atlas.errors import AtlasError, NotCertifiedError
 from atlas.motions.euler_poisson import angular_acceleration, field_rate
 from atlas.motions.torus.certified import AsymmetricMotion
 
-FIRST = 80
+FIRST_BITS = 80
 """Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
 
-REACH = 2.0**50
+MAX_PHASE = 2.0**50
 """Largest phase: that of the last time that a float tells from its neighbours."""
 
-NARROW = 2.0**-58
+MAX_RADIUS = 2.0**-58
 """Radius of a ball that is rounded, beside 1 or beside the largest rate."""
 
-FOLLOWED, STEP = 1000.0, 0.05
+MAX_STEPPED_PHASE, STEP_PHASE = 1000.0, 0.05
 """Largest phase up to which a motion is followed by steps, and the phase of one."""
 
 
@@ -50,10 +50,10 @@ class Certified:
         Raises NotCertifiedError for times beyond its reach.
         """
         times = real(t, "The time")
-        if times.size and not np.abs(times).max() * self.size <= FOLLOWED:
+        if times.size and not np.abs(times).max() * self.size <= MAX_STEPPED_PHASE:
             raise NotCertifiedError(
                 f"not certified: without a closed form the sign of a quaternion is known up to |t| = "
-                f"{FOLLOWED / self.size:.6g}."
+                f"{MAX_STEPPED_PHASE / self.size:.6g}."
             )
         quaternions, out = of_matrix(self.rotation(times)), target(out, (*times.shape, 4))
         near = self._followed(times.ravel()).reshape(quaternions.shape)
@@ -67,7 +67,7 @@ class Certified:
         for side in (times >= 0, times < 0):
             y, now = np.concatenate([K, Omega, [0.0, 0.0, 0.0, 1.0]]), 0.0
             for i in np.flatnonzero(side)[np.argsort(abs(times[side]))].tolist():
-                count = int(np.ceil(abs(times[i] - now) * self.size / STEP))
+                count = int(np.ceil(abs(times[i] - now) * self.size / STEP_PHASE))
                 for _ in range(count):
                     y = _stepped(np.diag(inertia), y, (times[i] - now) / count)
                 quaternions[i], now = y[6:], times[i]
@@ -92,9 +92,9 @@ class Certified:
     ) -> FloatArray:
         """Return the values of a function at times of any shape."""
         times = real(t, "The time")
-        if times.size and not np.abs(times).max() * self.size <= REACH:
+        if times.size and not np.abs(times).max() * self.size <= MAX_PHASE:
             raise AtlasError(
-                f"A time is {np.abs(times).max()}, but |t| may be {REACH / self.size:.6g} at most, where a phase "
+                f"A time is {np.abs(times).max()}, but |t| may be {MAX_PHASE / self.size:.6g} at most, where a phase "
                 "reaches 2^50 and is lost."
             )
         out = target(out, times.shape + shape)
@@ -120,14 +120,14 @@ def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
 
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
     """Return the floats nearest to balls that are made ever more precisely until they are narrow beside a size."""
-    precision = FIRST
+    precision = FIRST_BITS
     while True:
         try:
             with workprec(precision):
                 values = [arb(x) for x in numbers(function())]
-                if all(x.is_finite() and float(x.rad()) <= NARROW * size for x in values):
+                if all(x.is_finite() and float(x.rad()) <= MAX_RADIUS * size for x in values):
                     return np.array([float(x.mid()) for x in values])
         except NotCertifiedError:  # with so few digits
-            if precision > FIRST:
+            if precision > FIRST_BITS:
                 raise
         precision *= 2

@@ -28,33 +28,33 @@ from atlas.lazy import cached_property
 from atlas.motions.nutation.grid import moments
 from atlas.motions.torus.approximate_periods import BITS, complex_of, matrix_of
 from atlas.motions.torus.approximate_theta import ThetaMotion, frame
-from atlas.motions.torus.approximate_theta_sums import HALF, Array, Sums
+from atlas.motions.torus.approximate_theta_sums import HALF_TURN, Array, Sums
 from atlas.motions.torus.certified import AsymmetricMotion
 from atlas.motions.torus.certified_torus import Period, Torus, frequencies
 from atlas.motions.torus.theta_rounding import Rounding
 
-PART = 768
+SUM_BLOCK = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""
 
-UPPER = 24
+UPPER_BITS = 24
 """Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
 
-CUT = np.array(1.5 * 2.0 ** (52 - UPPER))
+CUT = np.array(1.5 * 2.0 ** (52 - UPPER_BITS))
 """Adding and subtracting it rounds to 2^-24."""
 
-PERIODS = 160
+PERIOD_BITS = 160
 """Bits to which the real periods are proved."""
 
-FITS = 1e-36
+MAX_MISFIT = 1e-36
 """Largest misfit of theta functions that are taken before they are proved or held against the certified twin."""
 
-PROVED = 2.0**-54
+MAX_PROVEN_ERROR = 2.0**-54
 """Largest bound on errors of the formulas that is a proof of them."""
 
-NOTHING = 1e-35
+RIEMANN_ZERO = 1e-35
 """Parts of the Riemann matrix below it are shown as zero: they are known to some forty digits."""
 
-LOST = 2e-13
+MAX_ROUNDING = 2e-13
 """Largest bound on rounding errors: those that are seen are some twenty times smaller."""
 
 
@@ -74,8 +74,8 @@ class Constants:
             motion, X = theta.motion, theta.X.inv()
             self.b = arb(motion.square).sqrt()
             periods = [Period(H.real, F.real, -self.b * along.real) for H, F, along in theta.lattice.real]
-            if not theta.misfit < FITS:
-                periods = [Period(p.H.mid(), p.F.mid(), p.angle.mid()) for p in torus.periods(PERIODS)]
+            if not theta.misfit < MAX_MISFIT:
+                periods = [Period(p.H.mid(), p.F.mid(), p.angle.mid()) for p in torus.periods(PERIOD_BITS)]
             into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
             lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
             # the angles of the periods are known but for whole turns
@@ -109,11 +109,11 @@ class ThetaKernel:
             )  # fmt: skip
             self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
             rounded: Array = np.array([[complex_of(x) for x in row] for row in ways])
-            unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER)
+            unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER_BITS)
             self.upper: Array = np.round(rounded / unit) * unit
             lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
             self.lower: Array = np.reshape(lower, (3, 2))
-            line = np.linspace(-HALF * np.pi, HALF * np.pi, 13)
+            line = np.linspace(-HALF_TURN * np.pi, HALF_TURN * np.pi, 13)
             region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
             self.sums = Sums(self.constants.hat, self.constants.forms, self.constants.start, rounded[:2] @ region)
             ex, ey, n = ([float(arb(x).mid()) for x in e] for e in self.constants.frame)
@@ -123,14 +123,14 @@ class ThetaKernel:
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
         self.rounding = Rounding(self.sums, rounded[:2], rounded[2], b, self.size)
         tau = matrix_of(theta.tau)
-        self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
-            abs(tau.imag) < NOTHING, 0, tau.imag
+        self.riemann_matrix = np.where(abs(tau.real) < RIEMANN_ZERO, 0, tau.real) + 1j * np.where(
+            abs(tau.imag) < RIEMANN_ZERO, 0, tau.imag
         )
 
     @property
     def fits(self) -> bool:
         """Whether the integrals that it is made of are as precise as they should be."""
-        return self.made_of[0].misfit < FITS
+        return self.made_of[0].misfit < MAX_MISFIT
 
     @cached_property
     def accuracy(self) -> float:
@@ -144,12 +144,12 @@ class ThetaKernel:
 
         theta, torus = self.made_of
         try:
-            periods = torus.periods(PERIODS)
+            periods = torus.periods(PERIOD_BITS)
             M, K, N = distances(theta, torus, periods) + drifts(theta, periods, self.periods)
         except NotCertifiedError:
             return None
         error = max(N + K / float(self.constants.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
-        return error if error <= PROVED else None
+        return error if error <= MAX_PROVEN_ERROR else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -197,9 +197,9 @@ class ThetaKernel:
         """Return what fills rows with combinations of Re N, Im N and K of the motion."""
 
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
-            for i in range(0, t.size, PART):
-                half, rest, _ = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
-                self._fill(half, rest, weights, rows[i : i + PART])
+            for i in range(0, t.size, SUM_BLOCK):
+                half, rest, _ = self._phases(t[i : i + SUM_BLOCK], None if low is None else low[i : i + SUM_BLOCK])
+                self._fill(half, rest, weights, rows[i : i + SUM_BLOCK])
 
         return fill
 
@@ -220,13 +220,13 @@ class ThetaKernel:
     def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
         """Fill rows with quaternions: that of R, of the sign which continues it over the torus."""
         table, steps = self._lift
-        for i in range(0, t.size, PART):
-            half, rest, whole = self._phases(t[i : i + PART])
+        for i in range(0, t.size, SUM_BLOCK):
+            half, rest, whole = self._phases(t[i : i + SUM_BLOCK])
             quaternions = self._quaternions(half, rest)
             index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
             near = product(self._turn(half[2]), table[index[0], index[1]])
-            rows[i : i + PART] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
-            rows[i : i + PART] *= (signs(whole) ** steps).prod(axis=0)[:, None]
+            rows[i : i + SUM_BLOCK] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
+            rows[i : i + SUM_BLOCK] *= (signs(whole) ** steps).prod(axis=0)[:, None]
 
     def _quaternions(self, half: FloatArray, rest: FloatArray) -> FloatArray:
         """Return one quaternion of each R at half phases, (m, 4)."""
@@ -245,8 +245,8 @@ class ThetaKernel:
             line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
             half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)
             q = np.empty((half.shape[1], 4))
-            for i in range(0, len(q), PART):
-                q[i : i + PART] = self._quaternions(half[:, i : i + PART], 0 * half[:, i : i + PART])
+            for i in range(0, len(q), SUM_BLOCK):
+                q[i : i + SUM_BLOCK] = self._quaternions(half[:, i : i + SUM_BLOCK], 0 * half[:, i : i + SUM_BLOCK])
             table = q.reshape(size + 1, size + 1, 4)
             table[0] = _joined(table[0])
             table = _joined(table)
@@ -262,11 +262,11 @@ class ThetaKernel:
         """Return what fills rows with combinations of K, or of K and W."""
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
-            for i in range(0, t.size, PART):
-                half, rest, _ = self._phases(t[i : i + PART])
+            for i in range(0, t.size, SUM_BLOCK):
+                half, rest, _ = self._phases(t[i : i + SUM_BLOCK])
                 x, less = self._places(half, rest)
                 D, *numerators = self.sums.at(x[:2], less[:2], forms)
-                combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + PART])
+                combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + SUM_BLOCK])
 
         return fill
 
@@ -325,6 +325,6 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
         raise
     except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
         raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
-    if not kernel.rounding.accuracy(LOST) <= LOST:
+    if not kernel.rounding.accuracy(MAX_ROUNDING) <= MAX_ROUNDING:
         raise NotCertifiedError(f"not certified: rounding would be wrong by up to {kernel.accuracy:.1e} in its sums.")
     return kernel

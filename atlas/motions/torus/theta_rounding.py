@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
-from atlas.motions.torus.approximate_theta_sums import HALF, PRODUCT, UNTHREADED, Array, Sums
+from atlas.motions.torus.approximate_theta_sums import HALF_TURN, PRODUCT, UNTHREADED, Array, Sums
 
-CELL, CUTS, WIDER = 24, 6, 1.02
+CELLS_PER_PHASE, MAX_CUTS, MAX_WIDENING = 24, 6, 1.02
 """Cells along each phase, how often they are cut, and how much larger than in their middles the bound may be."""
 
 EXPONENTIAL = 6.0
@@ -37,7 +37,7 @@ PHASE = 0.6
 INVERSE, QUOTIENT, COMBINED = 3.0, 2.0, 4.0
 """Those by which 1/D is wrong beside itself, the real part of a product with it, and a sum of three products."""
 
-FARTHEST = 600.0
+MAX_POWER_LOG = 600.0
 """Largest logarithm of a power: in what is smaller no second words are left."""
 
 D = 3
@@ -81,17 +81,17 @@ class Rounding:
 
         It is no tighter than one that is said to be enough.
         """
-        half = np.pi * HALF / CELL
-        line = np.linspace(half - np.pi * HALF, np.pi * HALF - half, CELL)
+        half = np.pi * HALF_TURN / CELLS_PER_PHASE
+        line = np.linspace(half - np.pi * HALF_TURN, np.pi * HALF_TURN - half, CELLS_PER_PHASE)
         cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-        if not self.sums.reach * abs(self.into.imag).sum(axis=1).max() * np.pi * HALF < FARTHEST:
+        if not self.sums.reach * abs(self.into.imag).sum(axis=1).max() * np.pi * HALF_TURN < MAX_POWER_LOG:
             return float("inf")
         enough, worst = enough * 2.0**53, 0.0
-        for last in range(CUTS + 1):
+        for last in range(MAX_CUTS + 1):
             errors = self.wrong(cells, half)
             if not errors.max() <= enough:
-                enough = max(enough, WIDER * float(self.wrong(cells, 0.0).max()))
-            done = (errors <= enough) | (last == CUTS)
+                enough = max(enough, MAX_WIDENING * float(self.wrong(cells, 0.0).max()))
+            done = (errors <= enough) | (last == MAX_CUTS)
             worst = max(worst, float(errors[done].max(initial=0.0)))
             half /= 2
             cells = (cells[:, ~done, None] + half * CORNERS[:, None]).reshape(2, -1)

@@ -22,7 +22,7 @@ from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, fra
 
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
-FPS, FRAMES, MOST = 20.0, 60, 2000
+FPS, FRAMES, MAX_FRAMES = 20.0, 60, 2000
 _SCREEN = 96
 Progress: TypeAlias = Callable[[int, int, str], None]
 Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
@@ -117,8 +117,8 @@ def animation(
     progress: Progress = lambda _done, _total, _what: None,
 ) -> FuncAnimation:
     """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
-    if not 2 <= count <= MOST:
-        raise AtlasError(f"an animation has from 2 to {MOST} frames, not {count}")
+    if not 2 <= count <= MAX_FRAMES:
+        raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
     fps = positive(fps, "fps")
     frames = Frames(make, count, style, progress)
     more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}

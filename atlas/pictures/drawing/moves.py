@@ -24,7 +24,7 @@ from atlas.pictures.drawing.style import context
 from atlas.pictures.drawing.view import View, fit, named
 from atlas.pictures.layers import FloatArray, Layer, Path, Plane, Scene, Space, Surface
 
-FINE = 32767
+TABLE_STEPS = 32767
 _PLAIN, _MOST, _LOOKS = 96, 240, 2400
 _TURN = np.radians(12.0)
 """Between two moments no path turns farther, unless there would be too many of them."""
@@ -75,7 +75,7 @@ def _table(path: Path, times: FloatArray) -> list[Any]:
 
 
 def _packed(numbers: FloatArray) -> str:
-    return b64encode(np.round(FINE * np.clip(numbers, -1.0, 1.0)).astype("<i2").tobytes()).decode()
+    return b64encode(np.round(TABLE_STEPS * np.clip(numbers, -1.0, 1.0)).astype("<i2").tobytes()).decode()
 
 
 def _quaternions(R: FloatArray) -> FloatArray:
