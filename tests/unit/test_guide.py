@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import atlas
-from atlas.book.blocks.reference import markdown
+from atlas.book.blocks.reference import markdown, markdown_of_sections
 from atlas.book.building.records import described
 from atlas.book.files import find
 from atlas.book.load import load
@@ -116,3 +116,24 @@ def test_a_docstring_is_shown_as_it_is_written() -> None:
     assert "_1^2 * 2 &lt; [y]." in piece
     assert "<pre><code>E = m_0 c^2</code></pre>" in piece
     assert piece.count("<li>") == 2
+
+
+def test_sections_of_a_docstring_become_tables() -> None:
+    """Parameters and errors are rows of a table, examples are code, and the words of other sections stay."""
+    text = (
+        "A motion.\n\nParameters\n----------\nratio : float or (I2, I3)\n    Ratio |I3|/I2,\n    below 2.\n"
+        "t, s : array_like\n    Times.\n\nRaises\n------\nDomainError\n    At the pole.\n\n"
+        "Notes\n-----\nAs in (71).\n\nExamples\n--------\n>>> 1 + 1\n2"
+    )
+    (piece,) = Texts([Text(markdown_of_sections(text), "here", False, {})]).set("html", lambda name, _: Link(name))
+    rows = [re.sub(r"<[^>]+>|\s+", " ", row).split() for row in re.findall(r"<tr.*?</tr>", piece, re.DOTALL)]
+    assert [" ".join(row) for row in rows] == [
+        "Parameters Meaning",
+        "ratio float or (I2, I3) Ratio |I3|/I2, below 2.",
+        "t, s array_like Times.",
+        "Raises Meaning",
+        "DomainError At the pole.",
+    ]
+    assert "<strong>Notes</strong>" in piece
+    assert "<p>As in (71).</p>" in piece
+    assert "<pre><code>&gt;&gt;&gt; 1 + 1\n2</code></pre>" in piece

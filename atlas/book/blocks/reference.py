@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from textwrap import indent
 
 from atlas.book.appendices import Described
 from atlas.book.blocks.composer import Composer
@@ -26,6 +27,10 @@ def view_bibliography(block: Bibliography, composer: Composer) -> Bibliography:
 
 _CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 _SIGN = re.compile(r"([!-/:-@\[-_{-~])")
+_SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}\n", re.MULTILINE)
+_ENTRY = re.compile(r"^(\S.*)((?:\n(?: .*)?)*)", re.MULTILINE)
+_TABLES = frozenset({"Parameters", "Attributes", "Returns", "Raises", "Warns"})
+"""Sections of a docstring that list names or types, with their meanings indented below."""
 _ONCE = re.compile(
     r"\s*Raises AtlasError for a time that is not finite or whose phases exceed 2\^50\.".replace(" ", r"\s+")
 )
@@ -61,7 +66,9 @@ def view_reference(block: Reference, composer: Composer) -> ReferenceView:
 
     def described(name: str, thing: Described) -> DescribedView:
         members = tuple(described(inner, what) for inner, what in thing.members.items())
-        return DescribedView(name, thing.arguments, composer.text(markdown(_ONCE.sub("", thing.docstring))), members)
+        return DescribedView(
+            name, thing.arguments, composer.text(markdown_of_sections(_ONCE.sub("", thing.docstring))), members
+        )
 
     for name in block.names:
         if name not in known:
@@ -73,12 +80,36 @@ def outline(_block: Reference, _composer: Composer) -> None:
     """Leave out the names, which nothing leads to."""
 
 
+def markdown_of_sections(docstring: str) -> str:
+    """Return a numpydoc docstring as Markdown: parameters, attributes, results and errors each in a table."""
+    summary, *sections = _SECTION.split(docstring)
+    parts = [markdown(summary.strip())]
+    for title, body in zip(sections[::2], sections[1::2], strict=True):
+        if title in _TABLES:
+            parts.append(_table(title, body))
+        else:
+            parts += [f"**{title}**", markdown(body.strip())]
+    return "\n\n".join(parts)
+
+
+def _table(title: str, body: str) -> str:
+    """Return the entries `name : type` or `type` of a section, with their meanings, as a Markdown table."""
+    rows = [f"| {title} | Meaning |", "|:----|:--------|"]
+    for entry, meaning in _ENTRY.findall(body.strip()):
+        name, _, kind = entry.partition(" : ")
+        rows.append(f"| `{name}` {markdown(kind)} | {markdown(' '.join(meaning.split()))} |")
+    return "\n".join(rows)
+
+
 def markdown(docstring: str) -> str:
-    """Return a docstring as Markdown: indented lines and what stands in backticks as code, all else as it is."""
+    """Return text as Markdown: examples, indented lines and names in backticks as code, all else letter by letter."""
     paragraphs = []
     for paragraph in docstring.split("\n\n"):
         if all(line.startswith("    ") for line in paragraph.splitlines()):
             paragraphs.append(paragraph)
+            continue
+        if paragraph.startswith(">>> "):
+            paragraphs.append(indent(paragraph, "    "))
             continue
         parts = _CODE.split(paragraph)  # text, backticks, code, text, ...
         words = "".join(
