@@ -106,12 +106,12 @@ class Motion(Shown, Generic[Single]):
 
     @property
     def is_placed(self) -> bool:
-        """Whether axes or an attitude were given, as for `atlas.motion` and `in_laboratory`."""
+        """True if axes or an attitude were given, as for `atlas.motion` and `in_laboratory`."""
         return self._placement is not None
 
     @property
     def axes(self) -> FloatArray:
-        """Axes of the class as rows, in those of the body that were given; shape (..., 3, 3)."""
+        """Axes of the class as rows, in the body axes that were given; shape (..., 3, 3)."""
         return np.eye(3) if self._placement is None else self._placement.sides[1]
 
     @property
@@ -136,19 +136,56 @@ class Motion(Shown, Generic[Single]):
         return super().__reduce__() if self._placement is None else (made, (self._placement.make, dict(self.arguments)))
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Rotation matrix R(t), (84), (85), with the body's axes as columns; shape (..., 3, 3).
+        """Rotation matrix R(t), eqs. (84), (85), whose columns are the body's axes in the laboratory.
 
-        `t` of any shape, finite; its phases k t, phi t up to 2^50. `out`, C-contiguous float64, is filled if given.
-        Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of a `TopMotion` or an
-        `EllipticMotion` within 3.6e-15, of an `AsymmetricMotion` within its own `accuracy`. Raises AtlasError beyond.
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape that broadcasts with the motions. The phases k t and phi t may reach 2^50.
+        out : ndarray of float64, optional
+            C-contiguous array (..., 3, 3) that the matrices are written into.
+
+        Returns
+        -------
+        ndarray, shape (..., 3, 3)
+            Rotation matrices; `out` itself if given.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
+
+        Notes
+        -----
+        Largest error of an entry:
+
+        - 8.9e-16 for motions in elementary functions;
+        - 1.8e-15 for a `GeneralMotion`;
+        - 3.6e-15 for a `TopMotion` or an `EllipticMotion`;
+        - its own `accuracy` for an `AsymmetricMotion`.
         """
         R, p = self._evaluate(lambda single, t, out: single.rotation(t, out), t, (3, 3), out), self._placement
         return R if p is None else p.started(p.matrices(R), p.attitude, 2, t)
 
     def column(self, j: int, t: Any) -> FloatArray:
-        """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3).
+        """Column R_j(t) of the rotation matrix (84): one axis of the body in the laboratory.
 
-        Raises AtlasError for another j, and for times as `rotation` does.
+        Parameters
+        ----------
+        j : {1, 2, 3}
+            Number of the axis.
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Unit vectors in the laboratory.
+
+        Raises
+        ------
+        AtlasError
+            For another `j`, and for times that `rotation` refuses.
         """
         check_column(j)
         p = self._placement
@@ -157,11 +194,27 @@ class Motion(Shown, Generic[Single]):
         return np.ascontiguousarray(self.rotation(t)[..., j - 1])
 
     def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
-        """Quaternion (x, y, z, w) of R(t), of length 1, its Cayley-Klein parameters; shape (..., 4).
+        """Unit quaternion (x, y, z, w) of R(t): the Cayley-Klein parameters of the rotation.
 
-        It is continuous in t: after a whole turn it has changed its sign, and comes back after two. At t = 0 w >= 0.
-        `scalar_first` gives (w, x, y, z). SciPy reads it by ``Rotation.from_quat(q)``. Bounds are those of
-        `rotation`. Raises AtlasError for times as that does.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+        scalar_first : bool
+            True for the order (w, x, y, z).
+
+        Returns
+        -------
+        ndarray, shape (..., 4)
+            Unit quaternions; ``scipy.spatial.transform.Rotation.from_quat`` reads the default order.
+
+        Raises
+        ------
+        AtlasError
+            For times that `rotation` refuses.
+
+        Notes ----- The quaternion is continuous in t, with w >= 0 at t = 0. One full turn changes its sign. Error
+        bounds are those of `rotation`.
         """
         quaternions = self._evaluate(lambda single, t, out: single.quaternion(t, out), t, (4,))
         if self._placement is not None:
@@ -169,7 +222,18 @@ class Motion(Shown, Generic[Single]):
         return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3)."""
+        """Angular velocity Omega(t) along the axes of the body.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of Omega, in rad/time.
+        """
         raise NotImplementedError
 
     def _spun(self, Omega: FloatArray, t: Any) -> FloatArray:
@@ -192,84 +256,187 @@ class Motion(Shown, Generic[Single]):
         return np.asarray(finite(np.matvec(self.rotation(t), momentum), name))
 
     def angular_velocity_in_laboratory(self, t: Any) -> FloatArray:
-        """Angular velocity R Omega in the laboratory; shape (..., 3). Raises AtlasError as `angular_velocity` does."""
+        """Angular velocity R(t) Omega(t) in the laboratory.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of R Omega, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For times that `rotation` refuses.
+        """
         return np.asarray(finite(np.matvec(self.rotation(t), self.angular_velocity(t)), "R Omega"))
 
     @classmethod
     def in_laboratory(
         cls, body: Any, field: Any, attitude: Any, angular_velocity: Any = None, **parameters: Any
     ) -> Self:
-        """Motion of this class with R(0) = `attitude`, in a field of any direction, as `atlas.motion` gives it.
+        """Motion of this class from any attitude, in a field of any direction, as `atlas.motion` gives it.
 
-        `body` as there, (I2, I3) for a top; `field` (..., 3), of a top its direction n, and `angular_velocity` are in
-        the laboratory; `parameters` are the coupling and the potential of a top, or in the place of the angular
-        velocity the z and branch of an `EllipticMotion`, or the omega2 and omega3 of an `ElementaryMotion`, for which
-        e2 is where the field is at the start. Raises DomainError where the motion is not of this class, decided
-        exactly, AtlasError for what is no number.
+        Parameters
+        ----------
+        body : float or array_like or SymmetricBody
+            Body as for `atlas.motion`; moments (I2, I3) for a `TopMotion`.
+        field : array_like, shape (..., 3), or Field
+            Components of B' in the laboratory, in 1/time. For a `TopMotion` the direction n in the laboratory.
+        attitude : array_like
+            Attitude R(0), as for `atlas.motion`.
+        angular_velocity : array_like, shape (..., 3), optional
+            Initial angular velocity in the laboratory, in rad/time.
+        **parameters : float or array_like
+            Parameters of the class, see Notes.
+
+        Returns
+        -------
+        Motion
+            Motion of this class with R(0) = `attitude`.
+
+        Raises
+        ------
+        DomainError
+            If the motion is not of this class, which is decided exactly.
+        AtlasError
+            For an input that is no number.
+
+        Notes ----- A `TopMotion` takes the coupling and the potential as `parameters`. An `EllipticMotion` takes z and
+        branch instead of the angular velocity. An `ElementaryMotion` takes omega2 and omega3 instead, with e2 along
+        the part of the field across the axis at the start.
         """
         chosen = import_module("atlas.motions.any_body")
         motion: Self = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
         return motion
 
     def third_axis(self, t: Any) -> FloatArray:
-        """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3).
+        """Third inertia axis R_3(t) in the laboratory, the third column of (84).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Unit vectors in the laboratory.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self.column(3, t)
 
     def sensitivity(self, t: Any, names: Any, of: str = "rotation") -> FloatArray:
-        """Vector v in the laboratory with dR/dp = [v]x R, for each input p by its name; shape (..., names, 3).
+        """Derivatives of the motion with respect to its inputs: rotation vectors v with dR/dp = [v]x R.
 
-        `names` are those of the class: "ratio", "B2", "omega1", ..., "t" for time. Where the field may be of any
-        direction, as in `atlas.motion`, "B1" to "B3" are its components in the laboratory, "omega1" to "omega3" those
-        of the angular velocity along the body's axes at t = 0, and "a1" to "a3" turn R(0) about the axes of the
-        laboratory. `of="angular_velocity"` gives dOmega/dp and `of="field"` dK/dp, both in the body; the name
-        of a scalar, such as "period", "precession_rate" or "k", its derivatives, of shape (..., names), whatever `t`.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`; ignored for the derivatives of a scalar.
+        names : str or sequence of str
+            Names of the inputs p: those of the class, such as "ratio", "B2", "omega1", and "t" for the time.
+        of : str
+            Quantity that is differentiated: "rotation", "angular_velocity", "field", or a scalar such as "period" or
+            "k".
 
-        Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of derivatives of frequencies. A border
-        between kinds, such as a ball or a steady precession, is no exception; next to one, where terms would cancel,
-        each time is made by itself, in some milliseconds. Of a body with three moments the constants of theta functions
-        are differentiated, in some seconds; in a field below a thousandth of the angular velocity errors of derivatives
-        in it grow, and above 1e-9 they are refused. Raises DomainError on a separatrix, from which neighbours depart
-        for good, and for three moments where there are no theta functions or they change their form
-        next to the motion; AtlasError for another name and for times as `rotation` does.
+        Returns
+        -------
+        ndarray, shape (..., names, 3)
+            For "rotation" the vectors v in the laboratory. For "angular_velocity" and "field" dOmega/dp and dK/dp in
+            the body. For a scalar its derivatives, of shape (..., names).
+
+        Raises
+        ------
+        DomainError
+            On a separatrix, and for three different moments where the theta functions are missing or change their
+            form.
+        AtlasError
+            For an unknown name, and for times that `rotation` refuses.
+
+        Notes ----- In `atlas.motion` the field may have any direction. There "B1" to "B3" are its components in the
+        laboratory. "omega1" to "omega3" are the components of Omega(0) along the body's axes, and "a1" to "a3" rotate
+        R(0) about the laboratory axes.
+
+        Errors stay below 1e-12 of 1 + |v| at any time. Next to a border between types of motion each time is evaluated
+        alone, in some milliseconds. For three different moments the constants of the theta functions are
+        differentiated, in some seconds. In a field below a thousandth of the angular velocity the errors of field
+        derivatives grow; above 1e-9 such derivatives are refused.
         """
         from atlas.motions.derivatives import of as derivatives
 
         return derivatives(self, t, names, of)
 
     def input_error(self, t: Any) -> FloatArray:
-        """Bound on what rounding each input to a float can turn the body by until t, in radians, to first order.
+        """Bound, to first order, on the rotation error at t that rounding the inputs to floats causes.
 
-        It is the sum over the inputs of half an ulp of each times the length of its vector of `sensitivity`; the inputs
-        are those of `atlas.motion`, or of the class where the motion was made by that. Values of the motion itself are
-        those of the floats that were given, and have no such error: it says how far numbers that no float holds, as
-        0.1, are represented. It grows as t, on an unstable motion as an exponential of t. Raises AtlasError
-        and DomainError as `sensitivity` does.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
 
-            >>> unstable = atlas.motion(0.7, (-0.765, 1.02, 0.192), (0.88, -1.1735, 0.2746))
-            >>> bool(unstable.input_error(100.0) > 1e-12)
-            True
+        Returns
+        -------
+        ndarray
+            Angle in rad, of the shape of motions and times together.
+
+        Raises
+        ------
+        DomainError, AtlasError
+            As for `sensitivity`.
+
+        Notes ----- The bound sums half an ulp of each input times the length of the corresponding vector of
+        `sensitivity`. It concerns decimal inputs that no float holds, such as 0.1. The motion of the floats themselves
+        has no such error. The bound grows in proportion to t, on an unstable motion exponentially.
+
+        Examples
+        --------
+        >>> unstable = atlas.motion(0.7, (-0.765, 1.02, 0.192), (0.88, -1.1735, 0.2746))
+        >>> bool(unstable.input_error(100.0) > 1e-12)
+        True
         """
         from atlas.motions.derivatives import of_rounding
 
         return of_rounding(self, t)
 
     def spectrum(self, of: str = "rotation", least: float = 1e-6) -> Any:
-        """Lines of a function of time, the sum over all lines of amplitude exp(i frequency t): a `Spectrum`.
+        """Spectral lines of a function of time: the terms amplitude exp(i frequency t) of its Fourier sum.
 
-        `of` is "rotation", R(t); "axis", the third column of it; "angular_velocity" or "field", Omega(t) and K(t) in
-        the body. Lines whose amplitude, the root of the sum of its squares, is below `least` of the root of the mean
-        square are left out. Frequencies are combinations with whole numbers of those of nutation, 2 pi/period, of
-        precession and of spin, see `precession_rate` and `spin_rate`; of an `AsymmetricMotion`, of its `frequencies`.
-        They are of closed form; amplitudes are integrals over the phases, right to rounding.
+        Parameters
+        ----------
+        of : {"rotation", "axis", "angular_velocity", "field"}
+            Function: R(t), its third column, Omega(t) in the body or K(t) in the body.
+        least : float
+            Smallest amplitude kept, relative to the root mean square of the function.
 
-        Raises DomainError for a motion on a separatrix or that has no closed form, AtlasError for an array of motions.
+        Returns
+        -------
+        Spectrum
+            Frequencies in rad/time, complex amplitudes, and the integer combinations behind each frequency.
 
-            >>> lines = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).spectrum("axis", least=0.1)
-            >>> lines.names, lines.combinations.tolist()
-            (('precession',), [[-1], [0], [1]])
+        Raises
+        ------
+        DomainError
+            On a separatrix, and for a motion without a closed form.
+        AtlasError
+            For an array of motions.
+
+        Notes ----- Frequencies are integer combinations of 2 pi/period, `precession_rate` and `spin_rate`. For an
+        `AsymmetricMotion` they combine its `frequencies`. Amplitudes are integrals over the phases, accurate to
+        rounding.
+
+        Examples
+        --------
+        >>> lines = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).spectrum("axis", least=0.1)
+        >>> lines.names, lines.combinations.tolist()
+        (('precession',), [[-1], [0], [1]])
         """
         from atlas.motions.spectrum import spectrum
 
@@ -277,48 +444,112 @@ class Motion(Shown, Generic[Single]):
 
     @property
     def actions(self) -> Any:
-        """Actions of one motion, an `Actions`: `names`, `values`, `rates` and the `energy`, d energy = rates d values.
+        """Action variables of one motion with their rates: d energy = rates d values.
 
-        That of precession is (M, n), the canonical momentum along the field, that of spin M3, that of an
-        `AsymmetricMotion` for each of its `frequencies`; in the unit of inertia by that of time, over I2 where the body
-        has a ratio. A slow change keeps them, see `atlas.drift`. They are integrals over the phases, right to rounding;
-        `curve.actions` of an `AsymmetricMotion` has them in proven digits.
-        Raises DomainError and AtlasError as `spectrum` does.
+        Returns
+        -------
+        Actions
+            Fields `names`, `values` (inertia/time), `rates` (rad/time) and `energy` (inertia/time^2). For a body given
+            by its ratio, values and energy are divided by I2.
 
-            >>> found = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).actions
-            >>> found.names, found.values.round(6)
-            (('nutation', 'precession', 'spin'), array([0.038207, 3.711873, 3.3     ]))
+        Raises
+        ------
+        DomainError
+            On a separatrix, and for a motion without a closed form.
+        AtlasError
+            For an array of motions.
+
+        Notes ----- The action of precession is (M, n), the canonical momentum along the field; that of spin is M3. An
+        `AsymmetricMotion` has one action for each of its `frequencies`. Slow changes conserve the actions, see
+        `atlas.drift`. Values are integrals over the phases, accurate to rounding; `AsymmetricMotion.curve` has
+        certified digits of them.
+
+        Examples
+        --------
+        >>> found = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2)).actions
+        >>> found.names, found.values.round(6)
+        (('nutation', 'precession', 'spin'), array([0.038207, 3.711873, 3.3     ]))
         """
         from atlas.motions.actions import actions
 
         return actions(self)
 
     def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
-        """Return the motion at these times, or over one period, as an animation of Matplotlib's.
+        """Matplotlib animation of the body, its axis with a trace, and the field.
 
-        It shows the body, its axis with the trace of that, and the field; `fps` are its frames a second, `style` is as
-        for `atlas.figure`; ``.save("x.gif")`` writes it. Raises AtlasError for an array of motions, and for times as
-        `rotation` does.
+        Parameters
+        ----------
+        times : array_like, optional
+            Times of the frames; by default one period.
+        fps : float
+            Frames per second.
+        style : str or dict or list, optional
+            Matplotlib style, as for `atlas.figure`.
+
+        Returns
+        -------
+        matplotlib.animation.FuncAnimation
+            ``.save("x.gif")`` writes the animation to a file.
+
+        Raises
+        ------
+        AtlasError
+            For an array of motions, and for times that `rotation` refuses.
         """
         moments = None if times is None else real(times, "The time", TIME).ravel()
         return notebook("pictures").animate(self, moments, number(fps, "fps"), style)
 
     def trace(self, periods: float = 1.0, *, stop: float | None = None, tolerance: float = 1e-4) -> Any:
-        """Curve that the third axis draws on the unit sphere: times (N,) and points R_3(t), (N, 3), of one motion.
+        """Curve of the third axis R_3(t) of one motion on the unit sphere.
 
-        It is drawn over so many `periods`, or from t = 0 to the time `stop`; the points lie as near to each other as
-        keeps all chords within `tolerance` of the curve. Raises AtlasError where there is no finite period, for several
-        motions, and times as `rotation` does.
+        Parameters
+        ----------
+        periods : float
+            Number of periods that the curve covers, from t = 0.
+        stop : float, optional
+            End time, instead of `periods`.
+        tolerance : float
+            Largest distance between a chord of the points and the curve.
+
+        Returns
+        -------
+        times : ndarray, shape (N,)
+            Times, spaced as the tolerance requires.
+        points : ndarray, shape (N, 3)
+            Unit vectors R_3(t) in the laboratory.
+
+        Raises
+        ------
+        AtlasError
+            Without a finite period, for an array of motions, and for times that `rotation` refuses.
         """
         return notebook("frames").trace(self, periods, stop, tolerance)
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
-        """Rotation matrices on the uniform grid start + i step, i = 0 .. count - 1, shape (..., count, 3, 3).
+        """Rotation matrices R(t), eq. (85), on the uniform grid t = start + i step.
 
-        Each is that of the exact real number start + i step, which need not be a double. For a motion in elementary
-        functions it is faster than `rotation` from 10 000 times on, twice as fast from 100 000 on, and about as fast or
-        a little slower below. Raises AtlasError for a count that is no whole number, an `out` of another shape, and
-        times as `rotation` does.
+        Parameters
+        ----------
+        start, step : float
+            First time and spacing of the grid.
+        count : int
+            Number of times.
+        out : ndarray of float64, optional
+            C-contiguous array (..., count, 3, 3) that the matrices are written into.
+
+        Returns
+        -------
+        ndarray, shape (..., count, 3, 3)
+            Rotation matrices; `out` itself if given.
+
+        Raises
+        ------
+        AtlasError
+            For a count that is no integer, an `out` of another shape, and times that `rotation` refuses.
+
+        Notes ----- Each matrix belongs to the exact real number start + i step, which need not be a float. In
+        elementary functions the grid is faster than `rotation` from 10 000 times on, and twice as fast from 100 000
+        on.
         """
         start, step = number(start, "The start of the grid", TIME), number(step, "The step of the grid", TIME)
         count = whole(count, "The count of the grid")
@@ -377,7 +608,7 @@ class DoubleTurn(Motion[Rotation]):
 
     @property
     def kind(self) -> Any:
-        """Name of the kind of motion, a string, or an array of them."""
+        """Type of the motion: a string, or an array of strings."""
         return np.full(self.shape, self._kind) if self.shape else self._kind
 
     @cached_property

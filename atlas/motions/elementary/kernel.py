@@ -53,28 +53,47 @@ class Elementary(DoubleRotation):
 
 
 class ElementaryMotion(DoubleTurn[Elementary]):
-    """Motion R(t) = R_B(k t) R_z(phi t) of a charged symmetric body, (84), (85), from Omega(0) = (0, omega2, omega3).
+    """Precession without nutation of a charged symmetric body, eqs. (71)-(85).
 
-    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c); `omega2` and, where it
-    is free, `omega3`: in one unit 1/time; the inputs are taken as exact and broadcast with one another and with t.
+    The body starts with angular velocity (0, omega2, omega3) on the hyperbola (67). It moves as R(t) = R_B(k t)
+    R_z(phi t): a uniform rotation about its axis and one about the field.
 
-    `case` is one of
+    Parameters
+    ----------
+    ratio : float or array_like or SymmetricBody
+        I = I3/I2, in (0, 2].
+    field : (B2, B3), array_like, or Field
+        Components of B' = mu B/(2c), of either sign, in 1/time.
+    omega2 : float or array_like
+        Second component of the initial angular velocity, in rad/time.
+    omega3 : float or array_like, optional
+        Third component, in rad/time; given only where (71) leaves it free (see Notes).
 
-    - "precession": omega3 by (71), k = omega2/B2hat, (79), phi by (72);
+    Raises
+    ------
+    DomainError
+        At the pole omega2 = -B2, unless B3 = 0 or I = 1; for B2 = 0 with omega2 != 0; for a ratio that no body has.
+        Also if omega3 is missing where it is free, or given where it is not.
+    AtlasError
+        For an input that is no number.
+
+    Notes ----- Inputs are taken as exact. They broadcast with one another and with the times. A frequency that
+    overflows is inf; the motion remains available while the phases stay within 2^50. `case` is one of
+
+    - "precession": omega3 by (71), k = omega2/B2hat by (79), phi by (72);
     - "at rest": omega2 = 0, and R = 1;
     - "free body": B = 0, any omega3; the axis is that of m, k = |m|/I2, phi = (1-I) omega3, (87);
     - "spin along the field": B2 = 0 = omega2, any omega3; k = 0, phi = omega3;
     - "transverse field, free spin": B3 = 0, omega2 = -B2, any omega3; phi = omega3;
     - "ball, free spin": I3 = I2, omega2 = -B2, any omega3; phi = omega3 + B3.
 
-    The last two are lost in (71). The signs of B2 and B3 are free, though the paper takes both positive.
-    Raises DomainError at the pole omega2 = -B2 otherwise, for B2 = 0 with omega2 != 0, and if omega3 is not given where
-    it is free or given where it is not. A frequency that overflows is inf; its motion is not lost, as long as
-    the phases stay within 2^50. AtlasError is raised for what is no number.
+    Equation (71) loses the last two cases.
 
-        >>> motion = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7)
-        >>> motion.case, motion.rotation([0.0, 1e12]).shape
-        ('precession', (2, 3, 3))
+    Examples
+    --------
+    >>> motion = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7)
+    >>> motion.case, motion.rotation([0.0, 1e12]).shape
+    ('precession', (2, 3, 3))
     """
 
     family = "elementary"
@@ -111,51 +130,57 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @kept
     def case(self) -> Any:
-        """Name of the case, a string, or an array of them."""
+        """Name of the formula that applies, see the Notes of the class: a string, or an array of strings."""
         return np.array(CASES)[self._codes] if self.shape else self._single().case
 
     @property
     def kind(self) -> Any:
-        """Name of the kind of motion, that of its `case`."""
+        """Type of the motion, equal to `case`: a string, or an array of strings."""
         return self.case
 
     @kept
     def omega2(self) -> Any:
-        """Initial Omega2, as given."""
+        """Second component of the initial angular velocity, as given, in rad/time."""
         return plain(np.broadcast_to(self._inputs[4], self.shape))
 
     @kept
     def omega3(self) -> Any:
-        """Constant Omega3 = omega3, (71), or as given where it is free."""
+        """Third component of the angular velocity, constant by (71) or as given where free, in rad/time."""
         return self._scalars[0]
 
     @kept
     def k(self) -> Any:
-        """Frequency of precession about B, k = omega2/B2hat, (79)."""
+        """Frequency of precession about the field, k = omega2/B2hat by (79), in rad/time."""
         return self._scalars[1]
 
     @kept
     def phi(self) -> Any:
-        """Frequency of proper rotation phi, (72)."""
+        """Frequency of proper rotation phi by (72), in rad/time."""
         return self._scalars[2]
 
     @property
     def precession_rate(self) -> Any:
-        """Rate of precession about the field, of a free body about m, k."""
+        """Rate of precession about the field, for a free body about m: equal to `k`, in rad/time."""
         return self.k
 
     @property
     def spin_rate(self) -> Any:
-        """Rate at which the body turns about its own axis, phi."""
+        """Rate of rotation of the body about its own axis: equal to `phi`, in rad/time."""
         return self.phi
 
     @property
     def period(self) -> Any:
-        """Time 2 pi/|k| of one precession, after which the axis is back; inf without one. See `Hyperbola.closed`.
+        """Time 2 pi/|k| of one precession, after which the axis returns; inf for k = 0.
 
-        That is a convention: nothing nutates here, and the period of Omega and K is 2 pi/|phi|.
+        Raises
+        ------
+        DomainError
+            If the period exceeds the largest float.
 
-        Raises DomainError where it is beyond all floats.
+        Notes
+        -----
+        The motion does not nutate, so this period is a convention. Omega and K have the period 2 pi/|phi|. See also
+        `Hyperbola.closed`.
         """
         return turn_time(self.k)
 
@@ -208,35 +233,89 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return {"Omega": (0.0, self.omega2, omega3), "K": (0.0, *self.field), "m": (0.0, self.omega2, third)}
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, (73); (..., 3).
+        """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, eq. (73).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of Omega, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         Omega = self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
         return self._spun(Omega, t)
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3).
+        """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, eqs. (32), (60), (62).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of K, in 1/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._in_body(self._evaluate(lambda single, t, out: single.swung(single.vector("K"), t, out), t, (3,)))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3).
+        """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of m/I2, in rad/time; of m for a motion of `atlas.motion` with inertia in units.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if self.is_placed:
             return self._momentum_of(lambda Omega: Omega, t)
         return self._evaluate(lambda single, t, out: single.turned(single.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88), by name.
+        """Constants of the motion E', K^2, c3, c5, eqs. (36)-(41), and (m, B')/I2, eq. (88).
 
-        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
-        check, good to a few ulp of the largest term. DomainError where a term is too large for a float. Raises
-        AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like, optional
+            Times at which the constants are evaluated from Omega(t) and K(t), as a check. By default the exact inputs
+            are used.
+
+        Returns
+        -------
+        dict of str to float or ndarray
+            The five constants by name. From the inputs each is rounded once; at times each is within a few ulp of its
+            largest term.
+
+        Raises
+        ------
+        DomainError
+            If a term exceeds the largest float.
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
             return dict(zip(NAMES, map(plain, self._table(conserved, (2, 2, 1, 2, 2))), strict=True))
@@ -247,9 +326,17 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @property
     def beside(self) -> "FreeMotion":
-        """Free body that precesses about the same axis with the same k, (87): omega3 = I2 omega2 B3/(I3 B2).
+        """Free body that precesses about the same axis with the same k, eq. (87): omega3 = I2 omega2 B3/(I3 B2).
 
-        Raises DomainError for B2 = 0, where its omega3 is not determined, and where it is too large for a float.
+        Returns
+        -------
+        FreeMotion
+            The free body.
+
+        Raises
+        ------
+        DomainError
+            For B2 = 0, and if omega3 exceeds the largest float.
         """
         I2, I3 = moments(self.ratio)
         B2, B3 = self.field
@@ -273,11 +360,31 @@ class Free(DoubleRotation):
 
 
 class FreeMotion(DoubleTurn[Free]):
-    """Motion of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above (87): precession without nutation.
+    """Precession without nutation of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above eq. (87).
 
-    `ratio` I = I3/I2 or a SymmetricBody; `omega` (omega1, omega2, omega3), the initial angular velocity, 1/time; arrays
-    broadcast. The axis is that of m = (I2 omega1, I2 omega2, I3 omega3); k = |m|/I2; phi = (1 - I) omega3. Raises
-    DomainError for a ratio that no body has, AtlasError for what is no number.
+    Parameters
+    ----------
+    ratio : float or array_like or SymmetricBody
+        I = I3/I2, in (0, 2].
+    omega : (omega1, omega2, omega3), array_like
+        Initial angular velocity along the body's axes, in rad/time.
+
+    Raises
+    ------
+    DomainError
+        For a ratio that no body has.
+    AtlasError
+        For an input that is no number.
+
+    Notes
+    -----
+    The body precesses about m = (I2 omega1, I2 omega2, I3 omega3) with k = |m|/I2. It rotates about its own axis with
+    phi = (1 - I) omega3.
+
+    Examples
+    --------
+    >>> round(atlas.FreeMotion(1.5, (0.0, 0.6, 0.4)).k, 9)
+    0.848528137
     """
 
     family, _kind = "free", "free body"
@@ -292,49 +399,85 @@ class FreeMotion(DoubleTurn[Free]):
 
     @kept
     def k(self) -> Any:
-        """Frequency of precession about m, k = |m|/I2."""
+        """Frequency of precession about m, k = |m|/I2, above (87), in rad/time."""
         return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @kept
     def phi(self) -> Any:
-        """Frequency of proper rotation phi = (1 - I) omega3, (87)."""
+        """Frequency of proper rotation phi = (1 - I) omega3, (87), in rad/time."""
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._frequencies)
 
     @property
     def precession_rate(self) -> Any:
-        """Rate of precession about m, k."""
+        """Rate of precession about m: equal to `k`, in rad/time."""
         return self.k
 
     @property
     def spin_rate(self) -> Any:
-        """Rate at which the body turns about its own axis, phi."""
+        """Rate of rotation of the body about its own axis: equal to `phi`, in rad/time."""
         return self.phi
 
     @property
     def period(self) -> Any:
-        """Period 2 pi/|phi| of Omega, as of a free body of three moments; inf where Omega is constant.
+        """Period 2 pi/|phi| of Omega, as of a free body of three moments; inf for constant Omega.
 
-        The axis is back after 2 pi/k. Raises DomainError where it is beyond all floats.
+        Raises
+        ------
+        DomainError
+            If the period exceeds the largest float.
+
+        Notes
+        -----
+        The axis returns after 2 pi/k.
         """
         return turn_time(self.phi)
 
     @kept
     def mode(self) -> Any:
-        """Axis that the momentum goes round: "long axis" for I3 < I2, "short axis" for I3 > I2; "ball"; "at rest"."""
+        """Axis that the momentum circles: "long axis" (I3 < I2), "short axis" (I3 > I2), "ball" or "at rest"."""
         I2, I3, *omega = np.broadcast_arrays(*self._inputs)
         names = np.select([~np.any(omega, axis=0), I3 == I2, I3 < I2], ["at rest", "ball", "long axis"], "short axis")
         return names if self.shape else str(names)
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3).
+        """Angular velocity Omega(t) in the body, which rotates about the third axis with frequency phi.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of Omega, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         Omega = self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
         return self._spun(Omega, t)
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = 0 in the body; shape (..., 3). Raises AtlasError for a time that is no finite number."""
+        """Field K(t) = 0 in the body: a free body has no field.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Zeros.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite.
+        """
         return np.zeros((*common_shape(self.shape, real(t, "The time", TIME).shape), 3))
 
     def _groups(self) -> list[Group]:

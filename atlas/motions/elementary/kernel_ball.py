@@ -29,15 +29,31 @@ class Ball(DoubleRotation):
 
 
 class BallMotion(DoubleTurn[Ball]):
-    """Motion of a ball with the field along e3 and m(0) = (0, m2, m3): R = R_z(-alpha t) R_k(-gamma t), (28).
+    """Motion of a charged ball, R(t) = R_z(-alpha t) R_k(-gamma t), eqs. (20)-(30).
 
-    `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), (27), of either sign, in 1/time; `momentum` (m2, m3) in
-    inertia/time. Arrays broadcast; the inputs are taken as exact. The frame is that of Figure Ball, e3 along the field
-    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30). Raises
-    DomainError for an inertia that is not positive, AtlasError for what is no number.
+    Parameters
+    ----------
+    inertia : float or array_like
+        Moment of inertia I0 > 0.
+    larmor : float or array_like
+        Larmor frequency alpha = mu |B|/(2c), (27), of either sign, in rad/time.
+    momentum : (m2, m3), array_like
+        Initial angular momentum, in inertia/time.
 
-        >>> round(atlas.BallMotion(1.0, 0.5, momentum=(0.3, -0.7)).gamma, 9)
-        0.360555128
+    Raises
+    ------
+    DomainError
+        For an inertia that is not positive.
+    AtlasError
+        For an input that is no number.
+
+    Notes ----- The frame is that of Figure Ball: e3 along the field, m(0) in the plane (e2, e3). For m2 = 0 both
+    rotations have one axis, (30). Inputs are taken as exact and broadcast with one another and with the times.
+
+    Examples
+    --------
+    >>> round(atlas.BallMotion(1.0, 0.5, momentum=(0.3, -0.7)).gamma, 9)
+    0.360555128
     """
 
     family = _kind = "ball"
@@ -56,49 +72,88 @@ class BallMotion(DoubleTurn[Ball]):
 
     @kept
     def gamma(self) -> Any:
-        """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
+        """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the rotation about k_hat, (29), in rad/time."""
         return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @property
     def precession_rate(self) -> Any:
-        """Rate of the turn about the field, -alpha, (28)."""
+        """Rate -alpha of the rotation about the field, (28), in rad/time."""
         return plain(-np.asarray(self.larmor))
 
     @property
     def spin_rate(self) -> Any:
-        """Rate of the turn about the axis k_hat in the body, -gamma, (28)."""
+        """Rate -gamma of the rotation about the axis k_hat in the body, (28), in rad/time."""
         return plain(-np.asarray(self.gamma))
 
     @kept
     def k_hat(self) -> tuple[Any, Any]:
-        """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
+        """Components (k2, k3) of the unit axis (29); (0, -1) for gamma = 0, where (29) is 0/0."""
         k2, k3 = over(
             lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._frequencies, degree=(0, 0)
         )
         return k2, plain(np.where(self.gamma == 0, -1.0, k3))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, (26); shape (..., 3).
+        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, eq. (26).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of m, in inertia/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if self.is_placed:
             return self._momentum_of(lambda Omega: Omega, t)
         return self._evaluate(lambda single, t, out: single.swung(single.vector("m"), t, out), t, (3,))
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3).
+        """Angular velocity Omega = R^T m/I0 = R_k(gamma t) m(0)/I0 in the body, below eq. (25).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of Omega, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._spun(
             self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,)), t
         )
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body, B' = (0, 0, alpha), (32); shape (..., 3), each within 1e-15 of |alpha|.
+        """Field K(t) = R^T B' in the body with B' = (0, 0, alpha), eq. (32).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of K, in 1/time, each within 1e-15 of |alpha|.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if self._placement is not None:
             return np.asarray(np.vecmat(self._placement.field, self.rotation(t)))
