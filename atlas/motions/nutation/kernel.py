@@ -51,56 +51,74 @@ class NutatingMotion(Motion[Nutation]):
 
     @kept
     def kind(self) -> Any:
-        """Name of the kind of motion, a string, or an array of them."""
+        """Type of the motion, see the Notes of the class: a string, or an array of strings."""
         return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
 
     @kept
     def period(self) -> Any:
-        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation.
+        """Period T of nutation; inf on a separatrix.
 
-        Raises DomainError where it is beyond all floats.
+        Raises
+        ------
+        DomainError
+            If the period exceeds the largest float.
+
+        Notes
+        -----
+        Where Omega3 is constant, the period is that of an infinitesimal nutation.
         """
         return self._scalar("period")
 
     @kept
     def precession_per_period(self) -> Any:
-        """Angle of precession about the field in one period, radians; a passage through a pole counts half a turn less.
+        """Angle of precession about the field in one period, in rad.
 
-        It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b;
-        for a top n stands for the field, and k2/I2 for b.
-        Where the period is infinite there is none: DomainError for one motion, NaN for one of an array.
+        Raises
+        ------
+        DomainError
+            If the period of one motion is infinite; an array has NaN there.
+
+        Notes ----- The angle is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b with nu = cos theta, M3 = I c3
+        and p = (M, K)/b. For a top n replaces the field, and k2/I2 replaces b. A passage through a pole counts half a
+        turn less.
         """
         return self._scalar("precession_per_period")
 
     @kept
     def spin_per_period(self) -> Any:
-        """Angle by which the body turns about its own axis in one period, radians: the integral of Omega3 - nu dpsi/dt.
+        """Angle of rotation about the body's own axis in one period, in rad: the integral of Omega3 - nu dpsi/dt.
 
-        Where the period is infinite there is none, as for `precession_per_period`.
+        Raises
+        ------
+        DomainError
+            If the period of one motion is infinite; an array has NaN there.
         """
         return self._scalar("spin_per_period")
 
     @property
     def precession_rate(self) -> Any:
-        """Mean rate of precession about the field, `precession_per_period` over `period`; none where that has none."""
+        """Mean rate of precession about the field, `precession_per_period`/`period`, in rad/time."""
         return plain(np.divide(self.precession_per_period, self.period))
 
     @property
     def spin_rate(self) -> Any:
-        """Mean rate at which the body turns about its own axis, `spin_per_period` over `period`."""
+        """Mean rate of rotation about the body's own axis, `spin_per_period`/`period`, in rad/time."""
         return plain(np.divide(self.spin_per_period, self.period))
 
     @kept
     def modulus(self) -> Any:
-        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
+        """Modulus k of the elliptic functions: 0 for elementary nutation, 1 on a separatrix.
 
-        At a triple root it has no limit, nor has the nome: DomainError for one motion, NaN for one of an array.
+        Raises
+        ------
+        DomainError
+            At a triple root of one motion, where k has no limit; an array has NaN there.
         """
         return self._scalar("modulus")
 
     @kept
     def complementary_modulus(self) -> Any:
-        """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        """Complementary modulus sqrt(1 - k^2) of the elliptic functions, accurate next to a separatrix."""
         return self._scalar("complementary_modulus")
 
     @kept
@@ -109,17 +127,43 @@ class NutatingMotion(Motion[Nutation]):
         return self._scalar("nome")
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3); within the bound that the class states.
+        """Angular velocity Omega(t) along the axes of the body.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of Omega, in rad/time, within the bound that the class states.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         Omega = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
         return self._spun(np.asarray(finite(Omega, "Omega")), t)
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
+        """Field K(t) = R^T B' in the body, eq. (32).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of K, in 1/time, within the bound that the class states.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         K = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
         return self._in_body(np.asarray(finite(K, "K")))
@@ -162,15 +206,17 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
     @kept
     def roots(self) -> Any:
-        """Roots of Q in Omega3, of tops in nu, complex, shape (..., 4): the real ones ascending, then the others.
+        """Roots of the quartic Q in Omega3 (for tops in nu): complex, shape (..., 4), real roots first and ascending.
 
-        Those that have gone to infinity (two for I = 1, all for B = 0) are inf, and come last.
+        Notes
+        -----
+        Roots at infinity are inf and come last: two for I = 1, all four for B = 0.
         """
         return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
     @kept
     def turning_points(self) -> tuple[Any, Any]:
-        """Least and largest Omega3, of tops nu = cos theta; on a separatrix one is approached and never reached."""
+        """Least and largest Omega3 in rad/time, for tops nu = cos theta; on a separatrix one is only approached."""
         ends = self._each(
             "turning_points", lambda exact: [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
         )

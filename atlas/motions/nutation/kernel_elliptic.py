@@ -28,31 +28,48 @@ def balls(*row: float) -> Balls:
 
 
 class EllipticMotion(NutatingMotion[SingleElliptic]):
-    """Motion R(t), R(0) = 1, of a charged body of any inertia tensor, one of a family for each field, theorem-elliptic.
+    """Family of motions of a charged body with any inertia tensor, by elliptic functions, theorem-elliptic.
 
-    `inertia` (I1, I2, I3), the principal moments; `field` (B1, B2, B3), the components of B' in the principal axes at
-    t = 0, in 1/time; `z` in the unit of inertia squared and `branch`, 1 or -1, choose the motion: with D = I1 I2 I3,
+    It extends the paper's hyperbola (67) to three different moments (not in the paper). With D = I1 I2 I3, for all t,
 
-        Omega(t) = -[1 + v (z II + D)^-1] K(t) for all t,     v = branch sqrt((z + D/I1)(z + D/I2)(z + D/I3)),
+        Omega(t) = -[1 + v (z II + D)^-1] K(t),     v = branch sqrt((z + D/I1)(z + D/I2)(z + D/I3)).
 
-    which is the initial angular velocity `omega` too. So K turns like a free body, K' = [K, E K], E_i = -v/(z I_i + D),
-    in Jacobi's elliptic functions. The inputs are taken as exact and broadcast with one another and with t. z lies on
-    one of two ovals: above the largest of -D/I_i, or between the other two. For I1 = I2 this is the paper's hyperbola
-    (67) of elementary motions, and z = 0 is rest (branch -1) or Omega = -2 K (branch 1). `kind`, decided exactly, is
+    Parameters
+    ----------
+    inertia : (I1, I2, I3), array_like
+        Principal moments, positive, the largest at most the sum of the others.
+    field : (B1, B2, B3), array_like, or Field
+        Components of B' along the principal axes at t = 0, in 1/time.
+    z : float or array_like
+        Parameter of the family, in inertia^2, on one of the two ovals of the curve (see Notes).
+    branch : {1, -1} or array_like
+        Sign of the root v.
 
-    - "at rest", "Omega = -2 K", "ball", "field along an axis": K is constant, and R a turn about the field;
+    Raises
+    ------
+    DomainError
+        For moments that no body has, for a z on neither oval or at the end of one, and for another branch.
+    AtlasError
+        For an input that is no finite number.
+
+    Notes ----- The motion starts from R(0) = 1. Inputs are taken as exact and broadcast with one another and with the
+    times. z lies above the largest of -D/I_i, or between the other two. K moves like the angular momentum of a free
+    body, K' = [K, E K] with E_i = -v/(z I_i + D). For I1 = I2 the family is that of the elementary motions. z = 0 is
+    rest (branch -1) or Omega = -2 K (branch 1). `kind`, decided exactly, is one of
+
+    - "at rest", "Omega = -2 K", "ball", "field along an axis": K is constant, and R a rotation about the field;
     - "elementary": two moments are equal, R = R_B(k t) R_3(phi t) as in (84), (85);
-    - "elliptic", or "separatrix", where K tends to the axis of the middle E_i.
+    - "elliptic": Jacobi's elliptic functions of time;
+    - "separatrix": K tends to the axis of the middle E_i.
 
-    The cost does not depend on t. Entries of R are
-    within 3.6e-15 for phases up to 2^50, K within 3.6e-15 |B'|, Omega_i within 3.6e-15 |E_i - 1| |B'|; scalars within
-    4 ulp. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
-    others, for a z on neither oval or at the end of one, and for another branch; AtlasError for what is no finite
-    number.
+    The cost does not depend on t. Entries of R are within 3.6e-15 for phases up to 2^50. K is within 3.6e-15 |B'|,
+    Omega_i within 3.6e-15 |E_i - 1| |B'|, and scalars are within 4 ulp.
 
-        >>> motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), z=1.7)
-        >>> motion.kind, round(motion.period, 9)
-        ('elliptic', 23.996707123)
+    Examples
+    --------
+    >>> motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), z=1.7)
+    >>> motion.kind, round(motion.period, 9)
+    ('elliptic', 23.996707123)
     """
 
     family = "elliptic"
@@ -75,81 +92,139 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     @kept
     def period(self) -> Any:
-        """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none.
+        """Period T of K; inf where no period exists.
 
-        Raises DomainError where it is beyond all floats.
+        Raises
+        ------
+        DomainError
+            If the period exceeds the largest float.
+
+        Notes
+        -----
+        Where K is constant, the period is that of an infinitesimal change of K.
         """
         return self._scalar("period")
 
     @kept
     def precession_per_period(self) -> Any:
-        """Angle, in one period, by which the axis that K goes round precesses about the field, radians.
+        """Angle of precession about the field, in one period, of the axis that K circles, in rad.
 
-        That is the axis of the largest or of the least E_i; any other precesses by whole turns more or less. For I1 =
-        I2 it is the axis of symmetry. Where K stands on an axis, it is the limit of the motions next to it. Where there
-        is no period there is none: DomainError for one motion, NaN for one of an array.
+        Raises
+        ------
+        DomainError
+            If one motion has no period; an array has NaN there.
+
+        Notes ----- K circles the axis of the largest or of the least E_i, for I1 = I2 the axis of symmetry. Other axes
+        precess by a different number of full turns. Where K is constant, the angle is the limit of neighbouring
+        motions.
         """
         return self._scalar("precession_per_period")
 
     @kept
     def spin_per_period(self) -> Any:
-        """Angle by which the body turns about the axis that K goes round in one period: 2 pi or -2 pi."""
+        """Angle of rotation about the axis that K circles, in one period: 2 pi or -2 pi, in rad."""
         return self._scalar("spin_per_period")
 
     @kept
     def precession_rate(self) -> Any:
-        """Mean rate of precession of that axis about the field; also where K stands, and there is no period."""
+        """Mean rate of precession about the field of the axis that K circles, in rad/time; also for constant K."""
         return self._scalar("precession_rate")
 
     @kept
     def spin_rate(self) -> Any:
-        """Mean rate at which the body turns about the axis that K goes round, 2 pi or -2 pi over the period, or 0."""
+        """Mean rate of rotation about the axis that K circles: 2 pi/`period`, -2 pi/`period` or 0, in rad/time."""
         return self._scalar("spin_rate")
 
     @kept
     def stability(self) -> Any:
-        """Whether every motion that starts near stays beside the curve of K and M: a string, or an array of them.
+        """Orbital stability of the curve of K and M: "stable", "unstable" or "undecided"; a string, or an array of
+        strings.
 
-        "stable", "unstable" or, where `splitting` is zero, "undecided"; decided exactly on the inputs. Where the body
-        rests or Omega = -2 K the curve is that of the second flow, along which neighbours drift slowly.
+        Notes ----- "stable" means that every neighbouring start stays next to the curve. "undecided" occurs where
+        `splitting` is zero. The answer is decided exactly. At rest and for Omega = -2 K the curve is that of the
+        second flow, along which neighbours drift slowly.
         """
         return self._each("stability", lambda exact: exact.stability)
 
     @kept
     def splitting(self) -> Any:
-        """Squared frequency of small departures in the flow of H + (z/D) F/2, theorem-splitting; negative: unstable.
+        """Squared frequency of small departures, theorem-splitting, in 1/time^2; negative where unstable.
 
-        It is [4 b^2 P + s (P'^2 - 2 P P'')]/D^2, in 1/time^2, with P = v^2 as a polynomial in z and
-        s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1 that is (1 + z/D)^2 times the squared frequency of nutation of
-        `Hyperbola.stability`. DomainError beyond all floats.
+        Raises
+        ------
+        DomainError
+            If the value exceeds the largest float.
+
+        Notes
+        -----
+        The flow is that of H + (z/D) F/2. The value is [4 b^2 P + s (P'^2 - 2 P P'')]/D^2, with P(z) = v^2 and
+        s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1 it is (1 + z/D)^2 times `Hyperbola.stability`.
         """
         return finite(self._scalar("splitting"), "splitting")
 
     @kept
     def v(self) -> Any:
-        """The root v of prod(z + D/I_i), of the sign of the branch, in inertia^3. DomainError beyond all floats."""
+        """Root v = branch sqrt((z + D/I1)(z + D/I2)(z + D/I3)), in inertia^3.
+
+        Raises
+        ------
+        DomainError
+            If the value exceeds the largest float.
+        """
         return finite(self._scalar("v"), "v")
 
     @kept
     def omega(self) -> tuple[Any, Any, Any]:
-        """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'; DomainError beyond floats."""
+        """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B', in rad/time.
+
+        Raises
+        ------
+        DomainError
+            If a component exceeds the largest float.
+        """
         omega = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
         finite(omega, "omega")
         return (omega[..., 0], omega[..., 1], omega[..., 2]) if self.shape else tuple(omega)
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
+        """Angular momentum m = R II Omega in the laboratory.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of m, in inertia/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
-        """Constants of any body's motion, theorem-clebsch: H, F, (M, K), K^2 and the kinetic energy.
+        """Constants of the motion H, F, (M, K), K^2 and kinetic energy, theorem-clebsch.
 
-        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
-        check, good to some ulp of the largest term. Raises AtlasError for a time that is not finite or whose phases
-        exceed 2^50.
+        Parameters
+        ----------
+        t : array_like, optional
+            Times at which the constants are evaluated from Omega(t) and K(t), as a check. By default the exact inputs
+            are used.
+
+        Returns
+        -------
+        dict of str to float or ndarray
+            "H", "(M,K)", "energy" in inertia/time^2, "F" in inertia^2/time^2, "K^2" in 1/time^2. From the inputs each
+            is rounded once; at times each is within some ulp of its largest term.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
             constants = self._each(

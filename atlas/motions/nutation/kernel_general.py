@@ -29,32 +29,46 @@ def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
 
 
 class GeneralMotion(SymmetricMotion[SingleGeneral]):
-    """Motion R(t), R(0) = 1, of a charged symmetric body from any initial angular velocity (not in the paper).
+    """Motion of a charged symmetric body from any initial angular velocity (not in the paper).
 
-    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in (32), or all three
-    (B1, B2, B3) of a field in any direction; `omega` = (omega1, omega2, omega3), the initial angular velocity: in one
-    unit 1/time, of any sign. The inputs are taken as exact and broadcast with one another and with t. `in_laboratory`
-    takes any attitude.
+    The motion starts from R(0) = 1; `in_laboratory` takes any attitude. Omega3 moves between two roots of a quartic,
+    (dOmega3/dt)^2 = Q(Omega3).
 
-    Omega3 moves between two roots of the quartic Q, (dOmega3/dt)^2 = Q(Omega3); theta is the angle between the body's
-    axis and B, cos theta = K3/b. `kind` is one of
+    Parameters
+    ----------
+    ratio : float or array_like or SymmetricBody
+        I = I3/I2, in (0, 2].
+    field : (B2, B3) or (B1, B2, B3), array_like, or Field
+        Components of B' = mu B/(2c), as in (32), of any sign, in 1/time.
+    omega : (omega1, omega2, omega3), array_like
+        Initial angular velocity along the body's axes, in rad/time.
+
+    Raises
+    ------
+    DomainError
+        For a ratio that no body has. Values at a time: if the axis comes within about 1e-600 rad of the field.
+    AtlasError
+        For an input that is no number.
+
+    Notes ----- Inputs are taken as exact and broadcast with one another and with the times. theta is the angle between
+    the axis and B, cos theta = K3/b. `kind`, decided exactly, is one of
 
     - "at rest", "precession", "spin along the field": Omega3 is constant, as in `ElementaryMotion`;
-    - "free body": B = 0, (87); "ball": I3 = I2, any motion that is none of these;
-    - "nutation, two real roots" and "nutation, four real roots" of Q: elliptic functions of time;
-    - "separatrix": Omega3 tends to a double root of Q, hyperbolic functions; "separatrix, triple root": rational ones;
-      "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
+    - "free body": B = 0, (87);
+    - "ball": I3 = I2, any motion that is none of these;
+    - "nutation, two real roots", "nutation, four real roots" of Q: elliptic functions of time;
+    - "separatrix": Omega3 tends to a double root of Q, hyperbolic functions;
+    - "separatrix, triple root": rational functions;
+    - "separatrix between B and -B": the axis turns over once, from one pole of the sphere to the other.
 
-    Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t. Entries of R
-    are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15. K is
-    within 1.8e-15 of |B'|, Omega within 16 ulp of its own largest component, however slowly the body turns beside its
-    Larmor frame, and m within 7e-15 of its length.
-    Raises AtlasError for what is no number. Values at a time raise DomainError if the body's axis comes to within some
-    1e-600 rad of the field, but not into it.
+    The cost does not depend on t. Error bounds are 1.8e-15 for entries of R (3.6e-15 on fine grids), 1.8e-15 |B'| for
+    K, and 7e-15 |m| for m. Omega is within 16 ulp of its largest component.
 
-        >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
-        >>> motion.kind, round(motion.period, 9)
-        ('nutation, four real roots', 2.181330398)
+    Examples
+    --------
+    >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+    >>> motion.kind, round(motion.period, 9)
+    ('nutation, four real roots', 2.181330398)
     """
 
     family = "general"
@@ -72,19 +86,46 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         }  # fmt: skip
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3).
+        """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory, as in (88).
 
-        Each component is within 7e-15 of the length of m. Raises AtlasError for a time that is not finite or whose
-        phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of m/I2, in rad/time, each within 7e-15 |m|/I2.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._momentum_of(self._momentum, t, "m/I2")
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B')/I2 with M = II (Omega + K), by name.
+        """Constants of the motion E', K^2, c3, c5, eqs. (36)-(41), and (M, B')/I2 with M = II (Omega + K).
 
-        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
-        check, good to some ulp of the largest term. DomainError where a term is too large for a float. Raises
-        AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like, optional
+            Times at which the constants are evaluated from Omega(t) and K(t), as a check. By default the exact inputs
+            are used.
+
+        Returns
+        -------
+        dict of str to float or ndarray
+            The five constants by name. From the inputs each is rounded once; at times each is within some ulp of its
+            largest term.
+
+        Raises
+        ------
+        DomainError
+            If a term exceeds the largest float.
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
             return {name: finite(plain(x), name) for name, x in zip(CONSTANTS, self._constants, strict=True)}

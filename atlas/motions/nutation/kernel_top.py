@@ -42,35 +42,52 @@ def _constants(*row: float) -> list[float]:
 
 
 class TopMotion(SymmetricMotion[SingleTop]):
-    """Motion R(t), R(0) = 1, of a symmetric top in a uniform field, from any start (not in the paper).
+    """Motion of a symmetric top in a uniform field, from any start (not in the paper).
 
-    `inertia` (I2, I3) across and along the axis; `coupling` (k2, k3), so that M = I Omega + k b, in the unit of inertia
-    by that of time; `direction` (n2, n3) of the constant vector n in the body at t = 0, of any length but zero: b =
-    R^T n/|n|, and e1 is across n; `omega` = (omega1, omega2, omega3) the initial angular velocity, in 1/time; `linear`
-    and `quadratic` give the potential U(nu) = linear nu + quadratic nu^2/2, nu = cos theta the cosine between the axis
-    and n, in the unit of inertia by that of time squared. The inputs are taken as exact and broadcast with one another
-    and with t. The equations are
+    The motion starts from R(0) = 1. With b = R^T n/|n| and M = I Omega + k b its equations are
 
         dM/dt = [M, Omega] + [k Omega - U'(nu) e3, b],     db/dt = [b, Omega].
 
-    `GeneralMotion` is k2/I2 = k3/I3 = |B'| without a potential, Lagrange's heavy top k2 = k3 = 0, linear = m g l.
-    `heavy` and `charged` make a top from what a user has in hand. nu moves between two roots of a quartic, a cubic if
-    A = k3^2/I3 - k2^2/I2 + quadratic is zero; `kind` is one of
+    Parameters
+    ----------
+    inertia : (I2, I3), array_like
+        Moments across and along the axis, 0 < I3 <= 2 I2.
+    coupling : (k2, k3), array_like
+        Gyroscopic coupling to the field, in inertia/time.
+    direction : (n2, n3), array_like
+        Constant vector n in the body at t = 0, of any length but zero; e1 is across n.
+    omega : (omega1, omega2, omega3), array_like
+        Initial angular velocity along the body's axes, in rad/time.
+    linear, quadratic : float or array_like
+        Coefficients of the potential U(nu) = linear nu + quadratic nu^2/2, nu = cos theta, in inertia/time^2.
+
+    Raises
+    ------
+    DomainError
+        If I3 is not in (0, 2 I2], or if n is zero.
+    AtlasError
+        For an input that is no finite number.
+
+    Notes ----- Inputs are taken as exact and broadcast with one another and with the times. `heavy` and `charged` make
+    a top from physical data. Without a potential, k2/I2 = k3/I3 = |B'| is a `GeneralMotion`. Lagrange's heavy top has
+    k2 = k3 = 0 and linear = m g l. theta is the angle between the axis and n. `kind`, decided exactly, is one of
 
     - "at rest", "vertical spin" (a sleeping top), "steady precession": theta is constant;
-    - "regular nutation": a quadratic, nu is a cosine of time; "nutation, three real roots" of a cubic, "nutation, two
-      real roots" or "four real roots" of a quartic: elliptic functions of time;
-    - "separatrix": nu tends to a double root; "separatrix, triple root"; "separatrix between n and -n".
+    - "regular nutation": the polynomial of nu is a quadratic, and nu is a cosine of time;
+    - "nutation, three real roots" of a cubic: elliptic functions of time;
+    - "nutation, two real roots", "nutation, four real roots" of a quartic: elliptic functions of time;
+    - "separatrix": nu tends to a double root;
+    - "separatrix, triple root"; "separatrix between n and -n".
 
-    Which it is, is decided exactly. The cost does not depend on t. Arrays of tops at a few times each are evaluated
-    without a loop; those next to a separatrix, nearly steady, or with rates of very different sizes are made one by
-    one, some milliseconds each. Entries of R are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the
-    largest rate.
-    Raises DomainError if I3 is not in (0, 2 I2] or if n is zero; AtlasError for what is no finite number.
+    The quartic is a cubic if k3^2/I3 - k2^2/I2 + quadratic = 0. The cost does not depend on t. Entries of R are within
+    3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the largest rate. Arrays of tops at a few times each are
+    vectorised. Tops next to a separatrix or nearly steady take some milliseconds each.
 
-        >>> top = atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), omega=(0.1, 0.2, 5.0), linear=3.0)
-        >>> top.kind, round(top.period, 9)
-        ('nutation, three real roots', 3.204092414)
+    Examples
+    --------
+    >>> top = atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), omega=(0.1, 0.2, 5.0), linear=3.0)
+    >>> top.kind, round(top.period, 9)
+    ('nutation, three real roots', 3.204092414)
     """
 
     family = "top"
@@ -94,12 +111,34 @@ class TopMotion(SymmetricMotion[SingleTop]):
     def heavy(
         cls, body: SymmetricBody, gravity: float, length: float, direction: Any, omega: Any, *, mass: float
     ) -> Self:
-        """Lagrange's top: a body held at a point of its axis, under its weight.
+        """Lagrange's top: a body under its weight, held at a point of its axis (not in the paper).
 
-        `body` with its moments about the centre of mass, which lies at `length` along the axis from the fixed point;
-        `gravity` g >= 0 and `mass`, in the units of the moments; `direction` (n2, n3) points up, against gravity. The
-        moment across the axis is I2 + m l^2, and linear = m g l, exactly.
-        Raises AtlasError for what is no body or no number, DomainError for a mass that is not positive or a negative g.
+        Parameters
+        ----------
+        body : SymmetricBody
+            Body with moments about its centre of mass.
+        gravity : float
+            Acceleration g >= 0, in the units of the moments.
+        length : float
+            Distance l from the fixed point to the centre of mass, along the axis.
+        direction : (n2, n3), array_like
+            Upward vertical in the body at t = 0.
+        omega : (omega1, omega2, omega3), array_like
+            Initial angular velocity, in rad/time.
+        mass : float
+            Mass m > 0.
+
+        Returns
+        -------
+        TopMotion
+            Top with the moment I2 + m l^2 across the axis and linear = m g l, both exact.
+
+        Raises
+        ------
+        DomainError
+            For a mass that is not positive, or a negative g.
+        AtlasError
+            For an input that is no body or no number.
         """
         I2, I3 = moments_of_one(body)
         m, l = positive(mass, "The mass", MASS), number(length, "The length", LENGTH)
@@ -127,18 +166,50 @@ class TopMotion(SymmetricMotion[SingleTop]):
         demagnetization: float = 1 / 3,
         weight: tuple[float, float] = (0.0, 0.0),
     ) -> Self:
-        """Top of a body whose charges are spread in another way than its mass, in the magnetic field (0, B2, B3).
+        """Top whose charge is distributed differently from its mass, in the magnetic field (0, B2, B3).
 
-        `field` = (B2, B3) is B itself; `units`, "SI" (kg, m, C, T) or "Gaussian" (g, cm, statC, G), say what `c` is: 1
-        in SI, the speed of light in Gaussian units, as in `Field`; results are in seconds. k_i = J_i |B|/(2c). `moment`
-        d is a magnetic moment along the axis, with the energy -d |B| nu; `polarizability` (a2, a3), moments induced
-        across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2; an ellipsoid of `volume` V,
-        `susceptibility` chi and factor N of `demagnetization` along its axis has V chi/(mu0 (1 + N chi)) along it, in
-        SI, and adds its own. `weight` = (w2, w3), parallel to the field, is m g l along the upward vertical of a body
-        held at a point, at the distance l from the centre of mass; its moments are then those about that point.
-        Products and |B| are not rounded, but for that of `volume`
-        and `susceptibility`. Raises AtlasError for what is no body or no number, DomainError for B = 0, where there is
-        no direction: use `FreeMotion`; and for a weight that is not parallel to the field: two directions are no top.
+        Parameters
+        ----------
+        body : SymmetricBody
+            Moments of inertia: about the centre of mass, or about the fixed point of a held body.
+        charges : ChargeMoments
+            Second moments J2, J3 of the charge.
+        field : (B2, B3), array_like
+            Magnetic field B itself in the body's axes at t = 0, in T or G.
+        omega : (omega1, omega2, omega3), array_like
+            Initial angular velocity, in rad/time.
+        c : float
+            1 in SI, the speed of light in Gaussian units, as in `Field`; given instead of `units`.
+        units : {"SI", "Gaussian"}, optional
+            Units kg, m, C, T or g, cm, statC, G; results are in seconds.
+        moment : float
+            Magnetic moment d along the axis, with the energy -d |B| nu.
+        polarizability : (float, float)
+            Moments (a2, a3) that a unit field induces across and along the axis; the energy is -(a3 - a2) B^2 nu^2/2.
+        susceptibility : float
+            Magnetic susceptibility chi of an ellipsoid.
+        volume : float
+            Volume V of the ellipsoid.
+        demagnetization : float
+            Demagnetizing factor N along the axis of the ellipsoid.
+        weight : (w2, w3)
+            m g l along the upward vertical, parallel to the field, for a body held at the distance l from its centre
+            of mass.
+
+        Returns
+        -------
+        TopMotion
+            Top with the coupling k_i = J_i |B|/(2c).
+
+        Raises
+        ------
+        DomainError
+            For B = 0, which is a `FreeMotion`, and for a weight that is not parallel to the field.
+        AtlasError
+            For an input that is no body or no number.
+
+        Notes ----- The ellipsoid has the polarizability V chi/(mu0 (1 + N chi)) along its axis, in SI, added to
+        `polarizability`. Products and |B| are not rounded, except that of `volume` and `susceptibility`.
         """
         I2, I3 = moments_of_one(body)
         if not isinstance(charges, ChargeMoments):
@@ -166,30 +237,53 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @kept
     def stable(self) -> Any:
-        """Whether a motion with constant theta is stable against nutation, decided exactly, theorem-top-nutation.
+        """True if a motion with constant theta is stable, theorem-top-nutation; None where theta varies.
 
-        At the border of stability the next derivatives of the potential decide. None where theta varies.
+        Notes
+        -----
+        Stability is decided exactly. At its border the next derivatives of the potential decide.
         """
         return self._each("stable", lambda exact: exact.stable)
 
     @property
     def steady_precessions(self) -> list[SteadyPrecession]:
-        """Steady precessions at the inclination and with the omega3 of this top: `rate`, `nutation`, `stable`.
+        """Steady precessions at the inclination and with the omega3 of this top, theorem-top-precession.
 
-        I2 nu w^2 - M3 w + a + A nu = 0, theorem-top-precession, w = rate + k2/I2 with `rate` about n; none where both
-        are complex, one where they meet or nu = 0, else the one of the smaller |w| first. omega2 = rate n2/|n| and
-        omega1 = 0 start it. None with the axis along n, see `sleeping_bands`. AtlasError for an array; DomainError
-        where every rate is one.
+        Returns
+        -------
+        list of SteadyPrecession
+            Records with `rate` about n, squared frequency `nutation` and `stable`; the smaller |rate + k2/I2| first.
+
+        Raises
+        ------
+        DomainError
+            Where every rate is a steady precession.
+        AtlasError
+            For an array of tops.
+
+        Notes ----- The rates solve I2 nu w^2 - M3 w + a + A nu = 0 with w = rate + k2/I2. The list is empty where both
+        are complex. One remains where both coincide or nu = 0. A start has omega1 = 0 and omega2 = rate n2/|n|. For an
+        axis along n see `sleeping_bands`.
         """
         balls = enclosed(lambda: [tuple(x) for x in self._twin.steady_precessions], BITS)
         return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in balls]
 
     @property
     def sleeping_bands(self) -> dict[str, tuple[float, float] | None]:
-        """Values of omega3 between which this top falls over, its axis along n, "upright", or against it, "hanging".
+        """Intervals of omega3 in which the vertical top is unstable, theorem-sleeping-top: M3^2 < 4 (a + A).
 
-        M3^2 < 4 (a + A), with the sign of a reversed for "hanging", theorem-sleeping-top; of Lagrange's top (I3
-        omega3)^2 < 4 I2 m g l. None where it is stable at any spin. At an end see `stable`. AtlasError for an array.
+        Returns
+        -------
+        dict of str to (float, float) or None
+            Bounds in rad/time for the axis along n, "upright", and against n, "hanging"; None if every spin is stable.
+
+        Raises
+        ------
+        AtlasError
+            For an array of tops.
+
+        Notes ----- "hanging" reverses the sign of a. For Lagrange's top the band is (I3 omega3)^2 < 4 I2 m g l. At its
+        ends see `stable`.
         """
         balls = enclosed(lambda: list(self._twin.sleeping_bands.items()), BITS)
         return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in balls}
@@ -203,29 +297,68 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @property
     def quadric(self) -> TopQuadric:
-        """The quadric of starts with nu'' = 0 of this top, whatever omega, theorem-top-quadric."""
+        """Quadric of starts with nu'' = 0 of this top for any omega, theorem-top-quadric: a `TopQuadric`."""
         return TopQuadric(self.inertia, self.coupling, self.direction, self.linear, self.quadratic)
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Direction b(t) = R^T n in the body, a unit vector; shape (..., 3).
+        """Unit vector b(t) = R^T n/|n| in the body.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of b, of length 1.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         b = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
         return self._in_body(np.asarray(finite(b, "b")))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3).
+        """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of M/I2, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._momentum_of(lambda _: self._momentum(t), t, "M/I2")
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
-        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction.
+        """Constants of the motion divided by I2: energy h, M3 along the axis and p = (M, n) along the unit vector n.
 
-        Without `t` from the exact inputs, each rounded once. With times as they come out of Omega(t) and b(t): a check.
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like, optional
+            Times at which the constants are evaluated from Omega(t) and b(t), as a check. By default the exact inputs
+            are used.
+
+        Returns
+        -------
+        dict of str to float or ndarray
+            "h" in 1/time^2, "M3" and "p" in 1/time; from the inputs each is rounded once.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
             *top, w1, w2, w3, a0, A0 = self._inputs
