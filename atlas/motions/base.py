@@ -213,8 +213,10 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For times that `rotation` refuses.
 
-        Notes ----- The quaternion is continuous in t, with w >= 0 at t = 0. One full turn changes its sign. Error
-        bounds are those of `rotation`.
+        Notes
+        -----
+        The quaternion is continuous in t, with w >= 0 at t = 0. One full turn changes its sign. Error bounds are those
+        of `rotation`.
         """
         quaternions = self._evaluate(lambda single, t, out: single.quaternion(t, out), t, (4,))
         if self._placement is not None:
@@ -306,9 +308,11 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For an input that is no number.
 
-        Notes ----- A `TopMotion` takes the coupling and the potential as `parameters`. An `EllipticMotion` takes z and
-        branch instead of the angular velocity. An `ElementaryMotion` takes omega2 and omega3 instead, with e2 along
-        the part of the field across the axis at the start.
+        Notes
+        -----
+        A `TopMotion` takes the coupling and the potential as `parameters`. An `EllipticMotion` takes z and branch
+        instead of the angular velocity. An `ElementaryMotion` takes omega2 and omega3 instead, with e2 along the part
+        of the field across the axis at the start.
         """
         chosen = import_module("atlas.motions.any_body")
         motion: Self = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
@@ -361,9 +365,11 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For an unknown name, and for times that `rotation` refuses.
 
-        Notes ----- In `atlas.motion` the field may have any direction. There "B1" to "B3" are its components in the
-        laboratory. "omega1" to "omega3" are the components of Omega(0) along the body's axes, and "a1" to "a3" rotate
-        R(0) about the laboratory axes.
+        Notes
+        -----
+        In `atlas.motion` the field may have any direction. There "B1" to "B3" are its components in the laboratory.
+        "omega1" to "omega3" are the components of Omega(0) along the body's axes, and "a1" to "a3" rotate R(0) about
+        the laboratory axes.
 
         Errors stay below 1e-12 of 1 + |v| at any time. Next to a border between types of motion each time is evaluated
         alone, in some milliseconds. For three different moments the constants of the theta functions are
@@ -392,9 +398,11 @@ class Motion(Shown, Generic[Single]):
         DomainError, AtlasError
             As for `sensitivity`.
 
-        Notes ----- The bound sums half an ulp of each input times the length of the corresponding vector of
-        `sensitivity`. It concerns decimal inputs that no float holds, such as 0.1. The motion of the floats themselves
-        has no such error. The bound grows in proportion to t, on an unstable motion exponentially.
+        Notes
+        -----
+        The bound sums half an ulp of each input times the length of the corresponding vector of `sensitivity`. It
+        concerns decimal inputs that no float holds, such as 0.1. The motion of the floats themselves has no such
+        error. The bound grows in proportion to t, on an unstable motion exponentially.
 
         Examples
         --------
@@ -428,7 +436,9 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For an array of motions.
 
-        Notes ----- Frequencies are integer combinations of 2 pi/period, `precession_rate` and `spin_rate`. For an
+        Notes
+        -----
+        Frequencies are integer combinations of 2 pi/period, `precession_rate` and `spin_rate`. For an
         `AsymmetricMotion` they combine its `frequencies`. Amplitudes are integrals over the phases, accurate to
         rounding.
 
@@ -459,7 +469,9 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For an array of motions.
 
-        Notes ----- The action of precession is (M, n), the canonical momentum along the field; that of spin is M3. An
+        Notes
+        -----
+        The action of precession is (M, n), the canonical momentum along the field; that of spin is M3. An
         `AsymmetricMotion` has one action for each of its `frequencies`. Slow changes conserve the actions, see
         `atlas.drift`. Values are integrals over the phases, accurate to rounding; `AsymmetricMotion.curve` has
         certified digits of them.
@@ -547,9 +559,10 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             For a count that is no integer, an `out` of another shape, and times that `rotation` refuses.
 
-        Notes ----- Each matrix belongs to the exact real number start + i step, which need not be a float. In
-        elementary functions the grid is faster than `rotation` from 10 000 times on, and twice as fast from 100 000
-        on.
+        Notes
+        -----
+        Each matrix belongs to the exact real number start + i step, which need not be a float. In elementary functions
+        the grid is faster than `rotation` from 10 000 times on, and twice as fast from 100 000 on.
         """
         start, step = number(start, "The start of the grid", TIME), number(step, "The step of the grid", TIME)
         count = whole(count, "The count of the grid")

@@ -77,8 +77,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     AtlasError
         For an input that is no number.
 
-    Notes ----- Inputs are taken as exact. They broadcast with one another and with the times. A frequency that
-    overflows is inf; the motion remains available while the phases stay within 2^50. `case` is one of
+    Notes
+    -----
+    Inputs are taken as exact. They broadcast with one another and with the times. A frequency that overflows is inf;
+    the motion remains available while the phases stay within 2^50. `case` is one of
 
     - "precession": omega3 by (71), k = omega2/B2hat by (79), phi by (72);
     - "at rest": omega2 = 0, and R = 1;

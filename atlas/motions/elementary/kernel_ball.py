@@ -47,8 +47,10 @@ class BallMotion(DoubleTurn[Ball]):
     AtlasError
         For an input that is no number.
 
-    Notes ----- The frame is that of Figure Ball: e3 along the field, m(0) in the plane (e2, e3). For m2 = 0 both
-    rotations have one axis, (30). Inputs are taken as exact and broadcast with one another and with the times.
+    Notes
+    -----
+    The frame is that of Figure Ball: e3 along the field, m(0) in the plane (e2, e3). For m2 = 0 both rotations have
+    one axis, (30). Inputs are taken as exact and broadcast with one another and with the times.
 
     Examples
     --------

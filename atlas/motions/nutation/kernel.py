@@ -78,9 +78,10 @@ class NutatingMotion(Motion[Nutation]):
         DomainError
             If the period of one motion is infinite; an array has NaN there.
 
-        Notes ----- The angle is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b with nu = cos theta, M3 = I c3
-        and p = (M, K)/b. For a top n replaces the field, and k2/I2 replaces b. A passage through a pole counts half a
-        turn less.
+        Notes
+        -----
+        The angle is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b with nu = cos theta, M3 = I c3 and p = (M,
+        K)/b. For a top n replaces the field, and k2/I2 replaces b. A passage through a pole counts half a turn less.
         """
         return self._scalar("precession_per_period")
 

@@ -52,10 +52,12 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     AtlasError
         For an input that is no finite number.
 
-    Notes ----- The motion starts from R(0) = 1. Inputs are taken as exact and broadcast with one another and with the
-    times. z lies above the largest of -D/I_i, or between the other two. K moves like the angular momentum of a free
-    body, K' = [K, E K] with E_i = -v/(z I_i + D). For I1 = I2 the family is that of the elementary motions. z = 0 is
-    rest (branch -1) or Omega = -2 K (branch 1). `kind`, decided exactly, is one of
+    Notes
+    -----
+    The motion starts from R(0) = 1. Inputs are taken as exact and broadcast with one another and with the times. z
+    lies above the largest of -D/I_i, or between the other two. K moves like the angular momentum of a free body, K' =
+    [K, E K] with E_i = -v/(z I_i + D). For I1 = I2 the family is that of the elementary motions. z = 0 is rest (branch
+    -1) or Omega = -2 K (branch 1). `kind`, decided exactly, is one of
 
     - "at rest", "Omega = -2 K", "ball", "field along an axis": K is constant, and R a rotation about the field;
     - "elementary": two moments are equal, R = R_B(k t) R_3(phi t) as in (84), (85);
@@ -114,9 +116,10 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         DomainError
             If one motion has no period; an array has NaN there.
 
-        Notes ----- K circles the axis of the largest or of the least E_i, for I1 = I2 the axis of symmetry. Other axes
-        precess by a different number of full turns. Where K is constant, the angle is the limit of neighbouring
-        motions.
+        Notes
+        -----
+        K circles the axis of the largest or of the least E_i, for I1 = I2 the axis of symmetry. Other axes precess by
+        a different number of full turns. Where K is constant, the angle is the limit of neighbouring motions.
         """
         return self._scalar("precession_per_period")
 
@@ -137,12 +140,13 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     @kept
     def stability(self) -> Any:
-        """Orbital stability of the curve of K and M: "stable", "unstable" or "undecided"; a string, or an array of
-        strings.
+        """Orbital stability of the curve of K and M: "stable", "unstable" or "undecided", or an array of these.
 
-        Notes ----- "stable" means that every neighbouring start stays next to the curve. "undecided" occurs where
-        `splitting` is zero. The answer is decided exactly. At rest and for Omega = -2 K the curve is that of the
-        second flow, along which neighbours drift slowly.
+        Notes
+        -----
+        "stable" means that every neighbouring start stays next to the curve. "undecided" occurs where `splitting` is
+        zero. The answer is decided exactly. At rest and for Omega = -2 K the curve is that of the second flow, along
+        which neighbours drift slowly.
         """
         return self._each("stability", lambda exact: exact.stability)
 

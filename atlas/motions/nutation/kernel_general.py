@@ -50,8 +50,10 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
     AtlasError
         For an input that is no number.
 
-    Notes ----- Inputs are taken as exact and broadcast with one another and with the times. theta is the angle between
-    the axis and B, cos theta = K3/b. `kind`, decided exactly, is one of
+    Notes
+    -----
+    Inputs are taken as exact and broadcast with one another and with the times. theta is the angle between the axis
+    and B, cos theta = K3/b. `kind`, decided exactly, is one of
 
     - "at rest", "precession", "spin along the field": Omega3 is constant, as in `ElementaryMotion`;
     - "free body": B = 0, (87);

@@ -68,9 +68,11 @@ class TopMotion(SymmetricMotion[SingleTop]):
     AtlasError
         For an input that is no finite number.
 
-    Notes ----- Inputs are taken as exact and broadcast with one another and with the times. `heavy` and `charged` make
-    a top from physical data. Without a potential, k2/I2 = k3/I3 = |B'| is a `GeneralMotion`. Lagrange's heavy top has
-    k2 = k3 = 0 and linear = m g l. theta is the angle between the axis and n. `kind`, decided exactly, is one of
+    Notes
+    -----
+    Inputs are taken as exact and broadcast with one another and with the times. `heavy` and `charged` make a top from
+    physical data. Without a potential, k2/I2 = k3/I3 = |B'| is a `GeneralMotion`. Lagrange's heavy top has k2 = k3 = 0
+    and linear = m g l. theta is the angle between the axis and n. `kind`, decided exactly, is one of
 
     - "at rest", "vertical spin" (a sleeping top), "steady precession": theta is constant;
     - "regular nutation": the polynomial of nu is a quadratic, and nu is a cosine of time;
@@ -208,8 +210,10 @@ class TopMotion(SymmetricMotion[SingleTop]):
         AtlasError
             For an input that is no body or no number.
 
-        Notes ----- The ellipsoid has the polarizability V chi/(mu0 (1 + N chi)) along its axis, in SI, added to
-        `polarizability`. Products and |B| are not rounded, except that of `volume` and `susceptibility`.
+        Notes
+        -----
+        The ellipsoid has the polarizability V chi/(mu0 (1 + N chi)) along its axis, in SI, added to `polarizability`.
+        Products and |B| are not rounded, except that of `volume` and `susceptibility`.
         """
         I2, I3 = moments_of_one(body)
         if not isinstance(charges, ChargeMoments):
@@ -261,8 +265,10 @@ class TopMotion(SymmetricMotion[SingleTop]):
         AtlasError
             For an array of tops.
 
-        Notes ----- The rates solve I2 nu w^2 - M3 w + a + A nu = 0 with w = rate + k2/I2. The list is empty where both
-        are complex. One remains where both coincide or nu = 0. A start has omega1 = 0 and omega2 = rate n2/|n|. For an
+        Notes
+        -----
+        The rates solve I2 nu w^2 - M3 w + a + A nu = 0 with w = rate + k2/I2. The list is empty where both are
+        complex. One remains where both coincide or nu = 0. A start has omega1 = 0 and omega2 = rate n2/|n|. For an
         axis along n see `sleeping_bands`.
         """
         balls = enclosed(lambda: [tuple(x) for x in self._twin.steady_precessions], BITS)
@@ -282,8 +288,10 @@ class TopMotion(SymmetricMotion[SingleTop]):
         AtlasError
             For an array of tops.
 
-        Notes ----- "hanging" reverses the sign of a. For Lagrange's top the band is (I3 omega3)^2 < 4 I2 m g l. At its
-        ends see `stable`.
+        Notes
+        -----
+        "hanging" reverses the sign of a. For Lagrange's top the band is (I3 omega3)^2 < 4 I2 m g l. At its ends see
+        `stable`.
         """
         balls = enclosed(lambda: list(self._twin.sleeping_bands.items()), BITS)
         return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in balls}
