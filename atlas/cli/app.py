@@ -4,7 +4,7 @@ import codecs
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib import import_module
 from signal import SIGINT, SIGPIPE
@@ -52,34 +52,14 @@ GONE = {
 }  # fmt: skip
 """Kinds of motion that are part of `atlas motion`, with the option that asks for them."""
 
-VECTORS = {f"--{p.name}" for family in FAMILIES.values() for p in family.parameters if len(p.names) > 1} | {
-    f"--{name}" for name in ("magnetic", "tensor", "attitude", "grid", "charged")
-}
-"""Options of several numbers, which may be one word with commas, too."""
-
-
-def apart(args: Sequence[str]) -> Iterator[str]:
-    """Yield arguments, the components of a vector one by one, from --field 1,2 or --field=1,2 or --field "(1, 2)"."""
-    words, after = list(args), ""
-    while words:
-        word = words.pop(0)
-        option, equals, value = word.partition("=")
-        if option in VECTORS and equals:
-            words[:0] = [option, value]
-        elif after in VECTORS and "," in word:
-            yield from (component.strip() for component in word.strip("()[]").split(","))
-        else:
-            yield word
-        after = "" if equals else word
-
 
 class Atlas(click.Group):
     """The group of all commands."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read vectors in each of their spellings."""
+        """Read the words before the command."""
         try:
-            return super().parse_args(ctx, list(apart(args)))
+            return super().parse_args(ctx, args)
         except BrokenPipeError as error:  # of a page of help, for which click would end the process with status 1
             raise click.exceptions.Exit(_reader_gone()) from error
 

@@ -7,8 +7,9 @@ from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.options import FILE, REAL, Inclined, Typed, exactly, given, measured, numbers, stack
+from atlas.cli.options import FILE, given, numbers, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
+from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured
 from atlas.errors import nearest
 from atlas.measured import RATE, WANTED
 

@@ -7,8 +7,9 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import FILE, Command, Place, are_of_any_body, examples, given, json_option, numbers, stack
+from atlas.cli.options import FILE, Place, examples, given, json_option, numbers, stack
 from atlas.cli.present import dump, picture
+from atlas.cli.words import Command
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Options that only a top has."""
@@ -52,7 +53,7 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @click.command(
     "check",
     cls=Command,
-    other=lambda args: three_moments if are_of_any_body(args) else None,
+    other=lambda words: three_moments if words.are_of_any_body else None,
     epilog=examples(
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2",

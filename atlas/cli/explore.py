@@ -10,6 +10,7 @@ import click
 
 from atlas.cli.body import check_speeds
 from atlas.cli.options import examples
+from atlas.cli.words import Words
 from atlas.motions.register import FAMILIES
 
 
@@ -70,7 +71,7 @@ def started(args: list[str]) -> tuple[str, str]:
 
     if not args[0].startswith("--"):
         raise click.UsageError(f"{args[0]} has no options here: those of atlas motion stand alone, without a name.")
-    family = FAMILIES[family_of(args)]
+    family = FAMILIES[family_of(Words(args))]
     with made("motion").make_context("explore", args) as context:
         options = context.params
     check_speeds(options)

@@ -12,20 +12,7 @@ from typing import Any, NamedTuple
 import click
 
 from atlas.cli import body
-from atlas.cli.options import (
-    Command,
-    are_of_any_body,
-    chosen_times,
-    exactly,
-    examples,
-    given,
-    measured,
-    numbers,
-    output_options,
-    parts_of,
-    stack,
-    times_options,
-)
+from atlas.cli.options import chosen_times, examples, given, numbers, output_options, stack, times_options
 from atlas.cli.present import (
     IN_DOUBLES,
     NOT_ASKED,
@@ -41,7 +28,9 @@ from atlas.cli.present import (
     show,
 )
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
+from atlas.cli.typed import exactly, measured, parts_of
 from atlas.cli.uncertain import mapped, spread, uncertain
+from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.families.family import RATE, TIME
 from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
@@ -138,22 +127,21 @@ def _any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Comma
         params=list(params.values()),
         help=next(iter(commands.values())).help,
         epilog=examples(*lines),
-        other=lambda args: None if _is_for_all(args, params.values()) else commands[family_of(args)],
+        other=lambda words: None if _is_for_all(words, params.values()) else commands[family_of(words)],
     )
 
 
-def _is_for_all(args: Sequence[str], params: Iterable[click.Parameter]) -> bool:
+def _is_for_all(words: Words, params: Iterable[click.Parameter]) -> bool:
     """Tell whether help is asked for, or an option that no family has is misspelt: the command of all answers that."""
-    options = {word.partition("=")[0] for word in args if word.startswith("--") and word != "--"}
-    return "-h" in args or not options <= {name for param in params for name in param.opts}
+    return not words.names - {"--"} <= {name for param in params for name in param.opts}
 
 
-def family_of(args: Sequence[str]) -> str:
+def family_of(words: Words) -> str:
     """Return the family of motions to which options belong, by the body, the field and the start.
 
     Raises click.UsageError where there is no start.
     """
-    typed = {word.partition("=")[0] for word in args}
+    typed = words.names
     if not typed & {"--omega2", "--omega3", "--omega", "--spin"}:
         raise click.UsageError(
             "the start is one of --omega2, of the elementary motions, --omega W1 W2 W3, of any, and --spin W3."
@@ -167,7 +155,7 @@ def family_of(args: Sequence[str]) -> str:
         if "--omega2" not in typed:
             raise click.UsageError("--omega3 goes with --omega2, where (71) leaves it free; a spin alone is --spin W3.")
         return "elementary"
-    return "asymmetric" if are_of_any_body(args) else "general"
+    return "asymmetric" if words.are_of_any_body else "general"
 
 
 def _command_of(family: Family, described: Described) -> click.Command:

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, Typed, examples, jobs_option, out_option, pair, style_option
+from atlas.cli.options import examples, jobs_option, out_option, pair, style_option
 from atlas.cli.present import bar, explained, show
+from atlas.cli.typed import Typed
+from atlas.cli.words import Command
 from atlas.errors import AtlasError
 from atlas.targets import TARGETS, find
 

@@ -7,8 +7,10 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import FILE, REAL, Command, Place, examples, json_option, numbers, stack
+from atlas.cli.options import FILE, Place, examples, json_option, numbers, stack
 from atlas.cli.present import dump, picture
+from atlas.cli.typed import REAL
+from atlas.cli.words import Command
 
 FAMILIES = ("general", "elementary", "ball", "free", "top", "elliptic", "asymmetric")
 KINDS = ("rotation", "quaternion", "axis", "angular_velocity", "field_in_body", "signal")

@@ -14,8 +14,10 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.options import REAL, Command, exactly, examples, output_options
+from atlas.cli.options import examples, output_options
 from atlas.cli.present import Line, Printout, along, answer, certificate, show
+from atlas.cli.typed import REAL, exactly
+from atlas.cli.words import Command
 
 CROSS = "With B3 = 0 the curve is this line and another, omega2 = -B2, on which omega3 is free."
 COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")

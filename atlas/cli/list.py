@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from atlas.cli.body import shapes
-from atlas.cli.options import Command, json_option
+from atlas.cli.options import json_option
 from atlas.cli.present import Printout, dump, show
+from atlas.cli.words import Command
 from atlas.errors import AtlasError
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -22,11 +22,13 @@ from atlas.cli.family import (
     values_of,
 )
 from atlas.cli.fit import ahead, arguments, fit_options, fitted
-from atlas.cli.options import FILE, Command, examples, jobs_option, out_option, parts_of, stack
+from atlas.cli.options import FILE, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.present import bar
 from atlas.cli.report import status_of
 from atlas.cli.top import top_units
+from atlas.cli.typed import parts_of
+from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES, Family
 
@@ -109,11 +111,12 @@ class ByOptions(click.Group):
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
         if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
             args = ["fit", "--fit", *args[1:]]
-        if not set(args) & set(ctx.help_option_names):
+        words = Words(args)
+        if not words.names & {*ctx.help_option_names}:
             if args[:1] == ["motion"]:
-                args = [in_group(family_of(args)), *args[1:]]
+                args = [in_group(family_of(words)), *args[1:]]
             elif args and args[0].startswith("--"):
-                args = ["fit" if "--fit" in {word.partition("=")[0] for word in args} else best(args), *args]
+                args = ["fit" if "--fit" in words.names else best(words), *args]
             if args[:1] == ["asymmetric"]:
                 args = along_principal_axes(args[1:], ctx) or args
         return super().parse_args(ctx, args)
@@ -144,25 +147,19 @@ def along_principal_axes(args: list[str], parent: click.Context) -> list[str]:
     return [in_group(principal.family.name), *principal.options, *rest, "--note", note]
 
 
-def best(args: Sequence[str]) -> str:
+def best(words: Words) -> str:
     """Return the command to which options belong: the fewest are strange to it, and the fewest of its own missing."""
-    typed = dict(_counted(args))
+    typed = {option.name: option for option in words.options}
 
     def misfit(name: str) -> tuple[int, int]:
         known = {opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts}
-        strange = sum(opt not in known or known[opt].nargs != count for opt, count in typed.items())
+        strange = sum(
+            opt not in known or known[opt].nargs not in {len(x.values), len(x.components)} for opt, x in typed.items()
+        )
         starts = not {"--omega", "--spin"} & typed.keys() if "--spin" in known else 0
         return strange, starts + sum(param.required for opt, param in known.items() if opt not in typed)
 
     return min(COMMANDS, key=misfit)
-
-
-def _counted(args: Sequence[str]) -> Iterator[tuple[str, int]]:
-    """Yield the options, each with the number of words that follow it."""
-    starts = [i for i, word in enumerate(args) if word.startswith("--")]
-    for start, end in zip(starts, [*starts[1:], len(args)], strict=True):
-        option, equals, _ = args[start].partition("=")
-        yield option, end - start - 1 + bool(equals)
 
 
 @click.command(
@@ -234,7 +231,9 @@ def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[s
     return {
         param.opts[0].removeprefix("--"): _texts(options[param.name])
         for param in context.command.params
-        if param.name in names and context.get_parameter_source(param.name) is click.core.ParameterSource.COMMANDLINE
+        if param.name in names
+        and options[param.name] is not None
+        and context.get_parameter_source(param.name) is click.core.ParameterSource.COMMANDLINE
     }
 
 

@@ -205,7 +205,7 @@ def certificate(options: dict[str, Any]) -> str:
 
 def _inputs(options: dict[str, Any]) -> str:
     """Return what digits are proven of: the numbers as typed, and those that are computed from them in doubles."""
-    from atlas.cli.options import Inclined, measured
+    from atlas.cli.typed import Inclined, measured
 
     found = {name for name, value in options.items() if value is not None}
     rounded = list(dict.fromkeys(says for name, says in ROUNDED.items() if name in found))

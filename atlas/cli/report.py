@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from atlas.cli.options import Command, examples, jobs_option, out_option, style_option
+from atlas.cli.options import examples, jobs_option, out_option, style_option
 from atlas.cli.present import Printout, bar, explained, show
+from atlas.cli.words import Command
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
 

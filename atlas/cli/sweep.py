@@ -10,9 +10,11 @@ import click
 
 from atlas.cli import body
 from atlas.cli.family import in_principal_axes, motion_in_given_axes
-from atlas.cli.options import REAL, Command, Place, are_of_any_body, examples, given, numbers, pair, stack
+from atlas.cli.options import Place, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
+from atlas.cli.typed import REAL
+from atlas.cli.words import Command
 from atlas.families.family import TIME
 from atlas.measured import split
 from atlas.motions.register import FAMILIES
@@ -159,7 +161,7 @@ def of_three_moments() -> click.Command:
 @click.command(
     "sweep",
     cls=Command,
-    other=lambda args: of_three_moments() if are_of_any_body(args) else None,
+    other=lambda words: of_three_moments() if words.are_of_any_body else None,
     help=HELP,
     epilog=examples(
         "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "

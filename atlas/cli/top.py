@@ -8,8 +8,9 @@ from typing import Any
 import click
 
 from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, start_of, units_of
-from atlas.cli.options import FILE, Real, given, numbers, stack
+from atlas.cli.options import FILE, given, numbers, stack
 from atlas.cli.points import columns_of
+from atlas.cli.typed import Real
 
 WAYS = ("heavy", "magnetic")
 BODY = ("inertia", "shape", "points")

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from time import process_time
 from typing import Any, NamedTuple
 
-from atlas.cli.options import Typed, parts_of
 from atlas.cli.present import bar
+from atlas.cli.typed import Typed, parts_of
 from atlas.errors import DomainError
 
 STEP = 1 / 8

@@ -5,8 +5,9 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import Command, examples, json_option
+from atlas.cli.options import examples, json_option
 from atlas.cli.present import Printout, bar, dump, show
+from atlas.cli.words import Command
 from atlas.trial.ledger.plain import plain
 
 COLUMNS = (

@@ -19,8 +19,8 @@ from click.testing import CliRunner
 from atlas.cli import family, present
 from atlas.cli.app import atlas as command
 from atlas.cli.figure import setting
-from atlas.cli.options import Typed
 from atlas.cli.points import point_masses, points, ratio_of_points
+from atlas.cli.typed import Typed
 
 ATLAS = [sys.executable, "-m", "atlas"]
 EPS = 2.0**-52

@@ -315,3 +315,25 @@ def in_group(words: list[str]) -> list[str]:
     """Return the arguments with which the command of a page is called in the end, but for the sentence on its axes."""
     context = ByOptions("page", commands=COMMANDS).make_context("page", words[1:], resilient_parsing=False)
     return [*context._protected_args, *context.args][:-1]
+
+
+def test_a_vector_in_one_word_may_have_uncertainties() -> None:
+    """A bracket at the end of a word is that of the last component."""
+    rest = "--ratio 1.5 --omega2 0.7 --json".split()
+    found = run("motion", "--field=1.0(1),2.0(2)", *rest)
+    assert found == run("motion", "--field", "1.0(1)", "2.0(2)", *rest)
+    assert found[0] == 0
+
+
+def test_help_is_given_whatever_stands_beside_it() -> None:
+    """Neither an option that there is not nor too few numbers stand in its way."""
+    assert run("classify", "--rato", "1", "--field", "1", "--help") == run("classify", "--help")
+
+
+def test_a_file_after_a_vector_may_begin_with_a_digit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file that is there is none of the numbers; too many numbers before it are told."""
+    monkeypatch.chdir(tmp_path)
+    Path("3.csv").write_text("t,Omega1,Omega2,Omega3\n0,0.3,0.7,0.2\n", encoding="utf-8")
+    words = "check --ratio 1.5 --omega 0.3 0.7 0.2 --field".split()
+    assert "Omega1" in run(*words, "1,2", "3.csv")[1]
+    assert run(*words, "1", "3.csv")[1].endswith("--field takes 2 numbers, B2 B3; found 1.\n")

@@ -110,7 +110,9 @@ CASES = [
     ("motion --shape ring --radius 1m+ --field 1 2 --omega2 1", "there is no unit 'm+'"),
     ("motion --shape disc --radius 1 --field 1 2 --omega2 1", "did you mean disk?"),
     ("motion --ratio 1 --field 1Hz 2 --omega2 1 --digits 9 --decimal", "1Hz has pi in it"),
-    ("motion --ratio 1 --field 1 --omega2 1 --angle", "--angle goes with --magnetic B"),
+    ("motion --ratio 1 --field 1 --omega2 1 --angle", "'--angle' requires an argument"),
+    ("motion --ratio 1 --angle 1 --omega2 1", "--angle goes with --magnetic B"),
+    ("motion --ratio 1 --field 1 2 --omega2 1 --times --json", "--times takes T [T ...]; found none."),
     ("motion --ratio 1 --field 1 2 --omega2 1 --angle 1", "--field is one number, the strength of the field, not 2"),
     ("motion --shape ring --radius 1 --density 1 --magnetic 1 2 --charge 1 --omega2 1", "--density is of a solid"),
     ("motion --ratio 1 --mu 1C/kg --magnetic 1 2 --units gaussian --omega2 1", "1C/kg is in SI"),
@@ -240,7 +242,7 @@ CASES = [
     ("particle --mass 2 --charge 1 --mu 1", "--mass has no place beside it"),
     ("particle --mass 0 --charge 1", "mass must be positive"),
     (f"motion {BODY} --omega2 -1 --times 0", "-1"),
-    ("elliptic --inertia 0.8 1 1.3 --field 2 --angle 30deg --z 1.7", "here --field has three components"),
+    ("elliptic --inertia 0.8 1 1.3 --field 2 --angle 30deg --z 1.7", "of another body --field has three components"),
     (f"motion {BODY} --omega2 1 --omega 1 2 3", "--omega does not go with --omega2"),
     (f"motion {BODY} --omega 1 2 3 --spectrum --least 0", "--least is a part of the whole"),
     (f"motion {BODY} --omega2 1 --times", "--times"),
@@ -393,4 +395,4 @@ def test_a_table_without_an_end_is_given_up(tmp_path: Path, monkeypatch: pytest.
 def test_too_few_numbers_are_told_and_not_the_option_that_follows() -> None:
     """The name of the next option was not meant for a number."""
     message, _ = told("motion --ratio 1.5 --field 1 2 --omega 0.7 --times 1".split())
-    assert message == "--omega takes 3 numbers, W1 W2 W3."
+    assert message == "--omega takes 3 numbers, W1 W2 W3; found 1."

@@ -1,0 +1,195 @@
+"""Numbers as they are typed: with a unit, an uncertainty, as a range, or a field at an angle to the axis."""
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any, Self
+
+import click
+
+from atlas.errors import AtlasError
+from atlas.measured import WANTED, in_si, split
+
+MOST = 1_000_000
+"""Numbers in a range."""
+
+LONGEST = 2000
+"""Characters of a number that is typed: beyond it, arithmetic with all digits takes its time."""
+
+NUMBER = re.compile(
+    r"""[+-]? (?: (?P<decimal> (?: \d+ \.? \d* | \.\d+ ) (?: e[+-]?0*\d{1,4} )? )
+              | (?P<fraction> \d+/\d+ )
+              | (?P<hexadecimal> 0x (?: [\da-f]+ \.? [\da-f]* | \.[\da-f]+ ) (?: p[+-]?0*\d{1,4} )? ) )""",
+    re.ASCII | re.IGNORECASE | re.VERBOSE,
+)
+"""Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
+
+LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/()±^*·° -]*")
+"""What was meant as a number, be it one or not."""
+
+UNCERTAIN = re.compile(
+    r"""(?P<size> [+-]? (?: \d+ (?: \. (?P<decimals> \d* ) )? | \. (?P<digits> \d+ ) ) )
+        (?: \( (?P<last> \d+ (?: \. \d* )? | \.\d+ ) \)
+          | (?: ± | \+/?- ) (?P<full> (?: \d+ \.? \d* | \.\d+ ) (?: e[+-]?\d+ )? ) ) (?P<rest> .* )""",
+    re.ASCII | re.IGNORECASE | re.VERBOSE,
+)
+"""A number with its standard deviation in its last digits, 1.20(5)um, or in full, 1.2(0.05)um or 1.2±0.05um."""
+
+
+class Typed(float):
+    """A double that remembers what it was typed as; in SI, where that has a unit.
+
+    `sigma` is its standard deviation, if it has one, `exact` the number with its unit, None where that has pi in it.
+    """
+
+    text: str
+    sigma: float = 0.0
+    unit: str = ""
+    exact: Fraction | None = None
+
+    def __new__(cls, text: str, option: str | None = None, place: int = 0) -> Self:
+        """Read a decimal, a fraction such as 2/3, a hexadecimal float such as 0x1.8p0; for an option also with a unit.
+
+        Raises ValueError for all else, AtlasError for a unit that does not fit the option, at this place of it.
+        """
+        form = NUMBER.fullmatch(text) if len(text) <= LONGEST else None
+        unit, exact = "", None
+        if form is not None:
+            value = float.fromhex(text) if form["hexadecimal"] else float(Fraction(text) if form["fraction"] else text)
+        elif option is not None and len(text) <= LONGEST and (parts := split(text)):
+            value, exact = in_si(Fraction(parts[0]), unit := parts[1], option, place)
+        else:
+            raise ValueError(text)
+        number = super().__new__(cls, value)
+        number.text, number.unit, number.exact = text, unit, exact
+        return number
+
+    def moved(self, value: float, **about: Any) -> Self:
+        """Return another value, with what else is known of this one."""
+        new = float.__new__(type(self), value)
+        vars(new).update(vars(self) | about)
+        return new
+
+    def exactly(self) -> Fraction:
+        """Return the number that was typed, not the nearest double. Raises click.UsageError for one with pi in it."""
+        if not self.unit:
+            return Fraction(float(self) if "0x" in self.text.lower() else self.text)
+        if self.exact is None:
+            raise click.UsageError(f"{self.text} has pi in it and is no decimal: leave out --decimal.")
+        return self.exact
+
+
+class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
+    """A finite real number, the one at a place of an option whose numbers have different units."""
+
+    name = "number"
+
+    def __init__(self, place: int = 0) -> None:
+        self.place = place
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Turn what was typed into a number, or into a list where an option takes any number; or say what is wrong."""
+        if param and param.multiple:
+            return [x for word in re.split(r"[,\s]+", value) for x in self._listed(word, param, ctx)]
+        return self._single(value, param, ctx)
+
+    def _single(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
+        text = str(value).replace("\N{MINUS SIGN}", "-").replace("\N{DEGREE SIGN}", "deg")  # as on a page
+        if (parts := UNCERTAIN.fullmatch(text)) is not None:
+            return self._with_sigma(text, parts, param, ctx)
+        try:
+            number = Typed(text, str(param.name) if param else "", self.place)
+        except AtlasError as error:
+            self.fail(str(error), param, ctx)
+        except OverflowError:
+            self.fail(f"{text!r} is beyond the largest float.", param, ctx)
+        except (ValueError, ZeroDivisionError):
+            if len(text) > LONGEST:
+                self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
+            if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
+                self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
+            right = "1.5, 3/2 or 1e-3" + ", or a range START:STOP:COUNT" * bool(param and param.multiple)
+            if re.search(r"[(±]|\+/?-", text):
+                right = "an uncertainty as 1.5(1) or 1.5±0.1"
+            self.fail(f"{text!r} is not a finite number; write {right}.", param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{text!r} is beyond the largest float.", param, ctx)
+        return number
+
+    def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> list[Typed]:
+        """Return the numbers of a range START:STOP:COUNT[:log], both ends among them, or the one that a word is."""
+        parts = word.split(":")
+        log = parts[3:] == ["log"]
+        if len(parts) != 3 + log:
+            return [self._single(word, param, ctx)]
+        start, stop, count = (self._single(item, param, ctx) for item in parts[:3])
+        unit = str(WANTED[str(param.name)]) if start.unit or stop.unit else ""
+        if not count.is_integer() or not 2 <= count <= MOST:
+            raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
+        if log and start * stop <= 0:
+            raise click.UsageError(
+                f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}."
+            )
+        last = int(count) - 1
+        if log:
+            steps: Iterable[float] = (start * (stop / start) ** (i / last) for i in range(last + 1))
+        else:
+            first, step = start.exactly(), (stop.exactly() - start.exactly()) / last
+            steps = (float(first + i * step) for i in range(last + 1))
+        return [self._single(repr(x) + unit, param, ctx) for x in steps]
+
+    def _with_sigma(
+        self, text: str, parts: re.Match[str], param: click.Parameter | None, ctx: click.Context | None
+    ) -> Typed:
+        """Read a number with its standard deviation."""
+        carried = getattr(ctx.command if ctx else None, "carries", False)
+        if not carried or (param and param.name in {"times", "grid", "least"}):
+            self.fail(f"{text!r} has an uncertainty, which nothing follows from here: motions carry it.", param, ctx)
+        decimals, sigma = len(parts["decimals"] or parts["digits"] or ""), parts["last"] or parts["full"]
+        if parts["last"] and "." not in sigma:
+            sigma += f"e-{decimals}"
+        rest = parts["rest"]
+        number: Typed
+        number, size, scale = (self._single(x, param, ctx) for x in (parts["size"] + rest, sigma, f"1{rest}"))
+        number.sigma = float(size) * float(scale)
+        number.text = text
+        return number
+
+
+REAL = Real()
+
+
+class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
+    """Components of a field across and along the axis, each rounded once; `parts` are its strength and its angle."""
+
+    parts: tuple[Typed, Typed]
+
+    def __new__(cls, parts: tuple[Typed, Typed], unit: str = "") -> Self:
+        """Take the strength and the angle to the axis, and the unit of SI in which the components are."""
+        from flint import arb
+
+        from atlas.arithmetic.numbers import rounded
+
+        size, angle = parts
+        components = rounded(lambda: [arb(float(size)) * x for x in arb(float(angle)).sin_cos()])
+        new = super().__new__(cls, [size.moved(x, sigma=0.0, text=f"{x!r}{unit}") for x in components])
+        new.parts = parts
+        return new
+
+
+def parts_of(value: Any) -> tuple[Any, ...]:
+    """Return the numbers of an option, one or several."""
+    return value if isinstance(value, tuple) else (value,)
+
+
+def measured(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
+    """Return the numbers that were typed with a unit, each with the name of its option."""
+    return [(name, x) for name, value in options.items() for x in parts_of(value) if isinstance(x, Typed) and x.unit]
+
+
+def exactly(value: Any, options: dict[str, Any]) -> Any:
+    """Return a typed number, or several, as the certified floor takes them: doubles, or decimals with --decimal."""
+    if isinstance(value, tuple | list):
+        return [exactly(item, options) for item in value]
+    return value.exactly() if options["decimal"] and isinstance(value, Typed) else value

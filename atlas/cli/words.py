@@ -1,0 +1,203 @@
+"""Words of a command line: each option with the words that follow it, read once, in all ways to type them."""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from difflib import get_close_matches
+from itertools import chain
+from typing import Any, NamedTuple
+
+import click
+
+from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined
+from atlas.measured import WANTED
+
+OTHERS = {
+    "B": "B is --magnetic, and B' = mu B/(2c) is --field", "E": "it is --electric", "I": "I = I3/I2 is --ratio",
+    "moments": "they are --inertia", "quaternion": "R(0) is --attitude X Y Z W",
+    **dict.fromkeys(("tex", "latex"), "atlas page makes a report, NAME.md beside the page, and atlas tex its LaTeX"),
+    "angle": "it goes with the field of a symmetric body, one number; of another body --field has three components",
+    "csv": "a table as CSV is that of atlas sweep, with --quantity R and t=START:STOP:COUNT, say",
+    "dt": "times by a step are --grid START STEP COUNT, or --times START:STOP:COUNT",
+}  # fmt: skip
+"""Other names of options."""
+
+
+class Option(NamedTuple):
+    """An option as it was typed, --field=1 2, its name --field, and the values 1 and 2 after it."""
+
+    typed: str
+    name: str
+    values: list[str]
+
+    @property
+    def components(self) -> list[str]:
+        """The values, each vector in one word as its components."""
+        return [component for word in self.values for component in apart(word)]
+
+
+def apart(word: str) -> list[str]:
+    """Return the components of a vector in one word, 1,2 or (1, 2), or the one number that a word is."""
+    return [x.strip() for x in (word[1:-1] if word[:1] in {"(", "["} else word).split(",")]
+
+
+def is_number(word: str, *, more: bool = True) -> bool:
+    """Whether a word was meant as a number and is no file; a bare number is none where more numbers are wanted."""
+    return bool(LIKE_A_NUMBER.fullmatch(word) and ((more and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK)))
+
+
+class Words:
+    """Words of a command: `loose` stand before all options, `options` are in the order in which they were typed."""
+
+    def __init__(self, words: Sequence[str]) -> None:
+        self.loose, self.options = list[str](), list[Option]()
+        last = self.loose
+        for word in words:
+            ended = bool(self.options) and self.options[-1].name == "--"
+            if not ended and (word.startswith("--") or (word[:1] == "-" and word[1:2].isalpha())):
+                name, equals, value = word.partition("=")
+                self.options.append(Option(word, name, last := [value] if equals else []))
+            else:
+                last.append(word)
+
+    @property
+    def names(self) -> set[str]:
+        """Names of the options."""
+        return {option.name for option in self.options}
+
+    def is_three(self, name: str) -> bool:
+        """Return whether three numbers follow an option."""
+        heads = (option.components[:3] for option in self.options if option.name == name)
+        return any(len(head) == 3 and all(map(is_number, head)) for head in heads)
+
+    @property
+    def are_of_any_body(self) -> bool:
+        """Whether there are a tensor, an attitude, or three numbers for the moments of inertia or the field."""
+        three = any(map(self.is_three, ("--inertia", "--field", "--magnetic")))
+        return three or not self.names.isdisjoint({"--tensor", "--attitude"})
+
+
+class Command(click.Command):
+    """A command whose options of many values may be followed by several: ``--times 0 1 2.5``.
+
+    Attributes
+    ----------
+    other : callable
+        Returns the command to which words belong, None where it is this one.
+    carries : bool
+        Whether uncertainties of numbers go on to what is printed.
+    """
+
+    def __init__(
+        self,
+        *args: Any,
+        other: Callable[[Words], click.Command | None] = lambda _: None,
+        carries: bool = False,
+        **more: Any,
+    ) -> None:
+        super().__init__(*args, **more)
+        self.other, self.carries = other, carries
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Let the command to which the words belong read them."""
+        other = self.other(Words(args))
+        return (other.make_context if other else super().make_context)(info_name, args, parent, **extra)
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words; where help is asked for, nothing else is read."""
+        words = Words(args)
+        if help_names := words.names & {*ctx.help_option_names}:
+            return super().parse_args(ctx, [*help_names][:1])
+        rest = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
+        for name in (str(param.name) for param in self.params if param.multiple and param.type is REAL):
+            ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
+        if ctx.params.get("angle") is not None:
+            name = next((name for name in ("magnetic", "field") if ctx.params[name] is not None), "")
+            if not name:
+                raise click.UsageError("--angle goes with --magnetic B or --field B, and is a number, such as 30deg.")
+            strength, angle = ctx.params[name][0], ctx.params["angle"]
+            ctx.params |= {name: Inclined((strength, angle), f"{WANTED[name]}" if strength.unit else ""), "angle": None}
+        return rest
+
+
+class Reader:
+    """Words beside the parameters of a command: yields them as click takes them, or says what is wrong with them."""
+
+    def __init__(self, words: Words, params: Sequence[click.Parameter]) -> None:
+        self.words, self.params = words, params
+        self.known = {name: param for param in params for name in param.opts if isinstance(param, click.Option)}
+        self.places = [param.nargs for param in params if isinstance(param, click.Argument)]
+        self.has_settings = "settings" in {param.name for param in params}
+
+    def plain(self) -> Iterator[str]:
+        """Yield the words, a vector in its components. Raises click.UsageError for words that do not fit."""
+        for option in self.words.options:
+            if option.name.startswith("--") and option.name not in {*self.known, "--"}:
+                raise self._unknown(option.name)
+        yield from self.words.loose
+        loose = list(self.words.loose)
+        for option in self.words.options:
+            param = self.known.get(option.name)
+            if param is not None and (param.multiple or (param.name == "grid" and ":" in "".join(option.values))):
+                yield from self._several(option, param)
+                continue
+            if param is not None and param.nargs > 1:
+                vector, rest = self._vector(option, param)
+                yield from (option.name, *vector)
+            else:
+                rest = option.values[option.typed != option.name :]
+                yield option.typed
+            yield from rest
+            takes = param is not None and param.nargs == 1 and not param.is_flag and option.typed == option.name
+            loose += rest[takes:]
+        if self.has_settings and -1 not in self.places and len(loose) > sum(self.places):
+            raise click.UsageError(
+                f"{loose[sum(self.places)]!r} belongs to no option: a parameter is one word, --set KEY=VALUE, "
+                "and so are values, KEY=START:STOP:COUNT."
+            )
+
+    def _unknown(self, name: str) -> click.UsageError:
+        """Return the error for an option that the command does not have."""
+        bare = name.removeprefix("--")
+        if self.has_settings:
+            return click.UsageError(f"there is no option {name}; a parameter is given by --set {bare}=VALUE.")
+        if bare in OTHERS:
+            return click.UsageError(f"there is no option {name}: {OTHERS[bare]}.")
+        return click.NoSuchOption(name, possibilities=get_close_matches(name, self.known))
+
+    @staticmethod
+    def _several(option: Option, param: click.Option) -> Iterator[str]:
+        """Yield the option before each of its values; numbers in one word, since click's time is quadratic in words."""
+        if not option.values:
+            raise click.UsageError(f"{option.name} takes {param.metavar or 'a value'}; found none.")
+        if param.type is REAL:
+            yield from ("--times" if param.name == "grid" else option.name, " ".join(option.values))
+            return
+        for word in option.values:
+            yield from chain.from_iterable(
+                (option.name, x) for x in ([word] if param.name == "settings" else word.split(","))
+            )
+
+    def _vector(self, option: Option, param: click.Option) -> tuple[list[str], list[str]]:
+        """Return the components of a vector, and the words after it, which a command with arguments may have."""
+        found, rest = list[str](), list(option.values)
+        while rest and (not self.places or all(is_number(x, more=len(found) < param.nargs) for x in apart(rest[0]))):
+            found += apart(rest.pop(0))
+        if param.name == "inertia" and {len(found), param.nargs} == {2, 3}:
+            if param.nargs == 2:
+                raise click.UsageError(
+                    "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that "
+                    "of atlas motion --omega W1 W2 W3 or --spin W3, with --inertia I1 I2 I3 and --field B1 B2 B3; in a "
+                    "sweep it is the family asymmetric, with --set I1=0.8 and so on."
+                )
+            found = [found[0], *found]
+        if param.name in ("field", "magnetic") and "--angle" in self.words.names & self.known.keys():
+            if len(found) != 1:
+                raise click.UsageError(
+                    f"with --angle {option.name} is one number, the strength of the field, not {len(found)}."
+                )
+            found *= 2
+        if len(found) != param.nargs:
+            raise click.UsageError(f"{option.name} takes {param.nargs} numbers, {param.metavar}; found {len(found)}.")
+        return found, rest
