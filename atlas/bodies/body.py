@@ -45,13 +45,32 @@ def kept_ratio(ratio: Any, I3: Any) -> Any:
 
 @dataclass(frozen=True)
 class SymmetricBody:
-    """A body with I1 = I2, as in (33): its moments of inertia I2 and I3 about the centre of mass; or several.
+    """Symmetric body with I1 = I2, eq. (33), or an array of such bodies.
 
-    `I2` > 0 across the symmetry axis, `I3` along it, 0 <= I3 <= 2 I2, in any one unit; arrays broadcast, and so do the
-    mass and the dimensions of a shape. What takes a body takes an array of them as it takes one of ratios.
-    `axes` (3, 3): its rows are the principal axes, the symmetry axis last, in the frame in which a mass matrix or
-    point masses were given; the unit matrix otherwise. Raises DomainError for moments that no body has, AtlasError for
-    what is no number.
+    Parameters
+    ----------
+    I2 : float or array_like
+        Moment of inertia across the symmetry axis, about the centre of mass; positive.
+    I3 : float or array_like
+        Moment along the symmetry axis, 0 <= I3 <= 2 I2, in the unit of `I2`.
+    axes : ndarray, shape (3, 3)
+        Principal axes as rows, the symmetry axis last, in the frame of the mass matrix; by default the unit matrix.
+
+    Raises
+    ------
+    DomainError
+        For moments that no body has.
+    AtlasError
+        For an input that is no number.
+
+    Notes
+    -----
+    Moments, masses and dimensions broadcast. Functions that take a body take an array of bodies too.
+
+    Examples
+    --------
+    >>> atlas.SymmetricBody(2.0, 3.0).ratio
+    1.5
     """
 
     I2: Any
@@ -92,12 +111,12 @@ class SymmetricBody:
 
     @property
     def ratio(self) -> Any:
-        """I = I3/I2, (33), rounded to a float; the kernels take I2 and I3 themselves."""
+        """Ratio I = I3/I2, (33), rounded to a float; kernels use the exact I2 and I3."""
         return self.I3 / self.I2
 
     @property
     def inertia(self) -> tuple[Any, Any, Any]:
-        """Diagonal (I2, I2, I3) of the inertia tensor."""
+        """Diagonal (I2, I2, I3) of the inertia tensor, (33)."""
         return self.I2, self.I2, self.I3
 
     @property

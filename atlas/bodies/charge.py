@@ -17,13 +17,28 @@ SYMMETRY_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class ChargeMoments:
-    """Moments J = sum e (x^2 1 - x x^T) = diag(J2, J2, J3) of charges e at x from the centre of mass.
+    """Second moments of charge J = sum e (x^2 1 - x x^T) = diag(J2, J2, J3) (not in the paper).
 
-    They are to charge what moments of inertia are to mass, of either sign, in charge times length squared; the sum of
-    two belongs to both distributions together: a charged coat on a neutral core has the coat's. The centre of charge
-    must be the centre of mass, else flight and rotation would be coupled; a body held at a point of its axis may have
-    it anywhere on the axis, x counted from that point.
-    Raises AtlasError for what is no finite number.
+    Parameters
+    ----------
+    J2, J3 : float
+        Moments across and along the axis, of either sign, in charge times length^2; x counts from the centre of mass.
+
+    Raises
+    ------
+    AtlasError
+        For an input that is no finite number.
+
+    Notes
+    -----
+    The sum of two objects belongs to both distributions together. The centre of charge must be the centre of mass,
+    else flight and rotation are coupled. For a body held at a point of its axis the centre of charge may be anywhere
+    on the axis; x then counts from that point.
+
+    Examples
+    --------
+    >>> atlas.ChargeMoments(1.0, 2.0) + atlas.ChargeMoments(0.5, -1.0)
+    ChargeMoments(J2=1.5, J3=1.0)
     """
 
     J2: float
@@ -41,10 +56,28 @@ class ChargeMoments:
 
     @classmethod
     def shape(cls, name: str, charge: float, **dimensions: Any) -> Self:
-        """Moments of a charge spread evenly over a shape, as in `SymmetricBody`: "ring", "spherical_shell", ...
+        """Moments of a charge spread uniformly over a shape of `SymmetricBody`.
 
-        `dimensions` are those of the shape without its mass, e.g. radius. Raises AtlasError for another shape or other
-        dimensions, DomainError for one that is not positive.
+        Parameters
+        ----------
+        name : str
+            Shape: "ring", "spherical_shell", ...
+        charge : float
+            Total charge, of either sign.
+        **dimensions : float
+            Dimensions of the shape without its mass, such as radius.
+
+        Returns
+        -------
+        ChargeMoments
+            Moments about the centre of the shape.
+
+        Raises
+        ------
+        DomainError
+            For a dimension that is not positive.
+        AtlasError
+            For another shape or other dimensions.
         """
         if "mass" in dimensions:
             raise AtlasError("Moments of a charge take no mass: give the charge and the dimensions of the shape.")
@@ -60,11 +93,29 @@ class ChargeMoments:
 
     @classmethod
     def points(cls, charges: Any, positions: Any, *, held: bool = False) -> Self:
-        """Moments of point charges, `charges` (N,) at `positions` (N, 3) from the centre of mass, e3 being the axis.
+        """Moments of point charges about the body's axis e3.
 
-        `held` says that the body is held at a point, from which the positions are counted. Raises DomainError if it is
-        not and the centre of charge is off that of mass (the sum of e x is not zero), or if the moments are not
-        symmetric about e3, to 1e-9 of the largest; AtlasError for wrong shapes.
+        Parameters
+        ----------
+        charges : array_like, shape (N,)
+            Charges, of either sign.
+        positions : array_like, shape (N, 3)
+            Positions from the centre of mass, or from the fixed point of a held body.
+        held : bool
+            True for a body held at a point of its axis.
+
+        Returns
+        -------
+        ChargeMoments
+            Moments J2 and J3.
+
+        Raises
+        ------
+        DomainError
+            If the moments are not symmetric about e3 to 1e-9 of the largest. For a free body also if the sum of e x is
+            not 0.
+        AtlasError
+            For arrays of other shapes.
         """
         e, x = real(charges, "The charges", CHARGE), vectors(positions, "The positions", LENGTH)
         if e.ndim != 1 or x.shape != (*e.shape, 3):

@@ -35,12 +35,33 @@ class Clebsch:
 
 
 def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
-    """Return the integrals H, F, (M, K), K^2 and the kinetic energy of a state, theorem-clebsch.
+    """Integrals H, F, (M, K), K^2 and kinetic energy of a state, theorem-clebsch.
 
-    `inertia` is any inertia tensor (3, 3) in the axes of the body, principal moments (3,), a SymmetricBody or a ratio
-    I = I3/I2 (I2 = 1 then); `Omega`, `K` = R^T B' (..., 3) in the body and in one unit 1/time; they broadcast.
-    The state is taken as exact, and each of the five is rounded once. DomainError for a tensor that no body has.
-    AtlasError is raised for what are no such arrays.
+    Parameters
+    ----------
+    inertia : float or array_like or SymmetricBody
+        Inertia tensor (3, 3), principal moments (3,), a body, or the ratio I = I3/I2 with I2 = 1.
+    Omega : array_like, shape (..., 3)
+        Angular velocity in the body, in rad/time.
+    K : array_like, shape (..., 3)
+        Field R^T B' in the body, in 1/time.
+
+    Returns
+    -------
+    Clebsch
+        Fields `H`, `F`, `MK`, `K2` and `energy`: floats or arrays, each rounded once from the exact state.
+
+    Raises
+    ------
+    DomainError
+        For a tensor that no body has.
+    AtlasError
+        For arrays of other shapes, and for an entry that is no number.
+
+    Examples
+    --------
+    >>> atlas.clebsch((0.8, 1.0, 1.3), (0.0, 0.0, 2.0), (0.0, 0.0, 1.0)).energy
+    2.6
     """
     spin, field = vectors(Omega, "Omega"), vectors(K, "K")
     common_shape(spin.shape, field.shape)

@@ -32,11 +32,33 @@ class Prime(np.ndarray[Any, np.dtype[np.float64]]):
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
+    """Constant fields B and E that act on matter of charge-to-mass ratio mu, eqs. (32), (89).
 
-    `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
-    (89) (Gaussian), 1 where not (SI); see `atlas.bodies.units`. Raises AtlasError for what is not finite, and
-    for c that is not positive.
+    Parameters
+    ----------
+    B, E : array_like, shape (3,)
+        Magnetic and electric field, in any frame of the user.
+    mu : float
+        Charge-to-mass ratio, of either sign or 0.
+    c : float
+        Positive: 1 in SI, the speed of light in Gaussian units; see `atlas.bodies.units`.
+
+    Attributes
+    ----------
+    prime : ndarray, shape (3,)
+        B' = mu B/(2c), in 1/time; opposite to B for mu < 0.
+    exact : tuple
+        Components of B' without rounding, as floats or fractions.
+
+    Raises
+    ------
+    AtlasError
+        For an input that is not finite, and for c that is not positive.
+
+    Examples
+    --------
+    >>> atlas.Field((0.0, 1.0, 2.0), mu=2.0).pair
+    (1.0, 2.0)
     """
 
     B: FloatArray
@@ -64,10 +86,31 @@ class Field:
 
     @classmethod
     def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
-        """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s.
+        """Fields in SI: B in T, E in V/m, mu in C/kg; B' of (32) in rad/s.
 
-        Since the units are known, a drift above a tenth of the speed of light gives a `RelativisticWarning`, and
-        DomainError where |E| across B is c |B| or more. Raises AtlasError as `Field` does.
+        Parameters
+        ----------
+        B, E : array_like, shape (3,)
+            Magnetic field in T and electric field in V/m.
+        mu : float
+            Charge-to-mass ratio in C/kg.
+
+        Returns
+        -------
+        Field
+            Fields with c = 1.
+
+        Raises
+        ------
+        DomainError
+            If |E| across B is c |B| or more.
+        AtlasError
+            For an input that is not finite.
+
+        Warns
+        -----
+        RelativisticWarning
+            If the drift exceeds a tenth of the speed of light.
         """
         field = cls(B, E, mu, unit_systems.SI.c)
         check_drift(field.E, field.B, unit_systems.SI)
@@ -75,10 +118,31 @@ class Field:
 
     @classmethod
     def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
-        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s.
+        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' of (32) in rad/s.
 
-        Warns of a drift, and raises DomainError, as `si` does: here |E| across B stays below |B|. Raises AtlasError as
-        `Field` does.
+        Parameters
+        ----------
+        B, E : array_like, shape (3,)
+            Magnetic field in G and electric field in statV/cm.
+        mu : float
+            Charge-to-mass ratio in statC/g.
+
+        Returns
+        -------
+        Field
+            Fields with c in cm/s.
+
+        Raises
+        ------
+        DomainError
+            If |E| across B is |B| or more.
+        AtlasError
+            For an input that is not finite.
+
+        Warns
+        -----
+        RelativisticWarning
+            If the drift exceeds a tenth of the speed of light.
         """
         field = cls(B, E, mu, unit_systems.GAUSSIAN.c)
         check_drift(field.E, field.B, unit_systems.GAUSSIAN)
@@ -99,21 +163,54 @@ class Field:
     def frame(self, axis: Any) -> "LaboratoryFrame":
         """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.
 
-        Raises AtlasError for an axis without a direction.
+        Parameters
+        ----------
+        axis : array_like, shape (3,)
+            Direction of the symmetry axis, of any length but zero.
+
+        Returns
+        -------
+        LaboratoryFrame
+            Frame with e3 along the axis.
+
+        Raises
+        ------
+        AtlasError
+            For an axis without a direction.
         """
         return LaboratoryFrame(axis, self.prime)
 
 
 @dataclass(frozen=True, eq=False)
 class LaboratoryFrame:
-    """Frame of figure Lssc: e3 along the body's axis at t = 0, B' in the plane of e2 and e3 with B2 >= 0, (32).
+    """Laboratory frame of figure Lssc: e3 along the body's axis, B' in the plane (e2, e3), B2 >= 0, eq. (32).
 
-    `axis` (3,), not zero; `B` (3,), the vector B' (for mu < 0 it is not B that has B2 >= 0, but B'), both in the
-    user's frame. Both are taken as exact, and whether they are parallel is decided exactly.
+    Parameters
+    ----------
+    axis : array_like, shape (3,)
+        Symmetry axis at t = 0 in the user's frame, of any length but zero.
+    B : array_like, shape (3,)
+        Vector B' (not B) in the user's frame, in 1/time.
 
-    `alignment` names the case: `oblique`; `perpendicular` (B3 = 0); `parallel` and `antiparallel` (B2 = 0, B3 > 0 and
-    < 0) and `no field`, where the plane is not determined and e1 is taken from the user's axis farthest from e3. Raises
-    AtlasError for an axis or a field that is no vector.
+    Attributes
+    ----------
+    alignment : str
+        Case of axis and field, see Notes.
+    field : (float, float)
+        (B2, B3), each rounded once.
+    matrix : ndarray, shape (3, 3)
+        Rows e1, e2, e3 in the user's frame, each component rounded once.
+
+    Raises
+    ------
+    AtlasError
+        For an axis or a field that is no vector.
+
+    Notes
+    -----
+    Inputs are taken as exact. `alignment`, decided exactly, is `oblique`, `perpendicular` (B3 = 0), `parallel` or
+    `antiparallel` (B2 = 0, B3 > 0 or < 0), or `no field`. In the last three cases the plane is free. e1 is then taken
+    from the user's axis farthest from e3.
     """
 
     axis: FloatArray
@@ -155,23 +252,62 @@ class LaboratoryFrame:
         return f"{text}  # {self.alignment}, (B2, B3) = {self.field}"
 
     def to_laboratory(self, v: Any) -> FloatArray:
-        """Components (..., 3) in the laboratory of vectors given in the user's frame.
+        """Laboratory components of vectors in the user's frame, (32).
 
-        Raises AtlasError for what are no vectors.
+        Parameters
+        ----------
+        v : array_like, shape (..., 3)
+            Vectors in the user's frame.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components in the laboratory.
+
+        Raises
+        ------
+        AtlasError
+            For an input that is no vector.
         """
         return vectors(v, "v") @ self.matrix.T
 
     def to_user(self, v: Any) -> FloatArray:
-        """Components (..., 3) in the user's frame of vectors given in the laboratory.
+        """User's components of vectors in the laboratory, (32).
 
-        Raises AtlasError for what are no vectors.
+        Parameters
+        ----------
+        v : array_like, shape (..., 3)
+            Vectors in the laboratory.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components in the user's frame.
+
+        Raises
+        ------
+        AtlasError
+            For an input that is no vector.
         """
         return vectors(v, "v") @ self.matrix
 
     def rotation_to_user(self, R: Any) -> FloatArray:
-        """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's.
+        """Rotations that act on the user's components as R acts on those of the laboratory.
 
-        Raises AtlasError for what are no matrices.
+        Parameters
+        ----------
+        R : array_like, shape (..., 3, 3)
+            Rotation matrices in the laboratory.
+
+        Returns
+        -------
+        ndarray, shape (..., 3, 3)
+            Rotation matrices in the user's frame.
+
+        Raises
+        ------
+        AtlasError
+            For an input that is no matrix.
         """
         rotations = real(R, "R")
         if rotations.shape[-2:] != (3, 3):

@@ -74,16 +74,44 @@ def simulate(
     rtol: float = 1e-10,
     atol: float = 1e-12,
 ) -> Simulation:
-    """Integrate the Euler–Poisson equations (12), (16) from R = 1 at t = 0.
+    """Numerical solution of the Euler-Poisson equations (12), (16) from R = 1 at t = 0.
 
-    `inertia` is a SymmetricBody, a ratio I = I3/I2, principal moments (3,) or any inertia tensor (3, 3) of a body, in
-    the laboratory axes; `field` is B' (3,) or (B2, B3); `omega` (3,) the initial angular velocity, in the same unit
-    1/time; `times` (N,), sorted away from 0, all before it or all after. `method` is a name that
-    `scipy.integrate.solve_ivp` knows; `rtol` and `atol` (for R, and for Omega in units of the largest frequency) are
-    its tolerances.
+    Parameters
+    ----------
+    inertia : float or array_like or SymmetricBody
+        Inertia tensor (3, 3) in laboratory axes, principal moments (3,), a body, or the ratio I = I3/I2.
+    field : array_like, shape (2,) or (3,)
+        B' or its components (B2, B3), in 1/time.
+    omega : array_like, shape (3,)
+        Initial angular velocity, in rad/time.
+    times : array_like, shape (N,)
+        Times sorted away from 0, all of one sign.
+    method : str
+        Integrator of `scipy.integrate.solve_ivp`.
+    rtol, atol : float
+        Tolerances of the integrator, for R and for Omega in units of the largest frequency.
 
-    The result carries the integrator's error: R is not made orthogonal afterwards. Raises AtlasError, with the
-    integrator's own words, if it fails.
+    Returns
+    -------
+    Simulation
+        `R` (N, 3, 3) in the laboratory and `Omega` (N, 3) in the body at the times `t`; `drift()` has the drift of the
+        integrals.
+
+    Raises
+    ------
+    DomainError
+        For `rtol` below 100 machine epsilons, and for a tensor that no body has.
+    AtlasError
+        If the integrator fails (with its message), for another method, and for an input that is no number.
+
+    Notes
+    -----
+    The result carries the integrator's error; R is not orthogonalised.
+
+    Examples
+    --------
+    >>> atlas.simulate(1.5, (1.0, 2.0), (0.0, 0.7, 0.2), [0.0, 1.0]).R.shape
+    (2, 3, 3)
     """
     from scipy.integrate import solve_ivp
 

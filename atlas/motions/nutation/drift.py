@@ -79,21 +79,45 @@ class Drift:
 def drift(
     motion: Any, t: Any, *, field: float = 0.0, drag: Any = 0.0, linear: float = 0.0, quadratic: float = 0.0
 ) -> Drift:
-    """Motion of a symmetric body under a slow change, averaged over its fast phases: an approximation.
+    """Slow change of a symmetric body's motion, averaged over the fast phases: an approximation.
 
-    `motion` is one `GeneralMotion` or `TopMotion`, or `atlas.motion` of that class; `t` (m,) from zero on, ascending.
-    The field's strength is multiplied by 1 + `field` t, and with it the coupling; `drag` is d, or (d2, d3), of a torque
-    -I (d2, d2, d3) Omega, in 1/time; `linear` and `quadratic` are what a unit of time adds to the potential of a top.
+    Parameters
+    ----------
+    motion : GeneralMotion or TopMotion
+        One motion, also from `atlas.motion`.
+    t : array_like, shape (m,)
+        Times, ascending from 0.
+    field : float
+        Relative growth rate of the field: its strength, and the coupling, are multiplied by 1 + `field` t.
+    drag : float or (float, float)
+        Rates d or (d2, d3) of the torque -I (d2, d2, d3) Omega, in 1/time.
+    linear, quadratic : float
+        Growth rates of the potential of a top, in inertia/time^3.
 
-    With e these rates beside those of the motion, constants, actions and mean rates are right to the order of e for
-    times of the order of 1/e, phases but for an angle of the order of one; nothing is certified. The cost depends on
-    how much changes, not on how many turns there are. Raises DomainError where the motion comes to a separatrix, where
-    averaging fails, AtlasError for another motion and for what is no number.
+    Returns
+    -------
+    Drift
+        Constants, actions, mean rates and phases at the times.
 
-        >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
-        >>> slowed = atlas.drift(motion, [0.0, 5e4], field=1e-5)
-        >>> slowed.action.round(6), slowed.nutation.round(4)
-        (array([0.038207, 0.038207]), array([2.8804, 2.6824]))
+    Raises
+    ------
+    DomainError
+        Where the motion reaches a separatrix, and averaging fails.
+    AtlasError
+        For another motion, and for an input that is no number.
+
+    Notes
+    -----
+    Let e be the largest of these rates relative to those of the motion. Up to times of order 1/e, constants, actions
+    and mean rates are accurate to order e. Phases are accurate to order one. Nothing is certified. The cost depends on
+    the amount of change, not on the number of turns.
+
+    Examples
+    --------
+    >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+    >>> slowed = atlas.drift(motion, [0.0, 5e4], field=1e-5)
+    >>> slowed.action.round(6), slowed.nutation.round(4)
+    (array([0.038207, 0.038207]), array([2.8804, 2.6824]))
     """
     from scipy.integrate import solve_ivp
 

@@ -27,15 +27,29 @@ class Rotation(Protocol):
 
 
 class Flight(Shown):
-    """Path of the point N of a body, y_N(t) = y_0(t) + R(t) R(0)^T x_N(0), as below (18), in the user's frame.
+    """Path of a point N of a body, y_N(t) = y_0(t) + R(t) R(0)^T x_N(0), as below eq. (18).
 
-    `particle` moves as the centre of mass, in the user's frame. `motion` is the body's rotation, in the laboratory
-    `frame`; without one the user's frame is the laboratory. `point` (..., 3) is x_N(0), from the centre of mass to the
-    point at t = 0, in the user's frame; many points broadcast with the times.
+    Parameters
+    ----------
+    particle : ParticleMotion
+        Motion of the centre of mass, in the user's frame.
+    motion : Motion
+        Rotation of the body, in the laboratory frame.
+    point : array_like, shape (..., 3)
+        Vector x_N(0) from the centre of mass to the point at t = 0, in the user's frame.
+    frame : LaboratoryFrame, optional
+        Laboratory frame of `motion`; by default the user's frame.
 
-    Both must move in one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the motion by
-    `atlas.motion`; or the frame by `Field.frame`, and give `frame.field` to a motion of its class. The field that a
-    motion knows is held against the particle's B', and AtlasError raised if they differ by more than AGREEMENT.
+    Raises
+    ------
+    AtlasError
+        If the field of `motion` differs from the particle's B' by more than 1e-9.
+
+    Notes
+    -----
+    Both motions must belong to one field. With a `Field`, take `ParticleMotion.in_field` and `atlas.motion`. With a
+    motion of a class, take the frame from `Field.frame` and give `frame.field` to the motion. Points broadcast with
+    the times.
     """
 
     def __init__(
@@ -53,30 +67,82 @@ class Flight(Shown):
         return np.asarray(np.vecmat(self.point @ self._to_user, self.motion.rotation(0.0)))
 
     def rotation(self, t: Any) -> FloatArray:
-        """R(t) of the body in the user's frame, shape (..., 3, 3).
+        """Rotation matrix R(t) of the body in the user's frame, (84).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times.
+
+        Returns
+        -------
+        ndarray, shape (..., 3, 3)
+            Rotation matrices.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return np.asarray(self._to_user @ self.motion.rotation(t) @ self._to_user.T)
 
     def arm(self, t: Any) -> FloatArray:
-        """Vector x_N(t) = R(t) R(0)^T x_N(0) from the centre of mass to the point, shape (..., 3).
+        """Vector x_N(t) = R(t) R(0)^T x_N(0) from the centre of mass to the point, below eq. (18).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Vectors in the user's frame, in the unit of `point`.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return np.asarray(np.matvec(self._to_user, np.matvec(self.motion.rotation(t), self._arm)))
 
     def position(self, t: Any) -> FloatArray:
-        """Position y_N(t), shape (..., 3) for times of any shape.
+        """Position y_N(t) of the point, below eq. (18).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape that broadcasts with the points.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Positions in the user's frame, in the unit of `point`.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self.particle.position(t) + self.arm(t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity dy_N/dt = dy_0/dt + R [Omega, R(0)^T x_N(0)], by (12); shape (..., 3).
+        """Velocity dy_N/dt = dy_0/dt + R [Omega, R(0)^T x_N(0)] of the point, by eq. (12).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape that broadcasts with the points.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Velocities in the user's frame.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         turning = np.matvec(self.motion.rotation(t), bracket(self.motion.angular_velocity(t), self._arm))
         return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))

@@ -15,16 +15,37 @@ from atlas.motions.particle.rows import BLOCK, Charge
 
 
 class ParticleMotion(Shown):
-    """Motion of a particle of charge-to-mass ratio mu from its position and velocity at t = 0, (89).
+    """Motion of a charged point particle in constant fields E and B, eqs. (89)-(99).
 
-    `mu` of either sign, or 0; `E`, `B`, `position`, `velocity` (..., 3); `c` > 0 as in `atlas.Field`. The inputs are
-    taken as exact, and broadcast with one another and with the times: arrays of them are as many particles. Any E and
-    B, zero too; the phase omega t up to 2^50, AtlasError beyond. Non-relativistic: speeds, the drift c [E, B]/B^2 among
-    them, must be small beside that of light, which is not checked here; `Field.si` and `Field.gaussian` do.
+    Parameters
+    ----------
+    mu : float or array_like
+        Charge-to-mass ratio, of either sign or 0.
+    E, B : array_like, shape (..., 3)
+        Electric and magnetic field, zero included.
+    position, velocity : array_like, shape (..., 3)
+        Position and velocity at t = 0.
+    c : float or array_like
+        1 in SI, the speed of light in Gaussian units, as in `Field`.
 
-        >>> origin, start = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
-        >>> atlas.ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 1.0), origin, start).kind
-        'cycloid'
+    Raises
+    ------
+    DomainError
+        For c that is not positive.
+    AtlasError
+        For an input that is no number, and for arrays that do not broadcast.
+
+    Notes
+    -----
+    Inputs are taken as exact and broadcast with one another and with the times. The motion is non-relativistic.
+    Speeds, the drift c [E, B]/B^2 included, must be small beside that of light. `Field.si` and `Field.gaussian` check
+    the drift.
+
+    Examples
+    --------
+    >>> origin, start = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
+    >>> atlas.ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 1.0), origin, start).kind
+    'cycloid'
     """
 
     family = "particle"
@@ -49,20 +70,59 @@ class ParticleMotion(Shown):
 
     @classmethod
     def in_field(cls, field: Field, position: Any, velocity: Any) -> Self:
-        """Motion in a `Field`, which holds mu, E, B and c.
+        """Motion of a particle in a `Field`, which holds mu, E, B and c, eq. (89).
 
-        Raises AtlasError for a position or a velocity that is no vector.
+        Parameters
+        ----------
+        field : Field
+            Constant fields and the charge-to-mass ratio.
+        position, velocity : array_like, shape (..., 3)
+            Position and velocity at t = 0.
+
+        Returns
+        -------
+        ParticleMotion
+            Motion in these fields.
+
+        Raises
+        ------
+        AtlasError
+            For a position or a velocity that is no vector.
         """
         return cls(field.mu, field.E, field.B, position, velocity, field.c)
 
     @classmethod
     def trochoid(cls, mu: Any, E: Any, B: Any, radius: Any, c: Any = 1.0) -> Self:
-        """Motion (99): y(0) = a e2 and y'(0) = (c |E_perp|/|B| + a omega) e1, in the frame `axes` of figure Magn.
+        """Trochoid (99): y(0) = a e2 and y'(0) = (c |E_perp|/|B| + a omega) e1 in the frame `axes`.
 
-        `radius` is a; omega = mu |B|/c has the sign of mu, where the paper's |mu B|/c in (97) is right for mu > 0 only.
-        Then y_perp(t) = c |E_perp|/|B| t e1 + a {e1 sin(omega t) + e2 cos(omega t)}. The paper's other data, (100),
-        shift it along e2 by a constant: printed mu |E_perp|/omega, it must be a length, mu |E_perp|/omega^2. Raises
-        AtlasError for what is no number, DomainError where B is zero.
+        Parameters
+        ----------
+        mu : float or array_like
+            Charge-to-mass ratio, of either sign.
+        E, B : array_like, shape (..., 3)
+            Electric and magnetic field.
+        radius : float or array_like
+            Radius a of the circle around the drifting centre.
+        c : float or array_like
+            1 in SI, the speed of light in Gaussian units.
+
+        Returns
+        -------
+        ParticleMotion
+            y_perp(t) = c |E_perp|/|B| t e1 + a {e1 sin(omega t) + e2 cos(omega t)}.
+
+        Raises
+        ------
+        DomainError
+            For B = 0.
+        AtlasError
+            For an input that is no number.
+
+        Notes
+        -----
+        omega = mu |B|/c has the sign of mu; the paper's |mu B|/c in (97) holds for mu > 0 only. The paper's other
+        data, (100), shift the path along e2 by a constant. The constant is printed as mu |E_perp|/omega; a length is
+        mu |E_perp|/omega^2.
         """
         still = cls(mu, E, B, np.zeros(3), np.zeros(3), c)
         e1, e2, _ = np.moveaxis(still.axes, -2, 0)
@@ -71,47 +131,57 @@ class ParticleMotion(Shown):
 
     @property
     def case(self) -> Any:
-        """Name of the case, decided exactly.
+        """Configuration of the fields, decided exactly: a string, or an array of strings.
 
+        Notes
+        -----
         One of `no force`, `electric field alone`, `magnetic field alone`, `parallel fields`, `crossed fields`
-        (orthogonal), `oblique fields`.
+        (orthogonal) and `oblique fields`.
         """
         return self._each("case")
 
     @property
     def kind(self) -> Any:
-        """Shape of the path across B, decided exactly.
+        """Shape of the path across B, decided exactly: a string, or an array of strings.
 
-        With a, omega, V the radius, frequency and drift: `prolate trochoid` (with loops, a |omega| > V), `cycloid`
-        (equal), `curtate trochoid` (less), `circle` (V = 0), `straight line` (a = 0), `point` (both); without a
-        magnetic force `parabola`, `straight line` or `point`.
+        Notes
+        -----
+        With the radius a, the frequency omega and the drift V: `prolate trochoid` (with loops, a |omega| > V),
+        `cycloid` (equal), `curtate trochoid` (less), `circle` (V = 0), `straight line` (a = 0), `point` (both zero).
+        Without a magnetic force: `parabola`, `straight line` or `point`.
         """
         return self._each("kind")
 
     @property
     def cyclotron_frequency(self) -> Any:
-        """Frequency omega = mu |B|/c of (97), with the sign of mu, in rad per unit of time; 0 without a field."""
+        """Frequency omega = mu |B|/c of (97), with the sign of mu, in rad/time."""
         return self._each("cyclotron_frequency")
 
     @property
     def period(self) -> Any:
-        """Time 2 pi/|omega| of one turn. Raises DomainError where no magnetic force turns it."""
+        """Time 2 pi/|omega| of one turn, (97).
+
+        Raises
+        ------
+        DomainError
+            Without a magnetic force.
+        """
         self._all.needs_field("period")
         return finite(turn_time(self.cyclotron_frequency), "The period")
 
     @property
     def prime(self) -> FloatArray:
-        """B' = mu B/(2c), (32), in which a body that flies with the particle turns; shape (..., 3)."""
+        """Field B' = mu B/(2c), (32), in which a body carried with the particle rotates; (..., 3), in 1/time."""
         return np.asarray(self._each("prime"))
 
     @property
     def drift(self) -> FloatArray:
-        """Velocity c [E, B]/B^2 of the point O(t) of (99) across B, whatever the sign of mu; shape (..., 3)."""
+        """Drift velocity c [E, B]/B^2 of the centre O(t) of (99) across B, for either sign of mu; shape (..., 3)."""
         return np.asarray(self._each("drift"))
 
     @property
     def radius(self) -> Any:
-        """Radius a of (97): that of the circle around the drifting centre."""
+        """Radius a of the circle around the drifting centre, (97)."""
         return self._each("radius")
 
     @property
@@ -120,23 +190,62 @@ class ParticleMotion(Shown):
         return np.asarray(self._each("axes"))
 
     def position(self, t: Any) -> FloatArray:
-        """Position y(t), shape (..., 3) for times of any shape, (101) with (93) and (98).
+        """Position y(t), eq. (101) with (93) and (98).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape that broadcasts with the particles.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Positions, in the unit of length of the inputs.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._spread(Charge.fill_position, t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity y'(t), shape (..., 3) for times of any shape, (90).
+        """Velocity y'(t), eq. (90).
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape that broadcasts with the particles.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Velocities, in the units of the inputs.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite or whose phases exceed 2^50.
         """
         return self._spread(Charge.fill_velocity, t)
 
     def guiding_centre(self, t: Any) -> FloatArray:
-        """Point O(t) of (99) about which the particle circles, carried along B with it; shape (..., 3).
+        """Guiding centre O(t) of (99), about which the particle circles, at its height along B.
 
-        Raises AtlasError for a time that is not finite.
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape that broadcasts with the particles.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Positions, in the unit of length of the inputs.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite.
         """
         return self._spread(Charge.fill_centre, t)
 

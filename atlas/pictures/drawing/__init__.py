@@ -23,15 +23,31 @@ __all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_p
 
 
 def figure(name: str, style: Any = None, target: str | None = None, **parameters: Any) -> "Figure":
-    """Return the Matplotlib figure of a recipe in figures/, with these parameters and the defaults for the rest.
+    """Matplotlib figure of a recipe in figures/.
 
-    With a ``target``, such as "aps" or "beamer", see `atlas.targets`, it is laid out anew at that width, with the
-    sizes of type, widths of lines, fonts and resolution that are asked there, which `savefig` keeps.
+    Parameters
+    ----------
+    name : str
+        Name of the recipe.
+    style : str or dict or list, optional
+        Matplotlib style on top of the package's own; a list that begins with "default" replaces the package's.
+    target : str, optional
+        Publication target, such as "aps" or "beamer", that sets width, fonts, line widths and resolution; see
+        `atlas.targets`.
+    **parameters
+        Parameters of the recipe; others keep their defaults.
 
-    ``style`` is what `matplotlib.style.use` takes (a name, a file, a dict, or a list of them), applied on top of the
-    package's own sheet; a list that begins with "default" replaces it. The figure is one as any other: it is saved by
-    ``f.savefig(...)``. Raises AtlasError for an unknown name, parameter, style or target, and for a figure that can't
-    be read at its target, DomainError where the recipe has no picture.
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Figure; ``savefig`` writes a file.
+
+    Raises
+    ------
+    DomainError
+        If the recipe has no picture at these parameters.
+    AtlasError
+        For an unknown name, parameter, style or target, and for a figure that is unreadable at its target.
     """
     from atlas.pictures import recipes
     from atlas.pictures.drawing.panels import to_figure
@@ -42,11 +58,26 @@ def figure(name: str, style: Any = None, target: str | None = None, **parameters
 
 
 def plotter(name: str, *, off_screen: bool = True, **parameters: Any) -> "Plotter":
-    """Return the panels in space of a recipe in figures/ as a PyVista plotter.
+    """PyVista plotter of the panels in space of a recipe in figures/.
 
-    Coordinates are those of the scene. Translucent surfaces are depth-peeled, so that it may be turned: call ``show``
-    (with ``off_screen=False``), ``screenshot`` or ``export_gltf``. Raises AtlasError for an unknown name or parameter,
-    for a recipe without a panel in space, and where no GL library can draw.
+    Parameters
+    ----------
+    name : str
+        Name of the recipe.
+    off_screen : bool
+        False for a window, opened by ``show``.
+    **parameters
+        Parameters of the recipe; others keep their defaults.
+
+    Returns
+    -------
+    pyvista.Plotter
+        Plotter in the coordinates of the scene, with depth peeling; ``screenshot`` and ``export_gltf`` write files.
+
+    Raises
+    ------
+    AtlasError
+        For an unknown name or parameter, for a recipe without a panel in space, and without a GL library.
     """
     from atlas.pictures import recipes
     from atlas.pictures.drawing.window import to_plotter

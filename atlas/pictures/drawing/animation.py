@@ -128,12 +128,30 @@ def animation(
 
 
 def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> FuncAnimation:
-    """Return a recipe's figure as an animation over the `values` of one of its parameters, or of the time t.
+    """Matplotlib animation of a recipe's figure over one parameter, or over the time t.
 
-    A figure that shows a motion has a time; without values it is the time that its motion lasts. ``style``, ``fps`` and
-    ``progress`` are as for `animation`, and what else is given are parameters of the recipe. The result is
-    Matplotlib's: ``.save("x.gif")`` writes it, and a notebook shows it. Raises AtlasError for an
-    unknown name or parameter, and for a value out of its range, and DomainError where the recipe has no picture.
+    Parameters
+    ----------
+    name : str
+        Name of the recipe.
+    over : str
+        Parameter that varies, "t" for the time of a figure with a motion.
+    values : sequence, optional
+        Values of the parameter, one per frame; for the time by default the duration of the motion.
+    **options
+        `style`, `fps` and `progress`, as for `animation`; all others are parameters of the recipe.
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+        ``.save("x.gif")`` writes a file.
+
+    Raises
+    ------
+    DomainError
+        If the recipe has no picture at these parameters.
+    AtlasError
+        For an unknown name or parameter, and for a value out of its range.
     """
     own = {"fps", "style", "progress"}
     parameters = {name: options.pop(name) for name in [*options] if name not in own}
