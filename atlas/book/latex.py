@@ -210,39 +210,55 @@ PAGE_LINES = 60
 """Lines of a table that fit on a page below its caption."""
 
 
+class Layout:
+    """Columns of a table in LaTeX: their siunitx formats, letters and shares of the page's width, 0 where unbroken."""
+
+    def __init__(self, table: TableView, markdown: Sequence[str]) -> None:
+        printed = [[value(cell, markdown) for cell in row] for row in table.rows]
+        self.formats = [_format([row[i] for row in table.rows], markdown) for i in range(len(table.columns))]
+        letters = [
+            max(map(len, column)) + 2
+            for column in zip([_plain_head(x, markdown) for x in table.columns], *printed, strict=True)
+        ]
+        self.letters, self.shares = sum(letters), [*_shares(self.formats, letters)]
+        self.lines = sum(
+            max(ceil(len(text) / PAGE_LETTERS / x) if x else 1 for text, x in zip(row, self.shares, strict=True))
+            for row in printed
+        )
+
+    @property
+    def columns(self) -> str:
+        """Argument of tabular: the formats, and widths of columns whose words are broken into lines."""
+        return "".join(
+            rf">{{\raggedright\arraybackslash}}p{{{share:.2f}\textwidth}}" if share else format_
+            for share, format_ in zip(self.shares, self.formats, strict=True)
+        )
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether the table takes both columns of the page."""
+        return self.letters > TIGHT_COLUMN_LETTERS or any(self.shares)
+
+
 def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
     """Return a table as an environment of its own: over both columns where it is wide, over pages where it is high."""
-    places = range(len(table.columns))
-    formats = [_format([row[place] for row in table.rows], markdown) for place in places]
-    printed = [[value(cell, markdown) for cell in row] for row in table.rows]
-    units = ["" if column.unit is None else words(markdown[column.unit]) for column in table.columns]
-    heads = [words(markdown[c.head]) + f" {unit}" * (unit != "1") for c, unit in zip(table.columns, units, strict=True)]
-    letters = [max(map(len, column)) + 2 for column in zip(heads, *printed, strict=True)]
-    shares = list(_shares(formats, letters))
-    lines = sum(
-        max(ceil(len(text) / PAGE_LETTERS / share) if share else 1 for text, share in zip(row, shares, strict=True))
-        for row in printed
-    )
-    columns = "".join(
-        rf">{{\raggedright\arraybackslash}}p{{{share:.2f}\textwidth}}" if share else format_
-        for share, format_ in zip(shares, formats, strict=True)
-    )
+    layout = Layout(table, markdown)
     caption = rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}"
-    cells = [_head(column, texts, format_) for column, format_ in zip(table.columns, formats, strict=True)]
+    cells = [_head(column, texts, format_) for column, format_ in zip(table.columns, layout.formats, strict=True)]
     head = [r"\toprule", " & ".join(cells) + r" \\", r"\midrule"]
     rows = [
-        " & ".join(_entry(row[place], texts, numeric=formats[place] != "l") for place in places) + r" \\"
+        " & ".join(_entry(cell, texts, numeric=x != "l") for cell, x in zip(row, layout.formats, strict=True)) + r" \\"
         for row in table.rows
     ]
     note = [rf"\par\smallskip\footnotesize {texts[table.note]}"] if table.note is not None else []
-    if lines > PAGE_LINES:
-        begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{columns}}}", caption + r"\\"]
+    if layout.lines > PAGE_LINES:
+        begin = [r"\begingroup\footnotesize", rf"\begin{{longtable*}}{{{layout.columns}}}", caption + r"\\"]
         again = [*head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule", r"\endfoot"]
         return "\n".join([*begin, *again, *rows, r"\end{longtable*}", *note, r"\endgroup", ""])
-    kind, place = ("table*", "[tb]") if sum(letters) > TIGHT_COLUMN_LETTERS or any(shares) else ("table", "[!htb]")
+    kind, place = ("table*", "[tb]") if layout.is_wide else ("table", "[!htb]")
     begin = [rf"\begin{{{kind}}}{place}", caption, r"\centering\footnotesize"]
-    tabular, end = [rf"\begin{{tabular}}{{{columns}}}"], [r"\bottomrule", r"\end{tabular}"]
-    if sum(letters) > COLUMN_LETTERS and kind == "table":
+    tabular, end = [rf"\begin{{tabular}}{{{layout.columns}}}"], [r"\bottomrule", r"\end{tabular}"]
+    if layout.letters > COLUMN_LETTERS and not layout.is_wide:
         tabular = [r"\setlength{\tabcolsep}{3pt}", NARROW + tabular[0]]
         end = [end[0], end[1] + "}"]
     return "\n".join([*begin, *tabular, *head, *rows, *end, *note, rf"\end{{{kind}}}", ""])
@@ -284,6 +300,12 @@ def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
     unit = texts[column.unit] if column.unit is not None else ""
     head = texts[column.head] + (f" ({unit})" if unit and unit != "1" else "")
     return head if format_ == "l" else f"{{{head}}}"
+
+
+def _plain_head(column: ColumnView, markdown: Sequence[str]) -> str:
+    """Return the head of a column with its unit, as the letters that are printed."""
+    unit = "" if column.unit is None else words(markdown[column.unit])
+    return words(markdown[column.head]) + f" {unit}" * (unit != "1")
 
 
 def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:

@@ -84,67 +84,104 @@ class EllipticRoots(TurningPoints):
         return np.array([(self.along / self.b).hi, (self.across / self.b).hi])
 
 
-def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
-    """Return the turning points and the rest from I1, I2, I3, B1, B2, B3, z, branch."""
-    *I, B1, B2, B3, z, branch = inputs
-    x = [z + I[i - 2] * I[i - 1] for i in range(3)]
-    square = x[0] * x[1] * x[2]
-    v = square.sqrt() * branch
-    e = [ONE / (a * b) for a, b in zip(I, x, strict=True)]
-    shape = np.broadcast_shapes(*(np.shape(y.hi) for y in inputs))
-    sign = [np.sign(y.hi) for y in x]
-    above = [
-        sum((np.sign(z.hi) * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
-        for i in range(3)
-    ]
-    rank = np.array([np.broadcast_to(y, shape) for y in above])  # of e: 0 for the least, 1 for that in the middle
-    K = (B1, B2, B3)
-    low, middle, high = (np.argmax(rank == n, axis=0) for n in range(3))
+class Pencil:
+    """Inertia, K and e of elliptic motions, rows (m,), and how nutation depends on them.
 
-    def of(places: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
-        """Return the numbers of the axes at these places."""
+    Of I1, I2, I3, B1, B2, B3, z and branch: `x` are z + I_j I_k, `square` is their product and `v` its root, with the
+    sign of `branch`; `e` are E_i/v = 1/(I_i x_i), K is (B1, B2, B3). An axis is a number 0, 1, 2 or an array of them.
+    """
+
+    def __init__(self, *inputs: DoubleDouble) -> None:
+        *self.I, B1, B2, B3, self.z, self.branch = inputs
+        self.K = (B1, B2, B3)
+        self.x = [self.z + self.I[i - 2] * self.I[i - 1] for i in range(3)]
+        self.square = self.x[0] * self.x[1] * self.x[2]
+        self.v = self.square.sqrt() * self.branch
+        self.e = [ONE / (a * b) for a, b in zip(self.I, self.x, strict=True)]
+        self.shape = np.broadcast_shapes(*(np.shape(y.hi) for y in inputs))
+
+    @cached_property
+    def order(self) -> Any:
+        """Rank of each e, (3, m): 0 for the least, 1 for the middle one, 2 for the largest."""
+        sign, I, z = [np.sign(y.hi) for y in self.x], self.I, np.sign(self.z.hi)
+        above = [
+            sum((z * np.sign((I[j] - I[i]).hi) * sign[i] * sign[j] > 0).astype(int) for j in range(3) if j != i)
+            for i in range(3)
+        ]
+        return np.array([np.broadcast_to(y, self.shape) for y in above])
+
+    @staticmethod
+    def of(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
+        """Return the component of `numbers` along an axis."""
         first, second, third = numbers
-        return chosen(places == 0, first, chosen(places == 1, second, third))
+        return chosen(axis == 0, first, chosen(axis == 1, second, third))
 
-    def part(third: Any, other: Any, axis: Any) -> DoubleDouble:
-        """Return [(I_third - I_other) I_axis x_axis]/[(I_third - I_axis) I_other x_other] K_other^2."""
-        size = of(other, K)
+    def difference(self, i: Any, j: Any) -> DoubleDouble:
+        """Return e_j - e_i."""
+        of = self.of
+        return self.z * (of(i, self.I) - of(j, self.I)) * of(i, self.e) * of(j, self.e)
+
+    def share(self, third: Any, other: Any, axis: Any) -> DoubleDouble:
+        """Return (e_third - e_other)/(e_third - e_axis) K_other^2, by moments."""
+        of, I, x = self.of, self.I, self.x
+        size = of(other, self.K)
         up = (of(third, I) - of(other, I)) * of(axis, I) * of(axis, x)
         return up / ((of(third, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
 
-    # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
-    outer = [(of(middle, I) - of(i, I)) * of(i, e) * of(i, K) * of(i, K) for i in (low, high)]
-    beyond = (outer[0] + outer[1]).hi * np.sign(z.hi) * np.sign(of(middle, e).hi) > 0
-    axis, other = np.where(beyond, low, high), np.where(beyond, high, low)
+    @cached_property
+    def nutation_axis(self) -> tuple[Any, Any, Any]:
+        """The axis a that nutates, the middle one of e, and the outer one about which K goes round."""
+        of, K, e = self.of, self.K, self.e
+        low, middle, high = (np.argmax(self.order == n, axis=0) for n in range(3))
+        # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
+        outer = [(of(middle, self.I) - of(i, self.I)) * of(i, e) * of(i, K) * of(i, K) for i in (low, high)]
+        beyond = (outer[0] + outer[1]).hi * np.sign(self.z.hi) * np.sign(of(middle, e).hi) > 0
+        return np.where(beyond, low, high), middle, np.where(beyond, high, low)
+
+    @cached_property
+    def rates(self) -> list[DoubleDouble]:
+        """E_i - 1, from K to Omega."""
+        return [-(self.v * y) - ONE for y in self.e]
+
+    def is_elliptic(self, w: DoubleDouble) -> Any:
+        """Return where this is certain to be an elliptic motion; w is negative then."""
+        sizes, rank = np.array([np.broadcast_to(y.hi, self.shape) for y in self.I]), self.order
+        certain = [
+            (sizes > 0).all(0) & (2 * PLANE_FACTOR * sizes.max(0) < sizes.sum(0)) & (abs(self.branch.hi) == 1),
+            *(y.rel < 0.5 for y in self.x), self.square.hi > 0,
+            (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
+            np.count_nonzero(np.broadcast_arrays(*(y.hi for y in self.K)), axis=0) > 1,
+            w.hi < 0, w.rel < 0.5,
+            *(y.rel < WEIGHT_RADIUS for y in self.rates),  # next to rest they are 1 - x for x near 1
+        ]  # fmt: skip
+        return np.logical_and.reduce([np.broadcast_to(y, self.shape) for y in certain])
+
+
+def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
+    """Return the turning points and the constants of the sphere of K from I1, I2, I3, B1, B2, B3, z, branch."""
+    pencil = Pencil(*inputs)
+    of, I, K, e, v = pencil.of, pencil.I, pencil.K, pencil.e, pencil.v
+    axis, middle, other = pencil.nutation_axis
     along = of(axis, K)
     own = along * along
-    rise, w = part(other, middle, axis), own + part(middle, other, axis)
+    rise, fall = pencil.share(other, middle, axis), pencil.share(middle, other, axis)
+    w = own + fall
     turning = (own + rise).sqrt()
     farther = turning + abs(along)
     nearer = rise / farther
     up = along.hi > 0  # v = u + K_a
     left, right = (axis + 1) % 3, (axis + 2) % 3
-    first, second, e_a = of(left, K), of(right, K), of(axis, e)
-    sides = [z * (of(i, I) - of(axis, I)) * of(i, e) * e_a for i in (left, right)]  # e_a - e_i
+    first, second = of(left, K), of(right, K)
+    sides = [pencil.difference(i, axis) for i in (left, right)]
     squares = first * first, second * second
     flat = squares[0] + squares[1]
     across, b = flat.sqrt(), (flat + own).sqrt()
-    rates = [-(v * y) - ONE for y in e]  # E - 1
-    L = -(square * sides[0] * sides[1])
-    sizes = np.array([np.broadcast_to(y.hi, shape) for y in I])
-    certain = [
-        (sizes > 0).all(0) & (2 * PLANE_FACTOR * sizes.max(0) < sizes.sum(0)) & (abs(branch.hi) == 1),  # it moves
-        *(y.rel < 0.5 for y in x), square.hi > 0,
-        (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
-        np.count_nonzero(np.broadcast_arrays(*(y.hi for y in K)), axis=0) > 1,
-        w.hi < 0, w.rel < 0.5,
-        *(y.rel < WEIGHT_RADIUS for y in rates),  # next to rest they are differences of what is all but one
-    ]  # fmt: skip
+    L = -(pencil.square * sides[0] * sides[1])
     return EllipticRoots(
-        rate=v * first * second * z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
+        rate=v * first * second * pencil.z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
         low=-chosen(up, nearer, farther),
         high=chosen(up, farther, nearer),
-        f=(-(L * part(middle, other, axis)), -(L * along).scaled(1), L),
+        f=(-(L * fall), -(L * along).scaled(1), L),
         poles=poles_of(along, flat, b),
         turning=turning,
         w=w,
@@ -154,11 +191,11 @@ def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
         across=across,
         b=b,
         torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
-        precession=of(axis, rates) * b,
-        rates=rates,
-        sense=(np.where(other == high, -1.0, 1.0) * np.sign(v.hi), np.sign(of(other, K).hi)),
-        frame=_frame(axis, (first / across).hi, (second / across).hi, shape),
-        elliptic=np.logical_and.reduce([np.broadcast_to(y, shape) for y in certain]),
+        precession=of(axis, pencil.rates) * b,
+        rates=pencil.rates,
+        sense=(np.where(other == (pencil.order == 2).argmax(0), -1.0, 1.0) * np.sign(v.hi), np.sign(of(other, K).hi)),
+        frame=_frame(axis, (first / across).hi, (second / across).hi, pencil.shape),
+        elliptic=pencil.is_elliptic(w),
     )
 
 

@@ -9,7 +9,7 @@ They are differences of constants that are known to some forty digits, over step
 changes by more than the step explains, the functions were found in another form, and the derivative is refused.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -43,50 +43,26 @@ BLOCK = 512
 ROUNDING, MAX_ERROR = 2.0**-52, 1e-9
 """Error of a term of v, in parts of it, and that of v, in parts of 1 + |v|, up to which it is given."""
 
+GROUPS = (0, 1, 2), (3, 4, 5, 6, 7, 8)
+"""Places of the moments and of the rates among the inputs."""
+
 
 class TorusVaried:
     """Derivatives of one motion on a torus in some inputs, by their places among moments, field and omega."""
 
     def __init__(self, exact: Any, kernel: ThetaKernel, places: Sequence[int]) -> None:
-        motion, sums = exact.on_torus, kernel.sums
-        self.kernel, low = kernel, sums.centre
-        box = [(int(P + low[0]), int(Q + low[1])) for P in sums.P for Q in sums.Q]
-        peak = int(np.argmax(abs(sums.table[3]).ravel()))
+        self.kernel = kernel
         with workprec(BITS):
-            here = _tables(kernel.constants, box, peak)
-            values = [*motion.torus.moments, *motion.torus.K]
-            values += [w - k for w, k in zip(motion.torus.W, motion.torus.K, strict=True)]
-            unit = float(arb(exact.inertia[0] / motion.torus.moments[0]).mid())
-            weights, ways, frequencies, frame = (np.array([complex_of(x) for x in kind]) for kind in here)
-            derivatives, groups = dict[int, list[Array]](), ((0, 1, 2), (3, 4, 5, 6, 7, 8))
-            # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
-            left = {max(group, key=lambda i: abs(values[i])) for group in groups if set(group) <= set(places)}
-            b = max(abs(float(arb(x).mid())) for x in values[3:6])
-            weak = min(max(round(-2 * np.log2(b)), 0), WEAK_FIELD_BITS)  # constants bend on the scale of a weak field
-            for place in set(places) - left:
-                step = STEP_BITS + weak * (place in (3, 4, 5))
-                moved = _moved(values, place, step, motion.rate, kernel.made_of[0])
-                derivatives[place] = _slopes(here, _tables(moved, box, peak), step)
-            by_rates = [weights * np.repeat([0, 1], [4, 6])[:, None].repeat(len(box), 1).ravel(), 0 * ways, frequencies]
-            by_rates.append(-frame * np.repeat([0, 1], [6, 3]))
-            for place in left:
-                group, whole = groups[place > 2], by_rates if place > 2 else [0 * x for x in by_rates]
-                others = {i: float(arb(values[i]).mid()) for i in group if i != place}
-                derivatives[place] = [
-                    (x - sum(size * derivatives[i][n] for i, size in others.items())) / float(arb(values[place]).mid())
-                    for n, x in enumerate(whole)
-                ]
-        slopes = [[x / (kernel.rate if place > 2 else unit) for x in derivatives[place]] for place in places]
-        self.weights = weights.reshape(10, -1)
-        self.d_weights = np.array([x[0].reshape(10, -1) for x in slopes]).reshape(len(places), 10, -1)
-        tables = np.concatenate([self.weights[None], self.d_weights])
-        matters = (tables != 0).any((0, 1))
-        self.P, self.Q = (np.array([x[i] - low[i] for x in box])[matters] for i in (0, 1))
-        self.ways, self.frame = ways.reshape(3, 2), frame.real.reshape(3, 3)
-        self.weights, self.d_weights = self.weights[:, matters], self.d_weights[:, :, matters]
-        self.d_ways = np.array([x[1].reshape(3, 2) for x in slopes]).reshape(len(places), 3, 2)
-        self.d_frequencies = np.array([x[2].real for x in slopes]).reshape(len(places), 3)
-        self.d_frame = np.array([x[3].real.reshape(3, 3) for x in slopes]).reshape(len(places), 3, 3)
+            neighbours = Neighbours(exact, kernel)
+            weights, ways, _, frame = neighbours.constants
+            d_weights, d_ways, d_frequencies, d_frame = neighbours.slopes(places)
+        weights, d_weights = weights.reshape(10, -1), d_weights.reshape(len(places), 10, -1)
+        matters = (weights != 0).any(0) | (d_weights != 0).any((0, 1))
+        self.P, self.Q = neighbours.orders[:, matters]
+        self.weights, self.d_weights = weights[:, matters], d_weights[:, :, matters]
+        self.ways, self.d_ways = ways.reshape(3, 2), d_ways.reshape(-1, 3, 2)
+        self.d_frequencies = d_frequencies.real
+        self.frame, self.d_frame = frame.real.reshape(3, 3), d_frame.real.reshape(-1, 3, 3)
 
     @property
     def of_frequencies(self) -> FloatArray:
@@ -151,6 +127,76 @@ class TorusVaried:
         return np.asarray(powers[orders - least])
 
 
+class Neighbours:
+    """Constants of a motion on a torus, and their derivatives in three moments, field K and omega, `values` (9,).
+
+    Constants are four rows: weights over the largest of the denominator, ways, frequencies and frame. Terms of the
+    theta sums have the `orders` P, Q, (2, terms), counted from the centre of the sums.
+    """
+
+    def __init__(self, exact: Any, kernel: ThetaKernel) -> None:
+        torus, sums = exact.on_torus.torus, kernel.sums
+        self.kernel, self.rate = kernel, exact.on_torus.rate
+        self.values = [*torus.moments, *torus.K, *(w - k for w, k in zip(torus.W, torus.K, strict=True))]
+        self.sizes = [float(arb(x).mid()) for x in self.values]
+        self.unit = float(arb(exact.inertia[0] / torus.moments[0]).mid())
+        self.orders = np.array([(P, Q) for P in sums.P for Q in sums.Q]).T
+        self.box = [(int(P + sums.centre[0]), int(Q + sums.centre[1])) for P, Q in self.orders.T]
+        self.peak = int(np.argmax(abs(sums.table[3]).ravel()))
+        self.exact = self._tables(kernel.constants)
+        self.constants = [np.array([complex_of(x) for x in kind]) for kind in self.exact]
+
+    def slopes(self, places: Sequence[int]) -> list[Array]:
+        """Return the derivatives of the four rows in the inputs at some places, each (places, row)."""
+        # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
+        left = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
+        found = {place: self._by_step(place) for place in set(places) - left}
+        found |= {place: self._by_scale(place, found) for place in left}
+        units = [self.kernel.rate if place > 2 else self.unit for place in places]
+        return [
+            np.array([found[place][kind] / unit for place, unit in zip(places, units, strict=True)])
+            for kind in range(4)
+        ]
+
+    def _by_step(self, place: int) -> list[Array]:
+        """Return derivatives by a step of one input, shorter in a weak field: on its scale the constants bend."""
+        field = max(map(abs, self.sizes[3:6]))
+        weak = min(max(round(-2 * np.log2(field)), 0), WEAK_FIELD_BITS)
+        step = STEP_BITS + weak * (place in (3, 4, 5))
+        moved = _moved(self.values, place, step, self.rate, self.kernel.made_of[0])
+        return _slopes(self.exact, self._tables(moved), step)
+
+    def _by_scale(self, place: int, found: Mapping[int, Sequence[Array]]) -> list[Array]:
+        """Return derivatives from those in the other inputs of the group, by Euler's theorem on homogeneous functions.
+
+        With all rates grow K, W and the frequencies, and the frame falls; with all moments nothing changes.
+        """
+        weights, ways, frequencies, frame = self.constants
+        count = len(self.box)
+        by_rates = [
+            weights * np.repeat([0, 1], [4 * count, 6 * count]), 0 * ways, frequencies,
+            -frame * np.repeat([0, 1], [6, 3]),
+        ]  # fmt: skip
+        whole = by_rates if place > 2 else [0 * x for x in by_rates]
+        others = [i for i in GROUPS[place > 2] if i != place]
+        return [
+            (x - sum(self.sizes[i] * found[i][kind] for i in others)) / self.sizes[place]
+            for kind, x in enumerate(whole)
+        ]
+
+    def _tables(self, constants: Constants) -> list[list[Any]]:
+        """Return the four rows of constants."""
+        places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in self.box]
+        unit = places[self.peak][3]
+        if unit == 0:
+            raise _other_form()
+        weights = [x / unit for row in zip(*places, strict=True) for x in row]
+        return [
+            weights,
+            *([x for row in kind for x in row] for kind in (constants.ways, [constants.frequencies], constants.frame)),
+        ]
+
+
 def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
     """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
     moved = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
@@ -183,19 +229,6 @@ def _followed(lattice: Lattice, like: Lattice) -> Lattice:
         return first, second
 
     return Lattice(next_to(like.real), next_to(like.others), next_to(like.a), next_to(like.b))
-
-
-def _tables(constants: Constants, box: Sequence[tuple[int, int]], peak: int) -> list[list[Any]]:
-    """Return weights beside the largest of the denominator, ways, frequencies and frame, each in a row."""
-    places = [weights_at(constants.forms, constants.hat, constants.start, place) for place in box]
-    unit = places[peak][3]
-    if unit == 0:
-        raise _other_form()
-    weights = [x / unit for row in zip(*places, strict=True) for x in row]
-    return [
-        weights,
-        *([x for row in kind for x in row] for kind in (constants.ways, [constants.frequencies], constants.frame)),
-    ]
 
 
 def _slopes(here: list[list[Any]], there: list[list[Any]], step: int) -> list[Array]:
