@@ -7,22 +7,20 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from atlas.families.family import Command, Family, Parameter, Quantity, Sampled
-from atlas.motions.elementary import family as elementary
-from atlas.motions.elementary import family_ball as ball
-from atlas.motions.elementary import family_free as free
-from atlas.motions.elementary import family_hyperbola as hyperbola
-from atlas.motions.nutation import family_elliptic as elliptic
-from atlas.motions.nutation import family_general as general
-from atlas.motions.nutation import family_top as top
-from atlas.motions.particle import family as particle
-from atlas.motions.torus import family as asymmetric
-from atlas.surfaces import family as quadric
+from atlas.motions.elementary.family import BALL, FREE, HYPERBOLA
+from atlas.motions.elementary.family import FAMILY as ELEMENTARY
+from atlas.motions.nutation.family_elliptic import FAMILY as ELLIPTIC
+from atlas.motions.nutation.family_general import FAMILY as GENERAL
+from atlas.motions.nutation.family_top import FAMILY as TOP
+from atlas.motions.particle.family import FAMILY as PARTICLE
+from atlas.motions.torus.family import FAMILY as ASYMMETRIC
+from atlas.surfaces.family import FAMILY as QUADRIC
 
 __all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled"]
 
 FAMILIES: Mapping[str, Family] = MappingProxyType(
     {
-        module.FAMILY.name: module.FAMILY
-        for module in (elementary, general, top, elliptic, asymmetric, free, hyperbola, quadric, ball, particle)
+        family.name: family
+        for family in (ELEMENTARY, GENERAL, TOP, ELLIPTIC, ASYMMETRIC, FREE, HYPERBOLA, QUADRIC, BALL, PARTICLE)
     }
-)  # fmt: skip
+)

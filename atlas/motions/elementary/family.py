@@ -1,9 +1,9 @@
-"""The motions of a charged symmetric body in elementary functions, (58) to (88)."""
+"""Families in elementary functions: motions (58) to (88), free bodies, hyperbolas (67) to (72), balls (20) to (30)."""
 
 from typing import Any
 
 from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
-from atlas.families.parameters import FIELD, RATIO, integrals, rotation
+from atlas.families.parameters import FIELD, OMEGA, RATIO, in_brackets, integrals, rotation
 
 OMEGA3, PRECESSION, PROPER = (
     "third component of Omega, constant", "frequency of precession about B", "frequency of proper rotation",
@@ -102,4 +102,84 @@ FAMILY = Family(
         "case",
     ),
     figures=("motion_sphere", "motion", "rolling_cones", "hyperbola", "quadric", "stability"),
+)  # fmt: skip
+
+FREE = Family(
+    "free",
+    "motion of a free symmetric body",
+    "motions.elementary.{}.FreeMotion",
+    (RATIO, OMEGA),
+    (
+        Quantity("k", "frequency of precession about m", RATE, "(87)", checked="free k", certified=True),
+        Quantity("phi", "frequency of proper rotation", RATE, "(87)", checked="free phi", certified=True),
+        Quantity("mode", "axis that the momentum goes round", tabled=False),
+        Quantity("period", "period of Omega, 2 pi/|phi|", TIME, certified=True),
+        Quantity("precession_rate", "about the momentum, k", RATE, certified=True),
+        Quantity("spin_rate", "about the body's axis, phi", RATE, certified=True),
+    ),
+    (
+        *rotation("(87)", "free R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="free Omega"),
+    ),
+    {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},
+    figures=("free_motion",),
+    typed=("motion", "--field", "0", "0"),
+)
+
+HYPERBOLA = Family(
+    "hyperbola",
+    "curve of elementary motions of a body in a field",
+    "motions.elementary.{}_hyperbola.Hyperbola",
+    (RATIO, FIELD),
+    (
+        Quantity("pole", "pole of omega3(omega2)", RATE, "(71)", symbol="-B2", tabled=False),
+        Quantity(
+            "unstable_band", "((omega2 + B2)/B2)^2 where the motion is unstable", symbol="y", text=" to ".join,
+            tabled=False,
+        ),
+        Quantity("least_stability", "least of the squared frequencies of small nutations", "1/time^2", printed=False),
+    ),
+    promises={
+        "omega3 of the hyperbola": 4, "stability": 4, "k of the hyperbola": 4, "phi of the hyperbola": 4,
+        "points of the hyperbola": 4,
+    },
+    figures=("hyperbola", "frequencies", "stability"),
+    typed=("hyperbola",),
+)  # fmt: skip
+
+MOMENT = "inertia/time"
+
+BALL = Family(
+    "ball",
+    "motion of a charged ball, B along e3",
+    "motions.elementary.{}_ball.BallMotion",
+    (
+        Parameter("inertia", "Moment of inertia I0.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
+        Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c), either sign.", RATE, (0.5,), (-3.0, 3.0)),
+        Parameter(
+            "momentum", "m(0) = (0, m2, m3), B along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"),
+            metavar="M2 M3",
+        ),
+    ),
+    (
+        Quantity("gamma", "frequency of the turn about k_hat", RATE, "(29)", checked="ball gamma", certified=True),
+        Quantity(
+            "k_hat", "its axis, B along the third", "", "(29)", columns=("k2", "k3"),
+            text=lambda parts: in_brackets(("0", *parts)), checked="ball k_hat", certified=True,
+        ),
+    ),
+    (
+        *rotation("(28)", "ball R"),
+        Sampled("m", "angular_momentum", "angular momentum", MOMENT, "(26)", checked="ball m"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="ball Omega", printed=False),
+    ),
+    {"ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8},
+    Command(
+        "ball",
+        "Rotate a charged ball (26) to (29).",
+        "General motion of a charged ball: R(t) and m(t) (26) to (29).",
+        ("atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",),
+        "charged ball",
+    ),
+    figures=("ball_motion", "ball"),
 )  # fmt: skip
