@@ -80,19 +80,47 @@ def monodromy(
     p: float | None = None,
     points: int = 48,
 ) -> Monodromy:
-    """Carry the periods of a top once round an unstable spin, theorem-residue.
+    """Monodromy of the periods of a top around an unstable spin, theorem-residue.
 
-    The top is that of `TopMotion`: `inertia` (I2, I3), `coupling` (k2, k3), `linear` and `quadratic`. The loop has
-    `points` points of momentum p along n and energy g, counter-clockwise, at one momentum `M3` along the axis; in its
-    middle is the unstable spin with the momentum `p`, M3 (along n, the default) or -M3 (against it), in units of
-    inertia/time; for M3 = 0 that along n if it is unstable, else that against it. Its value belongs to one torus. That
-    of a stable spin may belong to a torus in another well too, and no loop goes round it. The `matrix` of what is
-    returned has as rows what became of g1 (one turn about n), g2 (one about the axis) and g3 (one nutation, less its
-    turns): `monodromy((1.0, 0.5), 0.5, linear=1.0).matrix`. Angles are balls; that the integers are these rests on no
-    angle changing by half a turn between neighbours, see `step`.
+    Parameters
+    ----------
+    inertia : (I2, I3)
+        Moments across and along the axis.
+    M3 : float
+        Momentum along the axis, in inertia/time.
+    coupling : (k2, k3)
+        Gyroscopic coupling, in inertia/time.
+    linear, quadratic : float
+        Coefficients of the potential, in inertia/time^2, as in `TopMotion`.
+    p : float, optional
+        Momentum of the spin along n: M3 (default) or -M3. For M3 = 0 the spin along n if unstable, else against n.
+    points : int
+        Number of points on the loop, at least 3.
 
-    Raises AtlasError for what are no numbers; DomainError for no body, a spin that is stable or no isolated value,
-    rates out of the range of floats, and too few points; NotCertifiedError where the balls tell nothing.
+    Returns
+    -------
+    Monodromy
+        Integer `matrix`, the loop `p`, `g` and the largest `step` of an angle.
+
+    Raises
+    ------
+    DomainError
+        For no body, for a spin that is stable or no isolated value, for rates out of range, and for too few points.
+    NotCertifiedError
+        If the balls do not determine the integers.
+    AtlasError
+        For an input that is no number.
+
+    Notes
+    -----
+    The loop runs counter-clockwise in momentum p and energy g. The rows of `matrix` are the images of g1 (one turn
+    about n), g2 (one about the axis) and g3 (one nutation, less its turns). Angles are balls. The integers assume that
+    no angle changes by half a turn between neighbouring points.
+
+    Examples
+    --------
+    >>> len(atlas.monodromy((1.0, 0.5), 0.5, linear=1.0).matrix)
+    3
     """
     top = inputs_of_top(inertia, coupling, (0.0, 1.0), linear, quadratic)
     given = [number(x, "A parameter of the top") for x in (*top[:4], *top[6:], M3, M3 if p is None else p)]

@@ -23,22 +23,40 @@ KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "on
 
 
 class Quadric(Shown):
-    """The surface (51): omega1^2 + (omega2+B2)^2 - (I B2/B3)(omega2+B2)(omega3+B3) = (1-I) B2^2.
+    """Quadric of initial data with constant Omega3, eqs. (51)-(57).
 
-    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
-    broadcast. The inputs are taken as exact, the scalars are rounded once. In the coordinates (53) about the centre,
+    Its equation is omega1^2 + (omega2+B2)^2 - (I B2/B3)(omega2+B2)(omega3+B3) = (1-I) B2^2.
 
-        omega'_1^2 - omega'_2^2/a2 + omega'_3^2/a3 = (1 - I) B2^2,                                               (54)
+    Parameters
+    ----------
+    ratio : float or array_like or SymmetricBody
+        I = I3/I2, in (0, 2].
+    field : (B2, B3), array_like, or Field
+        Components of B' = mu B/(2c), of either sign, in 1/time.
 
-    a2 and a3 as printed there. They have the sign of B3: the paper takes B3 > 0, and for B3 < 0 the axes 2 and 3
-    interchange their roles. The cone's semi-axes are their roots, (70); its C1, C2, C3 are zero.
+    Raises
+    ------
+    DomainError
+        For a ratio that no body has. Attributes raise where they are infinite or undefined, see Notes.
+    AtlasError
+        For an input that is no number.
 
-    Degenerate kinds: for B2 = 0 ("line") C1, C2, C3 are zero and the infinite one of a2, a3 raises DomainError; for
-    B = 0 ("all space") beta, a2, a3 and the axes do, since I^-1 B' has no direction. AtlasError is raised for what is
-    no number.
+    Notes
+    -----
+    Inputs are taken as exact and broadcast; scalars are rounded once. In the coordinates (53) about the centre,
 
-        >>> atlas.Quadric(1.5, (1.0, 2.0)).kind
-        'two-sheet hyperboloid'
+        omega'_1^2 - omega'_2^2/a2 + omega'_3^2/a3 = (1 - I) B2^2.                                               (54)
+
+    a2 and a3 have the sign of B3. The paper takes B3 > 0; for B3 < 0 the axes 2 and 3 interchange their roles. The
+    cone has the semi-axes (70), while its C1, C2, C3 are zero.
+
+    - B2 = 0 ("line"): C1, C2, C3 are zero, and the infinite one of a2, a3 raises DomainError.
+    - B = 0 ("all space"): beta, a2, a3 and the axes raise DomainError, since I^-1 B' has no direction.
+
+    Examples
+    --------
+    >>> atlas.Quadric(1.5, (1.0, 2.0)).kind
+    'two-sheet hyperboloid'
     """
 
     family = "quadric"
@@ -55,18 +73,39 @@ class Quadric(Shown):
     def of_top(
         cls, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0
     ) -> "TopQuadric":
-        """Return the quadric of any symmetric top, given as in `TopMotion`, theorem-top-quadric.
+        """Quadric of starts with nu'' = 0 of a symmetric top, theorem-top-quadric.
 
-        Raises AtlasError as `TopMotion` does.
+        Parameters
+        ----------
+        inertia : (I2, I3), array_like
+            Moments across and along the axis.
+        coupling : (k2, k3), array_like
+            Gyroscopic coupling, in inertia/time.
+        direction : (n2, n3), array_like
+            Constant vector n in the body at t = 0.
+        linear, quadratic : float or array_like
+            Coefficients of the potential, in inertia/time^2, as in `TopMotion`.
+
+        Returns
+        -------
+        TopQuadric
+            Quadric of this top.
+
+        Raises
+        ------
+        DomainError, AtlasError
+            As for `TopMotion`.
         """
         return TopQuadric(inertia, coupling, direction, linear, quadratic)
 
     @kept
     def kind(self) -> Any:
-        """Kind of the surface, decided on the inputs as given: I3 against I2, never a rounded quotient.
+        """Type of the surface, decided exactly on I2, I3, B2, B3: a string, or an array of strings.
 
+        Notes
+        -----
         One of "two-sheet hyperboloid" (I > 1), "cone" (I = 1), "one-sheet hyperboloid" (I < 1), "plane pair" (B3 = 0),
-        "line" (B2 = 0), "all space" (B = 0).
+        "line" (B2 = 0) and "all space" (B = 0).
         """
         I2, I3, B2, B3 = np.broadcast_arrays(*self._inputs)
         names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, I3 == I2, I3 > I2], KINDS[:-1], KINDS[-1])
@@ -74,9 +113,12 @@ class Quadric(Shown):
 
     @kept
     def beta(self) -> Any:
-        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before.
+        """Angle beta from e2 to I^-1 B', tan(beta) = B3/(I B2), (53), in (-pi, pi] rad.
 
-        Raises DomainError for B = 0.
+        Raises
+        ------
+        DomainError
+            For B = 0.
         """
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
@@ -85,21 +127,33 @@ class Quadric(Shown):
 
     @kept
     def a2(self) -> Any:
-        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54). Raises DomainError for B2 = 0, B3 >= 0."""
+        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54).
+
+        Raises
+        ------
+        DomainError
+            For B2 = 0 with B3 >= 0.
+        """
         I2, I3, B2, B3 = self._directed()
         check_a2(B2, B3)
         return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
     def a3(self) -> Any:
-        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54). Raises DomainError for B2 = 0, B3 <= 0."""
+        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54).
+
+        Raises
+        ------
+        DomainError
+            For B2 = 0 with B3 <= 0.
+        """
         I2, I3, B2, B3 = self._directed()
         check_a3(B2, B3)
         return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
     def semi_axes(self) -> Any:
-        """Semi-axes C1, C2, C3 of (55), (57): the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
+        """Semi-axes C1, C2, C3 = sqrt(|1-I| B2^2 (1, |a2|, |a3|)), (55), (57), in 1/time; shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
         along = np.asarray(B2) == 0
         found = over(quadric.semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, None), degree=(1, 1, 1))
@@ -108,15 +162,22 @@ class Quadric(Shown):
 
     @kept
     def centre(self) -> FloatArray:
-        """Centre -B' = (0, -B2, -B3), shape (..., 3)."""
+        """Centre -B' = (0, -B2, -B3), (53); shape (..., 3), in 1/time."""
         _, I3, B2, B3 = self._inputs
         return 0.0 - np.stack(np.broadcast_arrays(0.0, B2, B3, I3)[:3], -1)
 
     @kept
     def axes(self) -> FloatArray:
-        """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3).
+        """Unit vectors of the coordinates omega'_1, omega'_2, omega'_3 as rows, (53); shape (..., 3, 3).
 
-        Raises DomainError for B = 0.
+        Raises
+        ------
+        DomainError
+            For B = 0.
+
+        Notes
+        -----
+        Axes 2 and 3 are rotated by beta/2 + pi/4 in the plane (e2, e3).
         """
         I2, I3, B2, B3 = self._directed()
         cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, None), degree=(0, 0))
@@ -130,9 +191,24 @@ class Quadric(Shown):
         return axes
 
     def canonical(self, omega: Any) -> FloatArray:
-        """Coordinates omega'_1..3, (53), of points `omega` (..., 3); inf where one is beyond the largest float.
+        """Canonical coordinates omega'_1, omega'_2, omega'_3 of points, eq. (53).
 
-        Raises AtlasError for what are no vectors.
+        Parameters
+        ----------
+        omega : array_like, shape (..., 3)
+            Points, in rad/time.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Coordinates, in rad/time; inf beyond the largest float.
+
+        Raises
+        ------
+        DomainError
+            For B = 0.
+        AtlasError
+            For an input that is no vector.
         """
         omega = vectors(omega, "omega", RATE)
         common_shape(self.shape, omega.shape[:-1])
@@ -143,10 +219,23 @@ class Quadric(Shown):
             return np.asarray(np.ldexp(turned, -power))
 
     def residual(self, omega: Any) -> Any:
-        """Left-hand side of (50) at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
+        """Residual of eq. (50) at points, zero on the surface only.
 
-        B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3. Raises AtlasError for what
-        are no vectors.
+        Parameters
+        ----------
+        omega : array_like, shape (..., 3)
+            Points, in rad/time.
+
+        Returns
+        -------
+        float or ndarray
+            B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3, in 1/time^3, rounded
+            once.
+
+        Raises
+        ------
+        AtlasError
+            For an input that is no vector.
         """
         points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
         return over(quadric.residual, *self._inputs, *points, unit=slice(2, None), degree=3)

@@ -80,27 +80,57 @@ def sweep(
     progress: Progress | None = None,
     time: str = TIME,
 ) -> Columns | Path | str:
-    """Compute quantities of a family for all combinations of parameters, or, if `listed`, for lists of them by row.
+    """Table of quantities of a family of motions over all combinations of parameters.
 
-    `family` is one of those that `atlas sweep --help` names; `parameters` numbers or sequences by name, the last
-    varying fastest. Without `out` returns the columns, parameters first. With `out` writes a table and returns where it
-    is: a file .csv, .npz or .parquet; or, if `out` ends in / or is an address that fsspec knows, as
-    s3://bucket/table.parquet, a Parquet data set, a folder that pandas and Dask read as one table.
+    Parameters
+    ----------
+    family : str
+        Family, one of those that `atlas sweep --help` lists.
+    parameters : mapping of str to float or sequence
+        Values by name; the last parameter varies fastest.
+    quantities : sequence of str
+        Names of the quantities.
+    out : path, optional
+        File .csv, .npz or .parquet; a folder ending in / or an fsspec address for a Parquet data set.
+    listed : bool
+        True for parameters that are lists row by row, not combinations.
+    digits : int, optional
+        Number of certified digits; quantities are then text.
+    rows : int, optional
+        Rows per part; by default parts take at least some seconds.
+    executor : optional
+        Executor of `concurrent.futures`, or a Dask client.
+    jobs : int, optional
+        Number of processes.
+    progress : callable, optional
+        Called as ``progress(rows done, rows)`` after each part.
+    time : str
+        Name of the unit of time in headings.
 
-    The table is computed in parts of `rows` rows, or of some seconds and more, by `jobs` processes or an `executor`,
-    any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
-    the table is whole; a sweep that was stopped goes on from there, and makes damaged parts again. The workers write
-    the parts where they see the folder or the address. The bytes of a file do not depend on the
-    parts or on who computed them. With `digits` the quantities are text with so many certified digits.
-    `progress(rows done, rows)` is called after each part. `time` is what headings call the unit of time.
+    Returns
+    -------
+    mapping of str to ndarray, or path
+        Columns, parameters first, without `out`; else the place of the table.
 
-    Where an angle a period, or the like, has no value, as on a separatrix, its cell is empty (NaN in the columns and
-    .npz, null in .parquet, no text), and the column `missing` says why. Any other row outside the domain, as on a pole
-    or the quadric's beta for B = 0, ends the sweep: DomainError has its number and the reason.
+    Raises
+    ------
+    DomainError
+        For a row outside the domain, with its number and the reason.
+    AtlasError
+        For an unknown or missing name; for a table that another sweep is writing; for a folder that is not of a sweep.
+        Also if a file is damaged: that file stays, and the table is written next to it.
 
-    Raises AtlasError for what is unknown, missing or outside the domain of the family, with the row that it is in; for
-    a table that another sweep is writing, with who that is; for a folder that is not of a sweep; and for a file that is
-    not as it was written, which stays: the table is beside it then.
+    Notes
+    -----
+    Parts are kept next to the table, in a folder ending in .parts, until the table is complete. An interrupted sweep
+    resumes from there. The bytes of the table do not depend on the parts or on the processes. A quantity without a
+    value, as on a separatrix, has an empty cell, and the column `missing` says why.
+
+    Examples
+    --------
+    >>> table = atlas.sweep("elementary", {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.5, 0.7]}, ["k"])
+    >>> table["k"].round(6).tolist()
+    [1.118034, 1.565248]
     """
     if rows is not None and rows < 1:
         raise AtlasError(f"A part has at least one row, not {rows}.")

@@ -73,7 +73,7 @@ def test_the_reference_holds_every_public_name() -> None:
     assert sorted(listed) == sorted(set(atlas.__all__) - {"__version__"})
     known = described()
     assert known["Quadric"].arguments == "(ratio, field)"
-    assert known["Quadric"].docstring.startswith("The surface (51)")
+    assert known["Quadric"].docstring.startswith("Quadric of initial data")
     assert known["ElementaryMotion"].members["rotation"].arguments == "(t, out=None)"  # inherited
     assert known["ElementaryMotion"].members["k"].arguments == ""  # a value
     assert known["SymmetricBody"].members["ring"].arguments == "(mass, radius)"

@@ -29,21 +29,44 @@ MAX_POINTS = 10**8
 
 
 class Hyperbola(Shown):
-    """The curve (67) in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
+    """Hyperbola of elementary motions in the plane omega1 = 0, eqs. (67)-(72), and its stability.
 
-    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
-    broadcast with omega2 in `omega3`, `frequencies` and `stability` and with each other in `least_stability`; the rest
-    is asked of one curve. About the centre -B', with X = omega2 + B2 and Y = omega3 + B3, it is
+    Its equation is B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
 
-        Y = (B3/(I B2)) (X - (1-I) B2^2/X),
+    Parameters
+    ----------
+    ratio : float or array_like or SymmetricBody
+        I = I3/I2, in (0, 2].
+    field : (B2, B3), array_like, or Field
+        Components of B' = mu B/(2c), of either sign, in 1/time.
 
-    so that X = ± sqrt|1-I| |B2| e^s, and s is the hyperbolic parameter. The vertical asymptote X = 0 is the pole.
-    Special fields: for B3 = 0 the curve is the two lines omega3 = 0 and omega2 = -B2, for B2 = 0 the line
-    omega2 = 0, and for B = 0 the whole plane; for I = 1 it is the line Y = (B3/B2) X, and the pole a second one. Raises
-    DomainError for a ratio that no body has, AtlasError for what is no number.
+    Raises
+    ------
+    DomainError
+        For a ratio that no body has.
+    AtlasError
+        For an input that is no number.
 
-        >>> round(atlas.Hyperbola(1.5, (1.0, 2.0)).omega3(0.7), 9)
-        0.658823529
+    Notes
+    -----
+    About the centre -B', with X = omega2 + B2 and Y = omega3 + B3, the curve is
+
+        Y = (B3/(I B2)) (X - (1-I) B2^2/X),     X = ± sqrt|1-I| |B2| e^s,
+
+    with the hyperbolic parameter s. The vertical asymptote X = 0 is the pole. Special cases:
+
+    - B3 = 0: the two lines omega3 = 0 and omega2 = -B2;
+    - B2 = 0: the line omega2 = 0;
+    - B = 0: the whole plane;
+    - I = 1: the line Y = (B3/B2) X, and the pole as a second line.
+
+    Arrays of parameters broadcast in `omega3`, `frequencies`, `stability` and `least_stability`. The other members
+    need one curve.
+
+    Examples
+    --------
+    >>> round(atlas.Hyperbola(1.5, (1.0, 2.0)).omega3(0.7), 9)
+    0.658823529
     """
 
     family = "hyperbola"
@@ -59,9 +82,30 @@ class Hyperbola(Shown):
     def of_top(
         cls, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
     ) -> "TopHyperbola":
-        """Return the hyperbola of the steady precessions of one symmetric top, given as in `TopMotion`.
+        """Hyperbola of the steady precessions of one symmetric top (not in the paper).
 
-        Raises AtlasError as `TopMotion` does, DomainError for n2 = 0.
+        Parameters
+        ----------
+        inertia : (I2, I3)
+            Moments across and along the axis.
+        coupling : (k2, k3)
+            Gyroscopic coupling, in inertia/time.
+        direction : (n2, n3)
+            Constant vector n in the body at t = 0.
+        linear, quadratic : float
+            Coefficients of the potential, in inertia/time^2, as in `TopMotion`.
+
+        Returns
+        -------
+        TopHyperbola
+            Hyperbola of this top.
+
+        Raises
+        ------
+        DomainError
+            For n2 = 0.
+        AtlasError
+            As for `TopMotion`.
         """
         from atlas.motions.nutation.top_hyperbola import TopHyperbola
 
@@ -76,14 +120,17 @@ class Hyperbola(Shown):
 
     @property
     def pole(self) -> Any:
-        """The omega2 = -B2 that (71) leaves out."""
+        """Pole omega2 = -B2, excluded from (71), in rad/time."""
         return 0.0 - self.B2
 
     @property
     def asymptotes(self) -> tuple[FloatArray, FloatArray]:
-        """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes through the centre -B'.
+        """Unit vectors (2,) in the plane (omega2, omega3) of the asymptotes of (67): the pole's, then that of I^-1 B'.
 
-        The first is the pole's, the second that of I^-1 B'. DomainError where the curve is none: B2 = 0 or B3 = 0.
+        Raises
+        ------
+        DomainError
+            For B2 = 0 or B3 = 0, where the curve consists of lines.
         """
         I2, I3, B2, B3 = self._exact
         check_asymptotes(B2, B3)
@@ -94,7 +141,7 @@ class Hyperbola(Shown):
 
     @property
     def special(self) -> dict[str, tuple[float, float]]:
-        """Named points (omega2, omega3): rest, -2 B', where phi = 0 too, and the other zero of omega3."""
+        """Points (omega2, omega3) of (67) by name, in rad/time: rest, -2 B', and the other zero of omega3."""
         I2, I3, B2, _ = self._exact
         zero = (I3 - I2 - I2) * B2 / I2
         return {
@@ -104,53 +151,144 @@ class Hyperbola(Shown):
         }
 
     def omega3(self, omega2: Any) -> Any:
-        """Ordinate omega3 of the curve at omega2, (71), rounded once. DomainError at the pole and for B2 = 0.
+        """Ordinate omega3 of the curve at omega2, eq. (71).
 
-        AtlasError is raised for what is no number.
+        Parameters
+        ----------
+        omega2 : float or array_like
+            Abscissa, in rad/time.
+
+        Returns
+        -------
+        float or ndarray
+            omega3 in rad/time, rounded once.
+
+        Raises
+        ------
+        DomainError
+            At the pole, and for B2 = 0.
+        AtlasError
+            For an input that is no number.
         """
         return self._over(ordinate, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
-        """Frequencies k = omega2/B2hat, (79), and phi, (72), each rounded once. DomainError as for `omega3`.
+        """Frequencies k = omega2/B2hat, eq. (79), and phi, eq. (72), at omega2.
 
-        AtlasError is raised for what is no number.
+        Parameters
+        ----------
+        omega2 : float or array_like
+            Abscissa, in rad/time.
+
+        Returns
+        -------
+        k, phi : float or ndarray
+            Frequencies in rad/time, each rounded once.
+
+        Raises
+        ------
+        DomainError
+            At the pole, and for B2 = 0.
+        AtlasError
+            For an input that is no number.
         """
         k, phi = self._over(frequencies, omega2, degree=(1, 1))
         return k, phi
 
     def closed(self, p: int, q: int) -> ClosedMotion:
-        """Return the motion of the curve with phi/k = p/q exactly, theorem-closed, which closes after q precessions.
+        """Motion of the curve with phi/k = p/q exactly, theorem-closed, which closes after q precessions.
 
-        There is one, and no other, for every rational but (1-I) B3hat/I and twice that; DomainError there, and for
-        I = 1, B2 = 0 or B3 = 0. Raises AtlasError unless p and q are whole numbers.
+        Parameters
+        ----------
+        p, q : int
+            Numerator and denominator.
+
+        Returns
+        -------
+        ClosedMotion
+            The only such motion.
+
+        Raises
+        ------
+        DomainError
+            For p/q = (1-I) B3hat/I or twice this value; for I = 1, B2 = 0 or B3 = 0.
+        AtlasError
+            Unless p and q are integers.
         """
         return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
 
     def stability(self, omega2: Any) -> Any:
-        """Nutation frequency squared -p'(omega3), p the cubic of (47), in 1/time^2: theorem-stability.
+        """Squared frequency of nutation -p'(omega3), with the cubic p of (47), theorem-stability (not in the paper).
 
-        The motion is stable where it is positive and unstable where it is negative; where it is zero, at the ends of
-        the unstable band, the motion is unstable too, theorem-band-ends, unless B3 = 0, theorem-equatorial-stability.
-        With x = (omega2 + B2)/B2 and tau = B3/B2 it is
-        B2^2 [(1 + tau^2) x^4 + (1-I)(2 tau^2 - 1) x^2 + tau^2 (1-I)^2]/x^2
-        = tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2 with X = omega2 + B2; not in the paper. DomainError as for
-        `omega3`; inf where it overflows. AtlasError is raised for what is no number.
+        Parameters
+        ----------
+        omega2 : float or array_like
+            Abscissa, in rad/time.
+
+        Returns
+        -------
+        float or ndarray
+            Squared frequency in 1/time^2, inf where it overflows: positive for stable, negative for unstable motions.
+
+        Raises
+        ------
+        DomainError
+            At the pole, and for B2 = 0.
+        AtlasError
+            For an input that is no number.
+
+        Notes
+        -----
+        With X = omega2 + B2 and tau = B3/B2 the value is tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2. At a zero,
+        an end of the unstable band, the motion is unstable, theorem-band-ends, unless B3 = 0,
+        theorem-equatorial-stability.
         """
         return self._over(stability, omega2, degree=2)
 
     def growth_rate(self, omega2: Any) -> Any:
-        """Rate, in 1/time, at which a small push away from the motion at omega2 grows: sqrt of -`stability`, or 0.
+        """Growth rate of a small departure from the motion at omega2: sqrt(-`stability`), or 0 where positive.
 
-        It is 0 where the motion is stable, and at the ends of the unstable band, where a push grows like a power of
-        time. DomainError as for `omega3`. AtlasError is raised for what is no number.
+        Parameters
+        ----------
+        omega2 : float or array_like
+            Abscissa, in rad/time.
+
+        Returns
+        -------
+        float or ndarray
+            Rate in 1/time; 0 also at the ends of the unstable band, where departures grow as a power of time.
+
+        Raises
+        ------
+        DomainError
+            At the pole, and for B2 = 0.
+        AtlasError
+            For an input that is no number.
         """
         return plain(np.sqrt(np.maximum(-np.asarray(self.stability(omega2)), 0.0)))
 
     def escape(self, omega2: float, omega1: float) -> "GeneralMotion":
-        """Return the motion at omega2 pushed by a small `omega1`, in full: see its `period` and `turning_points`.
+        """General motion that starts next to the curve, at (omega1, omega2, omega3 by (71)).
 
-        `omega3` is that of the curve, rounded once. In the unstable band Omega3 leaves it, however small the push, as
-        far as the next root of Q and comes back, again and again. Raises AtlasError for what is no number.
+        Parameters
+        ----------
+        omega2 : float
+            Abscissa, in rad/time.
+        omega1 : float
+            Small departure from the plane omega1 = 0, in rad/time.
+
+        Returns
+        -------
+        GeneralMotion
+            Motion with its `period` and `turning_points`. In the unstable band Omega3 moves to the next root of Q and
+            back.
+
+        Raises
+        ------
+        DomainError
+            At the pole, and for B2 = 0.
+        AtlasError
+            For an input that is no number.
         """
         from atlas.motions.nutation.kernel_general import GeneralMotion
 
@@ -158,11 +296,17 @@ class Hyperbola(Shown):
 
     @property
     def least_stability(self) -> Any:
-        """Greatest lower bound of `stability` on the curve, in 1/time^2, rounded once; shape of the parameters.
+        """Infimum of `stability` on the curve, in 1/time^2, rounded once (not in the paper).
 
-        It is 2 |1-I| |B3| b - (1-I)(B2^2 - 2 B3^2), b = |B'|, taken where ((omega2 + B2)/B2)^2 = |1-I| |B3|/b, or, for
-        I = 1 or B3 = 0, approached at the pole; not in the paper. Where it is negative its root is the greatest rate of
-        growth. DomainError for B2 = 0.
+        Raises
+        ------
+        DomainError
+            For B2 = 0.
+
+        Notes
+        -----
+        The value is 2 |1-I| |B3| b - (1-I)(B2^2 - 2 B3^2) with b = |B'|, at ((omega2 + B2)/B2)^2 = |1-I| |B3|/b. For I
+        = 1 or B3 = 0 the infimum is approached at the pole. The root of a negative value is the largest growth rate.
         """
         if np.any(np.equal(self.B2, 0)):
             raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
@@ -170,10 +314,12 @@ class Hyperbola(Shown):
 
     @property
     def unstable_band(self) -> tuple[float, float] | None:
-        """Interval [y-, y+] of ((omega2 + B2)/B2)^2 in which the family is unstable, None if nowhere: theorem-band.
+        """Interval [y-, y+] of ((omega2 + B2)/B2)^2 with unstable motions, theorem-band; None if all are stable.
 
-        For I < 1 and |tau| = |B3/B2| <= 1/(2 sqrt 2): y± = (1-I)[1 - 2 tau^2 ± sqrt(1 - 8 tau^2)]/(2 (1 + tau^2)).
-        The ends belong to it unless B3 = 0. Equality in tau is met by no two floats but zeros.
+        Notes
+        -----
+        For I < 1 and |tau| = |B3/B2| <= 1/(2 sqrt 2): y± = (1-I)[1 - 2 tau^2 ± sqrt(1 - 8 tau^2)]/(2 (1 + tau^2)). The
+        ends belong to the band unless B3 = 0.
         """
         I2, I3, B2, B3 = self._exact
         disc = B2 * B2 - 8 * B3 * B3
@@ -186,20 +332,49 @@ class Hyperbola(Shown):
             return nearest(2 * one_less * tau2 / sum_), nearest(one_less * sum_ / (2 + 2 * tau2))
 
     def sample(self, points: Any = 200, *, reach: float = 4.0) -> Branch:
-        """Points (omega2, omega3) of both branches, one after the other; see `branches`.
+        """Points (omega2, omega3) of all branches of (67), one branch after the other; see `branches`.
 
-        Raises AtlasError for fewer than two points.
+        Parameters
+        ----------
+        points : int or array_like
+            Number of points, or values of the hyperbolic parameter s.
+        reach : float
+            Extent of the curve, in units of |B'|.
+
+        Returns
+        -------
+        omega2, omega3 : ndarray
+            Coordinates in rad/time.
+
+        Raises
+        ------
+        DomainError, AtlasError
+            As for `branches`.
         """
         first, second = zip(*self.branches(points, reach=reach), strict=True)
         return np.concatenate(first), np.concatenate(second)
 
     def branches(self, points: Any = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
-        """Branches of the curve as arrays (omega2, omega3), by hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s.
+        """Branches of (67) sampled by the hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s; X > 0 first.
 
-        `points` is how many in all, spread evenly in s from where |Y| to where |X| is `reach` times |B'|, or the
-        values of s themselves (for I = 1, where there is no scale, of X/|B2| = ± e^s). The first branch has X > 0.
-        Each omega3 is that of the double omega2, rounded once. A straight line (B2 = 0 or B3 = 0) is spread evenly, and
-        `points` must be a number; for B = 0 there is no curve: DomainError. More than MAX_POINTS are an AtlasError.
+        Parameters
+        ----------
+        points : int or array_like
+            Total number of points, uniform in s, or the values of s. For I = 1, X = ± |B2| e^s. Lines need a number.
+        reach : float
+            Extent of |X| and |Y|, in units of |B'|.
+
+        Returns
+        -------
+        tuple of (omega2, omega3)
+            Pair of arrays for each branch, in rad/time; each omega3 is that of the float omega2, rounded once.
+
+        Raises
+        ------
+        DomainError
+            For B = 0, where every point is a motion, and for extents beyond the largest float.
+        AtlasError
+            For fewer than two or more than 10^8 points, and for values of s on a line.
         """
         points = points if isinstance(points, int) else plain(real(points, "The points"))
         if np.ndim(points) == 0 and points > MAX_POINTS:
