@@ -128,7 +128,24 @@ class SymmetricBody:
     def ring(cls, mass: Any, radius: Any) -> Self:
         """Thin ring (a loop): I3 = m R^2 = 2 I2.
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        radius : float or array_like
+            Radius R > 0.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("ring", mass, radius))
 
@@ -136,7 +153,24 @@ class SymmetricBody:
     def disk(cls, mass: Any, radius: Any) -> Self:
         """Thin disk: I3 = m R^2/2 = 2 I2.
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        radius : float or array_like
+            Radius R > 0.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("disk", mass, radius))
 
@@ -144,7 +178,26 @@ class SymmetricBody:
     def cylindrical_shell(cls, mass: Any, radius: Any, height: Any) -> Self:
         """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6).
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        radius : float or array_like
+            Radius R > 0.
+        height : float or array_like
+            Height h.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("cylindrical_shell", mass, radius, height))
 
@@ -152,15 +205,51 @@ class SymmetricBody:
     def solid_cylinder(cls, mass: Any, radius: Any, height: Any) -> Self:
         """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3).
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        radius : float or array_like
+            Radius R > 0.
+        height : float or array_like
+            Height h.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("solid_cylinder", mass, radius, height))
 
     @classmethod
     def thin_rod(cls, mass: Any, length: Any) -> Self:
-        """Rod without thickness: I2 = m l^2/12, I3 = 0. A body, but `moments` refuses it.
+        """Rod without thickness: I2 = m l^2/12, I3 = 0; motions refuse the rod.
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        length : float or array_like
+            Length l > 0.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("thin_rod", mass, length))
 
@@ -168,7 +257,24 @@ class SymmetricBody:
     def sphere(cls, mass: Any, radius: Any) -> Self:
         """Solid ball: I2 = I3 = 2 m R^2/5.
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        radius : float or array_like
+            Radius R > 0.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("sphere", mass, radius))
 
@@ -176,36 +282,107 @@ class SymmetricBody:
     def spherical_shell(cls, mass: Any, radius: Any) -> Self:
         """Hollow sphere: I2 = I3 = 2 m R^2/3.
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        radius : float or array_like
+            Radius R > 0.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("spherical_shell", mass, radius))
 
     @classmethod
     def spheroid(cls, mass: Any, equatorial: Any, polar: Any) -> Self:
-        """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5, `equatorial` a and `polar` c.
+        """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5.
 
-        Raises AtlasError unless all are positive numbers.
+        Parameters
+        ----------
+        mass : float or array_like
+            Mass m > 0.
+        equatorial : float or array_like
+            Equatorial radius a > 0.
+        polar : float or array_like
+            Polar radius c.
+
+        Returns
+        -------
+        SymmetricBody
+            Body with moments in mass times length^2.
+
+        Raises
+        ------
+        DomainError
+            For a mass or dimension out of its domain.
+        AtlasError
+            For an input that is no number.
         """
         return cls(*_of_shape("spheroid", mass, equatorial, polar))
 
     @classmethod
     def from_point_masses(cls, masses: Any, positions: Any, *, tolerance: float = 1e-9) -> Self:
-        """Body of point masses, (8): `masses` (N,), `positions` (N, 3) from any origin; then `from_mass_matrix`.
+        """Body of point masses with the mass matrix (8), by `from_mass_matrix`.
 
-        Raises AtlasError for what are no positive masses at places, or no symmetric body.
+        Parameters
+        ----------
+        masses : array_like, shape (N,)
+            Masses, positive.
+        positions : array_like, shape (N, 3)
+            Positions from any origin.
+        tolerance : float
+            Relative difference up to which principal values count as equal.
+
+        Returns
+        -------
+        SymmetricBody
+            Body about its centre of mass.
+
+        Raises
+        ------
+        DomainError
+            If the body is not symmetric.
+        AtlasError
+            For arrays of other shapes, and for an entry that is no number.
         """
         return cls.from_mass_matrix(mass_matrix_of_points(masses, positions), tolerance=tolerance)
 
     @classmethod
     def from_mass_matrix(cls, mass_matrix: Any, *, tolerance: float = 1e-9) -> Self:
-        """Body of a mass matrix (8), by its principal axes: I2 = g1 + g3, I3 = 2 g1 where g1 = g2.
+        """Body of a mass matrix (8): I2 = g1 + g3 and I3 = 2 g1, with principal values g1 = g2 and g3.
 
-        `mass_matrix` is (3, 3), or (3,) for a diagonal. Two principal values that differ by no more than `tolerance`
-        times the largest are equal, and their mean is taken. If all three are, the body is totally symmetric and
-        keeps the axes it was given in. The symmetry axis points to where its largest component is positive.
+        Parameters
+        ----------
+        mass_matrix : array_like, shape (3, 3) or (3,)
+            Mass matrix, or its diagonal.
+        tolerance : float
+            Difference, relative to the largest principal value, up to which two of them count as equal.
 
-        Raises DomainError if no two are equal, or one is negative beyond rounding. AtlasError is raised for what is no
-        such matrix.
+        Returns
+        -------
+        SymmetricBody
+            Body with `axes`: the symmetry axis last, its largest component positive.
+
+        Raises
+        ------
+        DomainError
+            If no two principal values are equal, or one is negative beyond rounding.
+        AtlasError
+            For an input that is no such matrix.
+
+        Notes
+        -----
+        Equal principal values are replaced by their mean. A totally symmetric body keeps the axes of the matrix.
         """
         matrix, _ = diagonal_or_matrices(mass_matrix, "The mass matrix")
         if matrix.ndim > 2:

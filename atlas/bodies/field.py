@@ -150,13 +150,25 @@ class Field:
 
     @property
     def pair(self) -> tuple[float, float]:
-        """(B2, B3) of B', what a motion takes a field for whose body points along e3, (32). DomainError for B1 != 0."""
+        """Components (B2, B3) of B', (32), for a body whose axis points along e3, in 1/time.
+
+        Raises
+        ------
+        DomainError
+            For B1 != 0.
+        """
         B2, B3 = self.prime[1:].tolist()
         return B2, B3
 
     @property
     def exact_pair(self) -> tuple[float | Fraction, ...]:
-        """(B2, B3) of `exact`. DomainError for B1 != 0."""
+        """Components (B2, B3) of B', (32), without rounding: floats or fractions, in 1/time.
+
+        Raises
+        ------
+        DomainError
+            For B1 != 0.
+        """
         _ = self.pair
         return self.exact[1:]
 

@@ -177,36 +177,51 @@ def forget() -> None:
 
 
 class AsymmetricMotion(Motion[SingleAsymmetric]):
-    """Motion R(t), R(0) = 1, of a charged body of any inertia tensor, from any start (not in the paper).
+    """Motion of a charged body with any inertia tensor, from any start, theorem-clebsch (not in the paper).
 
-    `inertia` (I1, I2, I3), the principal moments; `field` (B1, B2, B3), the components of B' in the principal axes at
-    t = 0, and `omega` (omega1, omega2, omega3), the initial angular velocity there, in 1/time. The inputs are taken as
-    exact and broadcast with one another and with t. The body is Clebsch's case, theorem-clebsch: M and K move on a
-    torus with two commuting flows. Their periods are found by integrals between branch points and proved by Newton's
-    method in balls; times are reduced modulo them, and Taylor series with a proven remainder do the rest. `kind` is
+    The motion starts from R(0) = 1. The body is Clebsch's integrable case: M and K move on a torus with two commuting
+    flows.
 
-    - "at rest", "spin about an axis"; "ball" and "symmetric body", which `GeneralMotion` answers; "Euler's top", free;
-    - "on a torus": any other; "elliptic motion", where the torus shrinks to a curve, see `EllipticMotion`;
-    - "on the discriminant": other states without two periods, for which there is an answer up to a time that the error
-      states.
+    Parameters
+    ----------
+    inertia : (I1, I2, I3), array_like
+        Principal moments, positive, the largest at most the sum of the others.
+    field : (B1, B2, B3), array_like, or Field
+        Components of B' along the principal axes at t = 0, in 1/time.
+    omega : (omega1, omega2, omega3), array_like
+        Initial angular velocity along the principal axes, in rad/time.
 
-    On a torus M, K and the attitude are quotients of theta functions of two variables: a quarter of a second for the
-    first time that is asked for, then two microseconds each, however long. That they are is proved for each motion when
-    `agreement` is asked for, see `atlas.motions.torus.certified_distances`; where no proof is found they are held
-    against the certified twin at a few times, and at once where the theta functions fit the motion to less than 36
-    digits. A free body of three moments, a spin about a principal axis and an elliptic motion are made of Jacobi's
-    functions, some milliseconds for the first time and a tenth of a microsecond for each after it. `accuracy` bounds
-    what rounding adds. Where there is no closed form, or it differs, and for other kinds, every value is proved and
-    rounded once, in tenths of a second each. For proven digits see `atlas.motions.torus.certified`. Raises DomainError
-    for moments that no body has, positive and the largest at most the sum of the others; NotCertifiedError, an
-    AtlasError, for what cannot be proved; AtlasError for what is no finite number.
+    Raises
+    ------
+    DomainError
+        For moments that no body has.
+    NotCertifiedError
+        If a value cannot be proved; a subclass of AtlasError.
+    AtlasError
+        For an input that is no finite number.
 
-    Left out is the moment that the field induces in the body: with three different moments of inertia it takes the body
-    out of this integrable class, and for a micrometre of glass in some teslas it is 1e5 times as strong as the square
-    of the field that is kept. Charge is spread like mass, so that the centre of charge is that of mass.
+    Notes
+    -----
+    Inputs are taken as exact and broadcast with one another and with the times. `kind` is one of
 
-        >>> atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), omega=(0.3, 0.7, 0.2)).kind
-        'on a torus'
+    - "at rest", "spin about an axis", "Euler's top" (free), "ball", "symmetric body";
+    - "on a torus": the general case;
+    - "elliptic motion": the torus shrinks to a curve, see `EllipticMotion`;
+    - "on the discriminant": other states without two periods; certified up to a time that the error states.
+
+    On a torus M, K and the attitude are quotients of theta functions of two variables. The first time takes a quarter
+    of a second, each further time two microseconds. `agreement` states whether the formulas are proved for this
+    motion, and `accuracy` bounds the rounding. Euler's top, a spin about an axis and an elliptic motion use Jacobi's
+    functions. Without a closed form every value is certified and rounded once, in tenths of a second. For certified
+    digits see `atlas.motions.torus.certified`.
+
+    Charge is distributed like mass. The moment that the field induces in the body is neglected. For a micrometre of
+    glass in some tesla the induced moment exceeds the retained square of the field by a factor 1e5.
+
+    Examples
+    --------
+    >>> atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), omega=(0.3, 0.7, 0.2)).kind
+    'on a torus'
     """
 
     family = "asymmetric"
@@ -225,78 +240,120 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @kept
     def kind(self) -> Any:
-        """Name of the kind of motion, a string, or an array of them."""
+        """Type of the motion, see the Notes of the class: a string, or an array of strings."""
         return self._of_each(lambda single: single.exact.kind)
 
     @kept
     def H(self) -> Any:
-        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson. DomainError beyond all floats."""
+        """Integral H = (M, II^-1 M)/2 + (K, II K)/2 with M = II (Omega + K), theorem-lie-poisson, in inertia/time^2.
+
+        Raises
+        ------
+        DomainError
+            If the value exceeds the largest float.
+        """
         return finite(self._of_each(lambda single: nearest(single.exact.H)), "H")
 
     @kept
     def F(self) -> Any:
-        """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch. DomainError beyond all floats."""
+        """Clebsch's integral F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch, in inertia^2/time^2.
+
+        Raises
+        ------
+        DomainError
+            If the value exceeds the largest float.
+        """
         return finite(self._of_each(lambda single: nearest(single.exact.F)), "F")
 
     @kept
     def MK(self) -> Any:
-        """The Casimir (M, K), |B'| times the canonical momentum along B. DomainError beyond all floats."""
+        """Casimir (M, K): |B'| times the canonical momentum along B, in inertia/time^2.
+
+        Raises
+        ------
+        DomainError
+            If the value exceeds the largest float.
+        """
         return finite(self._of_each(lambda single: nearest(single.exact.MK)), "(M, K)")
 
     @kept
     def energy(self) -> Any:
-        """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy. DomainError beyond all floats."""
+        """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy, in inertia/time^2.
+
+        Raises
+        ------
+        DomainError
+            If the value exceeds the largest float.
+        """
         return finite(self._of_each(lambda single: nearest(single.exact.energy)), "The energy")
 
     @kept
     def agreement(self) -> Any:
-        """What is known of the truth of the closed form, or why there is none: a sentence, or an array of them."""
+        """Proof status of the closed form, or why none is used: a sentence, or an array of sentences."""
         return self._of_each(lambda single: single.agreement)
 
     @kept
     def accuracy(self) -> Any:
-        """Bound on errors of entries of R, and of Omega and K beside the largest rate, at any time.
+        """Bound on the errors of entries of R, and of Omega and K relative to the largest rate, at any time.
 
-        In closed form it is that of rounding, to first order, proved in cells that cover the torus, if exponentials and
-        sines of the library are within an ulp; errors that were seen are some ten times smaller. Where `agreement` says
-        that the formulas are not proved, it bounds rounding alone. Else it is that of a value that is rounded once.
+        Notes
+        -----
+        For a closed form the bound is that of rounding, to first order, proved on cells that cover the torus. The
+        library's exponentials and sines are assumed within one ulp. Where `agreement` states no proof, the bound
+        covers rounding alone. Without a closed form the bound is that of one rounding.
         """
         return self._of_each(lambda single: single.accuracy)
 
     @kept
     def period(self) -> Any:
-        """Period of Omega of a free body, of Omega and K of an elliptic motion, inf where they are constant.
+        """Period of Omega for a free body, of Omega and K for an elliptic motion; inf where these are constant.
 
-        Of any other motion, which has `frequencies`, there is none, nor are there mean rates: DomainError for one
-        motion, NaN for one of an array. Raises DomainError where it is beyond all floats.
+        Raises
+        ------
+        DomainError
+            For any other single motion, which has `frequencies` instead; an array has NaN there.
         """
         return self._scalar("period")
 
     @kept
     def precession_rate(self) -> Any:
-        """Mean rate of precession, about the momentum m, of the axis of a free body that m goes round, in rad/time.
+        """Mean rate of precession, in rad/time: of a free body about m, of an elliptic motion about the field.
 
-        That is the axis of the least or of the largest moment, see `mode`; any other precesses by whole nutations more
-        or less. Of an elliptic motion in a field it is that of `EllipticMotion`, about the field. Where two moments
-        become equal it is |m|/I1, that of `FreeMotion`. On a separatrix, and where there is no period, there is none:
-        DomainError for one motion, NaN for one of an array.
+        Raises
+        ------
+        DomainError
+            On a separatrix and without a period, for one motion; an array has NaN there.
+
+        Notes
+        -----
+        The precessing axis is that of `mode`. Other axes precess by additional full nutations. As two moments become
+        equal, the rate tends to |m|/I1 of `FreeMotion`.
         """
         return self._scalar("precession_rate")
 
     @kept
     def spin_rate(self) -> Any:
-        """Mean rate at which the body turns about the axis that m, or K, goes round: 2 pi over the period, with a sign.
+        """Mean rate of rotation about the axis that m or K circles: 2 pi/`period` with a sign, in rad/time.
 
-        None where there is no `precession_rate`.
+        Raises
+        ------
+        DomainError
+            Where `precession_rate` is undefined.
         """
         return self._scalar("spin_rate")
 
     @kept
     def mode(self) -> Any:
-        """Axis that the momentum of a free body goes round, a string, or an array of them.
+        """Axis that the momentum of a free body circles: a string, or an array of strings.
 
-        "long axis", of the least moment; "short axis", of the largest; "separatrix", "ball" or "at rest". Raises
-        DomainError in a field.
+        Raises
+        ------
+        DomainError
+            In a field.
+
+        Notes
+        -----
+        "long axis" (least moment), "short axis" (largest moment), "separatrix", "ball" or "at rest".
         """
         return self._of_each(lambda single: single.exact.mode)
 
@@ -305,23 +362,41 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @kept
     def frequencies(self) -> Any:
-        """Angular frequencies (f1, f2, f3) of a motion, shape (..., 3), each rounded once from proven balls.
+        """Angular frequencies (f1, f2, f3), shape (..., 3), in rad/time, each rounded once from certified balls.
 
-        On a torus M and K turn with f1 and f2, and R with f3 about B besides. It is a convention which basis f1, f2
-        are, and f3 is one but for integer multiples of them: in a period the body turns by at most half a turn about B
-        beside -B'. Of a free body, and of an elliptic motion, f1 = |spin_rate|, f2 = 0 and f3 = precession_rate.
-        Raises DomainError for other motions.
+        Raises
+        ------
+        DomainError
+            For motions without frequencies.
+
+        Notes
+        -----
+        On a torus M and K have the frequencies f1 and f2; R has f3, about B, in addition. The basis f1, f2 is a
+        convention, and f3 is defined up to integer multiples of both. For a free body and an elliptic motion f1 =
+        |spin_rate|, f2 = 0 and f3 = precession_rate.
         """
         frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
     @property
     def curve(self) -> Any:
-        """Spectral curve of one motion on a torus, with proven branch points, periods, frequencies, windings, actions.
+        """Spectral curve of one motion on a torus, with certified branch points, periods, frequencies and actions.
 
-        `curve.record(digits)` has all of it as texts of so many digits, also the rational coefficients, the Riemann
-        matrix, and, not proved, the characteristics of the theta functions; see `SpectralCurve`. DomainError for
-        a motion without a torus, AtlasError for an array of them.
+        Returns
+        -------
+        SpectralCurve
+            ``curve.record(digits)`` has all values as text with certified digits.
+
+        Raises
+        ------
+        DomainError
+            For a motion without a torus.
+        AtlasError
+            For an array of motions.
+
+        Notes
+        -----
+        The record also holds the characteristics of the theta functions, which are not certified.
         """
         from atlas.motions.torus.certified_spectral_curve import SpectralCurve
 
@@ -331,32 +406,82 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @kept
     def riemann_matrix(self) -> Any:
-        """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0, shape (..., 2, 2).
+        """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0; shape (..., 2, 2).
 
-        It is Siegel-reduced, so that theta series need few terms, and not proved; a part below 1e-35, which symmetry
-        makes zero, is shown as zero. Raises AtlasError for motions without
-        closed form.
+        Raises
+        ------
+        AtlasError
+            For motions without a closed form by theta functions.
+
+        Notes
+        -----
+        The matrix is Siegel-reduced and not certified. Parts below 1e-35, zero by symmetry, are shown as zero.
         """
         return np.asarray(self._of_each(lambda single: single.theta.riemann_matrix))
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3).
+        """Angular velocity Omega(t) along the axes of the body.
 
-        Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of Omega, in rad/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite.
+        NotCertifiedError
+            Where no proof is found.
         """
         return self._spun(self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), t)
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body; shape (..., 3).
+        """Field K(t) = R^T B' in the body, eq. (32).
 
-        Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of K, in 1/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite.
+        NotCertifiedError
+            Where no proof is found.
         """
         return self._in_body(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
+        """Angular momentum m = R II Omega in the laboratory.
 
-        Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Components of m, in inertia/time.
+
+        Raises
+        ------
+        AtlasError
+            For a time that is not finite.
+        NotCertifiedError
+            Where no proof is found.
         """
         return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
