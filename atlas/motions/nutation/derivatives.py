@@ -61,35 +61,14 @@ class Weighted:
 
     def at(self, t: FloatArray, slopes: bool) -> tuple[list[FloatArray], Any]:
         """Return v at times (m,), (3, N, m), dv/dt if asked for; and the sizes of v's terms, (N, m), 0 if all small."""
-        pair, counts = self.pair, [len(x) for x in self.pair.frequencies]
+        pair = self.pair
         turn, s, count = pair.places(t)
-        if pair.doubled[0] == pair.doubled[1]:
-            f = [pair.functions(s, pair.doubled[0], max(counts))] * 2
-        else:
-            f = [pair.functions(s, doubled, n) for doubled, n in zip(pair.doubled, counts, strict=False)]
-        f = [x[: 2 * n] for x, n in zip(f, counts, strict=True)]
-        levels = range(1 + slopes)
+        f, levels = self._functions(s), range(1 + slopes)
         # by level, part, row and time: a, its slope, its derivatives
         A, B = (np.matmul(x[: 1 + slopes], y) for x, y in zip(self.parts, f, strict=True))
         a, b = (x[:, 0, 0] + 1j * x[:, 1, 0] for x in (A, B))
         square = (a[0] * a[0].conj() + b[0] * b[0].conj()).real
-        phase = np.empty(t.size, complex)
-        angle = turn + pair.twist * s
-        phase.real, phase.imag = np.cos(angle), np.sin(angle)
-        u, w = ([2 / square * x] for x in (a[0], b[0]))
-        e, nu = [-1j * (u[0] * phase) * b[0]], [(a[0] * u[0].conj() - b[0] * w[0].conj()).real / 2]
-        p, q = [u[0] * phase], [w[0] * phase]
-        if slopes:
-            less = (a[1] * u[0].conj() + b[1] * w[0].conj()).real
-            by = 1j * pair.frame - less
-            e.append(by * e[0] - 1j * (a[1] * q[0] + p[0] * b[1]))
-            nu.append((a[1] * u[0].conj() - b[1] * w[0].conj()).real - less * nu[0])
-            p.append(by * p[0] + 2 / square * a[1] * phase)
-            q.append(by * q[0] + 2 / square * b[1] * phase)
-            for x, y in ((u, a), (w, b)):
-                x.append(2 / square * y[1] - less * x[0])
-        ways = [self._ways(*x) for x in zip(p, q, u, w, strict=True)]
-        axis = [self.axes @ np.array([x.real, x.imag, y]) for x, y in zip(e, nu, strict=True)]
+        ways, axis, nu = self._directions(a, b, square, turn + pair.twist * s)
         derivatives = [np.array([x[i, j] for x in (A, B) for j in range(2)]) for i in levels]
         by_s = [self._sum(ways, derivatives, i, slice(1, 2))[:, 0] for i in levels]
         basis = [self._basis(t, s, count, by_s, axis, i) for i in levels]
@@ -103,12 +82,42 @@ class Weighted:
             if slopes:
                 normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
                 changes = ((vectors[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
-                vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu[0], changes)
+                vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu, changes)
         basis_size = abs(basis[0]).max(0)
         if not self.cancels and (self.sizes @ basis_size.max(1)).max() < LOST_TERM:
             return vectors, 0.0
         terms = sum(x @ abs(y) for x, y in zip(self.weights, f, strict=True)) * 2 / np.sqrt(square)
         return vectors, terms + self.sizes @ basis_size
+
+    def _functions(self, s: FloatArray) -> list[FloatArray]:
+        """Return the functions of time of alpha and of beta at places s in the period, two arrays (rows, m)."""
+        doubled, counts = self.pair.doubled, [len(x) for x in self.pair.frequencies]
+        if doubled[0] == doubled[1]:
+            f = [self.pair.functions(s, doubled[0], max(counts))] * 2
+        else:
+            f = [self.pair.functions(s, x, n) for x, n in zip(doubled, counts, strict=False)]
+        return [x[: 2 * n] for x, n in zip(f, counts, strict=True)]
+
+    def _directions(
+        self, a: Array, b: Array, square: FloatArray, angle: FloatArray
+    ) -> tuple[list[FloatArray], list[FloatArray], FloatArray]:
+        """Return the vectors of `_ways` and the body's axis in the laboratory, with slopes as a and b have, and nu."""
+        phase = np.empty(angle.size, complex)
+        phase.real, phase.imag = np.cos(angle), np.sin(angle)
+        u, w = ([2 / square * x] for x in (a[0], b[0]))
+        e, nu = [-1j * (u[0] * phase) * b[0]], [(a[0] * u[0].conj() - b[0] * w[0].conj()).real / 2]
+        p, q = [u[0] * phase], [w[0] * phase]
+        if len(a) > 1:
+            less = (a[1] * u[0].conj() + b[1] * w[0].conj()).real
+            by = 1j * self.pair.frame - less
+            e.append(by * e[0] - 1j * (a[1] * q[0] + p[0] * b[1]))
+            nu.append((a[1] * u[0].conj() - b[1] * w[0].conj()).real - less * nu[0])
+            p.append(by * p[0] + 2 / square * a[1] * phase)
+            q.append(by * q[0] + 2 / square * b[1] * phase)
+            for x, y in ((u, a), (w, b)):
+                x.append(2 / square * y[1] - less * x[0])
+        ways = [self._ways(*x) for x in zip(p, q, u, w, strict=True)]
+        return ways, [self.axes @ np.array([x.real, x.imag, y]) for x, y in zip(e, nu, strict=True)], nu[0]
 
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
         """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""
