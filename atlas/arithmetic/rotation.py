@@ -130,7 +130,7 @@ class DoubleRotation:
     `Basis`: one small matrix product makes all of them.
     """
 
-    vectors: Mapping[str, tuple[float, ...]] = MappingProxyType({})
+    vectors: Mapping[str, tuple[Any, ...]] = MappingProxyType({})
     """Constant vectors of the motion, by name."""
 
     def __init__(self, axis: Axis, precession: Number, proper: Number, *, inverse: bool = False) -> None:
@@ -197,9 +197,13 @@ class DoubleRotation:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
         return combinations(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
-    def vector(self, name: str) -> tuple[float, ...]:
+    def vector(self, name: str) -> Any:
         """Return the components of a vector."""
         return self.vectors[name]
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t) in the body, shape (..., 3)."""
+        return (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
     def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_n(k t) v for a constant v, shape (..., 3): one phase is evaluated, not two."""

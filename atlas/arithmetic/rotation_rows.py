@@ -175,7 +175,11 @@ class DoubleRotationRows:
             q[:3] *= -1
         out[:] = q.T
 
-    def turned(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
+    def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
+        """Write Omega(t) in the body into (m, 3)."""
+        (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
+
+    def turned(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
         """Write R_n(k t) v for constant v (3, m) into (m, 3)."""
         with np.errstate(over="ignore", invalid="ignore"):
             for i, row in enumerate(self._precession(*self._circle(0, t)[1:])):
@@ -183,7 +187,7 @@ class DoubleRotationRows:
         if not np.isfinite(out).all():
             raise AtlasError("A vector that is to be turned is too large for a float: choose larger units.")
 
-    def swung(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
+    def swung(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
         """Write R_z(-phi t) v for constant v (3, m) into (m, 3)."""
         (x, y, z), (cos, sin, _) = vector, self._circle(1, t)
         out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z

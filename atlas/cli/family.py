@@ -389,7 +389,7 @@ def _in_doubles(
     motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float], worth: str
 ) -> None:
     """Print a motion in given axes, which is certified in no twin but that of any body."""
-    from atlas.motions.any_body import body_of
+    from atlas.motions.start import body_of
 
     if options["digits"] is not None or options["decimal"]:
         own = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")

@@ -9,18 +9,14 @@ Omega) = sum of rates times actions belongs to the nutation. The means are taken
 to rounding. The derivatives of the energy in the actions are the rates.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from atlas.arithmetic.inputs import FloatArray, finite, scaled
-from atlas.arithmetic.numbers import nearest
+from atlas.arithmetic.inputs import FloatArray, finite
 from atlas.errors import AtlasError
-from atlas.motions.derivatives import One
-from atlas.motions.spectrum import coefficients, wheels_of
-from atlas.motions.torus.theta import ThetaKernel
+from atlas.motions.spectrum import mean
 
 
 @dataclass(frozen=True)
@@ -42,17 +38,7 @@ def actions(motion: Any) -> Actions:
     if motion.shape:
         raise AtlasError(f"Actions are those of one motion, not of an array of them, of shape {motion.shape}.")
     motion = motion.own
-    single, wheels = motion._single(0), wheels_of(motion)  # noqa: SLF001  of the same floor
-    if motion.family == "asymmetric":
-        J = k = np.array(motion.inertia)
-        linear = quadratic = 0.0
-        field = motion.field_in_body
-    else:
-        J, k, linear, quadratic = One(motion, 0).inputs.parts
-        B = One(motion, 0).inputs.field
-
-        def field(t: Any) -> FloatArray:
-            return np.asarray(np.vecmat(B, motion.rotation(t)))
+    wheels, (J, k, linear, quadratic), field = motion._wheels(), motion._dynamics(), motion.field_in_body  # noqa: SLF001
 
     def momentum(t: Any) -> FloatArray:
         return np.asarray(J * motion.angular_velocity(t) + k * field(t))
@@ -62,39 +48,13 @@ def actions(motion: Any) -> Actions:
         energy = float((J * Omega * Omega).sum() / 2 + linear * nu + quadratic * nu * nu / 2)
     finite(energy, "The energy")
     turns = [float(start @ (wheels.n @ motion.rotation(0.0))), float(start @ wheels.a)]
-    if isinstance(getattr(single, "closed", None), ThetaKernel):
-        return Actions(wheels.names[:3], np.array([*_of_torus(single, J), turns[0]]), wheels.rates[:3], energy)
+    if wheels.actions:
+        return Actions(wheels.names[:3], np.array([*wheels.actions(J), turns[0]]), wheels.rates[:3], energy)
     rates = []
     if len(wheels.phases):
         (M,) = wheels.phases
-        work = _mean(lambda x: (momentum(x[0] / M) * (motion.angular_velocity(x[0] / M) / M)).sum(-1))
+        work = mean(lambda x: (momentum(x[0] / M) * (motion.angular_velocity(x[0] / M) / M)).sum(-1))
         rates = [work - wheels.p / M * turns[0] - wheels.s / M * turns[1]]
     values, there = np.array([*rates, *turns]), wheels.rates != 0
     names = tuple(name for name, moves in zip(wheels.names, there, strict=True) if moves)
     return Actions(names, values[there], wheels.rates[there], energy)
-
-
-def _mean(function: Callable[[FloatArray], FloatArray]) -> float:
-    """Return the mean of a function of one phase (1, m)."""
-    indices, amplitudes = coefficients(function, 1)
-    return float(amplitudes[np.flatnonzero(indices[:, 0] == 0)[0]].real)
-
-
-def _of_torus(single: Any, J: FloatArray) -> list[float]:
-    """Return the actions of the two phases of a torus: along the flows of H and F/2, and back about the field."""
-    kernel, actions_of_cycles = single.closed, []
-    unit = nearest(single.exact.inertia[0] / single.exact.on_torus.moments[0])
-    for i, period in enumerate(kernel.periods):
-        T_H, T_F, angle = (float(x.mid()) for x in (period.H, period.F, period.angle))
-        angle -= 2 * np.pi * round(angle / (2 * np.pi))
-
-        def work(x: FloatArray, i: int = i, T: tuple[float, ...] = (T_H, T_F, angle)) -> FloatArray:
-            phases = np.zeros((2, x.shape[1]))
-            phases[i] = x[0]
-            _, Omega, K = kernel.on_torus(phases)
-            W, along = (Omega + K) / kernel.rate, scaled(K.T)[0]
-            M, n = J / unit * W, along / np.linalg.norm(along, axis=0)
-            return np.asarray(T[0] * (M * W).sum(1) + T[1] * (M * M).sum(1) - T[2] * (M * n.T).sum(1))
-
-        actions_of_cycles.append(_mean(work) * unit * kernel.rate / (2 * np.pi))
-    return actions_of_cycles

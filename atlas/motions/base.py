@@ -3,7 +3,6 @@
 import reprlib
 from collections.abc import Callable, Mapping
 from functools import partial
-from importlib import import_module
 from math import prod
 from numbers import Integral
 from typing import Any, Generic, Self, TypeVar
@@ -15,6 +14,7 @@ from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.given import element
 from atlas.arithmetic.grid import fill_grid
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, number, real, whole
+from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.rotation import DoubleRotation, target
 from atlas.arithmetic.rotation_rows import DoubleRotationRows, Group
 from atlas.display import Shown, made
@@ -112,7 +112,12 @@ class Motion(Shown, Generic[Single]):
     @property
     def axes(self) -> FloatArray:
         """Axes of the class as rows, in the body axes that were given; shape (..., 3, 3)."""
-        return np.eye(3) if self._placement is None else self._placement.sides[1]
+        return self._sides[1]
+
+    @property
+    def _sides(self) -> tuple[FloatArray, FloatArray]:
+        """Rotations L and C beside that of the class, R(t) = L R_class(t) C."""
+        return (np.eye(3), np.eye(3)) if self._placement is None else self._placement.sides
 
     @property
     def given(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -236,11 +241,7 @@ class Motion(Shown, Generic[Single]):
         ndarray, shape (..., 3)
             Components of Omega, in rad/time.
         """
-        raise NotImplementedError
-
-    def _spun(self, Omega: FloatArray, t: Any) -> FloatArray:
-        """Return angular velocities along the axes of the class along those of the body, that at t = 0 as given."""
-        p = self._placement
+        Omega, p = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), self._placement
         return Omega if p is None else p.started(p.vectors(Omega), p.omega, 1, t)
 
     def _in_body(self, v: FloatArray) -> FloatArray:
@@ -314,9 +315,22 @@ class Motion(Shown, Generic[Single]):
         instead of the angular velocity. An `ElementaryMotion` takes omega2 and omega3 instead, with e2 along the part
         of the field across the axis at the start.
         """
-        chosen = import_module("atlas.motions.any_body")
-        motion: Self = chosen.in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
+        from atlas.motions.start import in_laboratory
+
+        motion: Self = in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
         return motion
+
+    @classmethod
+    def _from_start(cls, start: Any, **parameters: Any) -> Any:
+        """Return the motion of this class from a `Start`, and its axes, as rows, in those of the body; None if none."""
+        raise NotImplementedError
+
+    @staticmethod
+    def _body_of(inertia: Any) -> Any:
+        """Return the `Body` that the inertia of this class stands for."""
+        from atlas.motions.start import body_of
+
+        return body_of(inertia)
 
     def third_axis(self, t: Any) -> FloatArray:
         """Third inertia axis R_3(t) in the laboratory, the third column of (84).
@@ -486,6 +500,18 @@ class Motion(Shown, Generic[Single]):
 
         return actions(self)
 
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion, what they make, and its scalars."""
+        raise NotImplementedError
+
+    def _dynamics(self) -> Any:
+        """Return moments, coupling, and the potential's linear and quadratic part, of one motion along its axes."""
+        return self._inputs_of(0).parts
+
+    def _wheels(self) -> Any:
+        """Return one motion as turns and a function of phases, see `atlas.motions.spectrum.Wheels`."""
+        raise NotImplementedError
+
     def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
         """Matplotlib animation of the body, its axis with a trace, and the field.
 
@@ -650,3 +676,16 @@ class DoubleTurn(Motion[Rotation]):
     def _fill_grid(self, single: Rotation, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
         fill_grid(single, start, step, out)
+
+    def _wheels(self) -> Any:
+        """Return one motion as two turns."""
+        from atlas.motions.spectrum import Wheels, function_of
+
+        single, (L, C), e3 = self._single(), self._sides, np.array([0.0, 0.0, 1.0])
+        n = np.array([nearest(x) for x in single.axis])
+        k, phi = (nearest(x) for x in single.frequencies)
+        turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)
+        start = np.empty(0)
+        return Wheels(
+            L @ turns[0], turns[1], turns[2] @ C, turns[3], start, lambda of, _: function_of(self, of)(0.0)[None]
+        )

@@ -14,21 +14,10 @@ from flint import fmpq
 
 from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, real
-from atlas.arithmetic.numbers import nearest, rational
+from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.words import floats
 from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
-from atlas.motions.derivatives_inputs import (
-    Inputs,
-    of_any_start,
-    of_asymmetric,
-    of_ball,
-    of_elementary,
-    of_elliptic,
-    of_free,
-    of_general,
-    of_top,
-)
 
 VECTORS = ("rotation", "angular_velocity", "field")
 """What varies with time."""
@@ -52,11 +41,6 @@ class Moved(NamedTuple):
 def of(motion: Any, t: Any, names: Any, of: str) -> FloatArray:
     """Return derivatives of a motion, or of an array of them, see `Motion.sensitivity`."""
     names = [names] if isinstance(names, str) else list(names)
-    if hasattr(motion, "winding"):
-        raise DomainError(
-            "A closed motion has p/q in the place of omega2: ask ElementaryMotion(ratio, field, omega2) for what "
-            "depends on it."
-        )
     ones = _ones(motion)
     if of not in VECTORS:
         return np.array([single.scalar(names, of) for single in ones]).reshape(*motion.shape, len(names))
@@ -90,45 +74,14 @@ class One:
     """The i-th motion of an array, its inputs, and how names move them."""
 
     def __init__(self, motion: Any, i: int) -> None:
-        self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same floor
-        family, placed = motion.family, motion.is_placed
-        self.sides = self.left, self.axes = self._sides(i)
-        row = motion._row(i)  # noqa: SLF001  of the same floor
-        if family == "general":
-            exact = self.one.exact
-            self.inputs = of_general(exact.I, exact.field, exact.omega)
-        elif placed and family in ("elementary", "free", "ball"):
-            self.inputs = self._any_start(i, row)
-        elif family == "asymmetric":
-            self.inputs = of_asymmetric(self.one)
-        elif family in ("top", "elliptic"):
-            self.inputs = of_top(row) if family == "top" else of_elliptic(self.one.exact)
-        elif family == "elementary":
-            self.inputs = of_elementary(self.one.case, [0.0 if x is None else x for x in row], row[5] is not None)
-        else:
-            self.inputs = (of_free if family == "free" else of_ball)(row)
+        self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same folder
+        shape, placed = (*motion.shape, 3, 3), motion.is_placed
+        self.sides = self.left, self.axes = [np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in motion._sides]  # noqa: SLF001
+        self.inputs = motion._inputs_of(i)  # noqa: SLF001  of the same folder
+        if self.inputs.along_body:
+            self.left, self.axes = self.left @ self.axes, np.eye(3)
         self.moved = self._moved(placed, i)
         self._known, self._varied = dict[tuple[str, ...], tuple[Any, ...]](), dict[tuple[str, ...], Any]()
-
-    def _sides(self, i: int) -> tuple[FloatArray, FloatArray]:
-        """Return L and C of the motion."""
-        placement, shape = self.motion._placement, (*self.motion.shape, 3, 3)  # noqa: SLF001
-        if placement is None:
-            return np.eye(3), np.eye(3)
-        left, right = (np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in placement.sides)
-        return left, right
-
-    def _any_start(self, i: int, row: Sequence[Any]) -> Inputs:
-        """Return the inputs of a motion in elementary functions among all of its body."""
-        shape, is_ball = (*self.motion.shape, 3), self.motion.family == "ball"
-        _, B, R, w = self.motion.given
-        start = np.broadcast_to(R, (*shape, 3)).reshape(-1, 3, 3)[i]
-        self.axes = np.eye(3) if is_ball else self.axes
-        self.left = start @ self.axes.T
-        B, w = (np.broadcast_to(x, shape).reshape(-1, 3)[i] for x in (B, w))
-        ratio = fmpq(1) if is_ball else rational(row[1]) / rational(row[0])
-        K, omega = ([rational(x) for x in v.tolist()] for v in (B @ self.left, self.axes @ w))
-        return of_any_start(self.motion.family, ratio, K, omega)
 
     def _moved(self, placed: bool, i: int) -> dict[str, Moved]:
         """Return how each name that a user may ask for moves the inputs."""
@@ -146,7 +99,7 @@ class One:
                 moves = (f"B{j + 1}", np.zeros(3), L.T @ across[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))
                 for name, turn, change in moves:
                     moved[name] = self._of_field(change, turn)
-        elif self.motion.family == "asymmetric":  # free
+        elif "I1" in own:  # Euler's top, free
             moved |= {f"a{j + 1}": Moved({}, e) for j, e in enumerate(np.eye(3))}
         if placed and "omega1" in own:
             moved |= {f"omega{j + 1}": Moved({f"omega{k + 1}": C[k, j] for k in range(3)}) for j in range(3)}
@@ -208,7 +161,7 @@ class One:
 
     def vectors(self, t: FloatArray, names: Sequence[str], of: str) -> FloatArray:
         """Return derivatives at times (m,), (m, len(names), 3)."""
-        faster, inverse = of == "angular_velocity", self.motion.family == "ball" and "larmor" in self.inputs.names
+        faster, inverse = of == "angular_velocity", "larmor" in self.inputs.names
         if not 1 / MAX_RATE < self.inputs.rate < MAX_RATE:
             raise DomainError(
                 "The rates of this motion are too large or too small for derivatives: choose other units."
@@ -223,7 +176,7 @@ class One:
             slopes = np.zeros_like(v)
         own = of != "rotation" or inverse or len(moving) < len(names)
         R = self.sides[0] @ self.one.rotation(t) @ self.sides[1] if own else np.empty(0)
-        Omega = _omega(self.one, self.motion, t) @ self.sides[1] if inverse or len(moving) < len(names) else np.empty(0)
+        Omega = self.one.angular_velocity(t) @ self.sides[1] if inverse or len(moving) < len(names) else np.empty(0)
         if inverse:  # the matrix is the transposed one
             if faster:
                 slopes = -np.matvec(R[:, None], slopes + np.cross(Omega[:, None], v))
@@ -269,11 +222,3 @@ class One:
         push = np.outer(linear + quadratic * b[:, 2], (0.0, 0.0, 1.0))
         change = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * np.cross(b, w)
         return np.asarray((change / J) @ self.axes)
-
-
-def _omega(single: Any, motion: Any, t: FloatArray) -> FloatArray:
-    """Return Omega(t) of one motion, (m, 3)."""
-    if hasattr(single, "angular_velocity"):
-        return np.asarray(single.angular_velocity(t))
-    spin = single.turned if motion.family == "ball" else single.swung
-    return np.asarray(spin(single.vector("Omega"), t, None))

@@ -8,22 +8,15 @@ phases; the trapezoidal rule has them to rounding, since its error falls as a po
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import arb, fmpq
 from numpy.typing import NDArray
 
-from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import TIME, bare
-from atlas.arithmetic.inputs import FloatArray, finite, number, real, scaled
-from atlas.arithmetic.numbers import nearest
+from atlas.arithmetic.inputs import FloatArray, number, real
 from atlas.errors import AtlasError, DomainError
-from atlas.motions.nutation.certified_cayley_klein import infinite
-from atlas.motions.nutation.single import BITS, SingleMotion
-from atlas.motions.torus.theta import ThetaKernel
 
 OF = ("rotation", "axis", "angular_velocity", "field")
 """What may be asked for."""
@@ -84,7 +77,8 @@ class Spectrum:
 class Wheels(NamedTuple):
     """A motion as R_n(p t) S R_a(s t): n in the laboratory and p, a in the body and s, and the rates of phases of S.
 
-    `at` gives S, and Omega or K without the turn about a, at phases (d, m).
+    `at` gives S, and Omega or K without the turn about a, at phases (d, m); `actions`, of two phases, gives them
+    their actions from the principal moments.
     """
 
     n: FloatArray
@@ -93,6 +87,7 @@ class Wheels(NamedTuple):
     s: float
     phases: FloatArray
     at: Callable[[str, FloatArray], FloatArray]
+    actions: Callable[[FloatArray], list[float]] | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -118,9 +113,7 @@ def spectrum(motion: Any, of: str, least: float) -> Spectrum:
     least = number(least, "least")
     if not MIN_AMPLITUDE <= least < 1:
         raise AtlasError(f"least is a part of the whole from {MIN_AMPLITUDE:g} to 1, not {least:g}.")
-    if of == "field" and not hasattr(motion, "field_in_body"):
-        raise AtlasError(f"A {type(motion).__name__} has no field in the body.")
-    wheels = wheels_of(motion)
+    wheels = motion._wheels()  # noqa: SLF001  of the same folder
     indices, S = coefficients(lambda x: wheels.at(of, x), len(wheels.phases))
     left, right, moves = _turn(wheels.n, wheels.p), _turn(wheels.a, wheels.s), of in ("rotation", "axis")
     combinations, amplitudes = [], []
@@ -197,94 +190,16 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
     raise DomainError(f"The motion has more than {LAST[d] // 2} lines of each phase: it is too near to a separatrix.")
 
 
-def wheels_of(motion: Any) -> Wheels:
-    """Return the turns of one motion. Raises DomainError where it has none."""
-    single, e3 = motion._single(0), np.array([0.0, 0.0, 1.0])  # noqa: SLF001  of the same floor
-    placement = motion._placement  # noqa: SLF001
-    L, C = placement.sides if placement else (np.eye(3), np.eye(3))
-    if motion.family == "asymmetric":
-        closed = single.closed
-        if isinstance(closed, ThetaKernel):
-            return _of_torus(single, closed, L, C)
-        if single.exact.kind in ("ball", "symmetric body"):
-            state = motion.field_in_body(0.0), motion.angular_velocity(0.0)
-            moments = [nearest(x) for x in single.exact.inertia]
-            return wheels_of(import_module("atlas.motions.any_body").motion(C.T * moments @ C, *state))
-        if closed is None:
-            raise DomainError(f"The motion has no lines in closed form: it is {single.exact.kind}, {single.agreement}")
-        return _of_nutation(motion, closed.exact, L, C)
-    if isinstance(single, SingleMotion):
-        return _of_nutation(motion, single.exact, L, C)
-    n = np.array([nearest(x) for x in single.axis])
-    k, phi = (nearest(x) for x in single.frequencies)
-    turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)
-    return Wheels(
-        L @ turns[0], turns[1], turns[2] @ C, turns[3], np.empty(0), lambda of, _: _values(motion, of)(0.0)[None]
-    )
-
-
-def _values(motion: Any, of: str) -> Any:
+def function_of(motion: Any, of: str) -> Any:
     """Return the function of time that is wanted, of which R stands for the axis."""
     names = {"angular_velocity": "angular_velocity", "field": "field_in_body"}
     return getattr(motion, names.get(of, "rotation"))
 
 
-def _of_nutation(motion: Any, exact: Any, L: FloatArray, C: FloatArray) -> Wheels:
-    """Return the turns of a motion in one nutation, or without."""
-    rates = enclosed(lambda: _rates(exact), BITS)
-    half, p, s = (float(x.mid()) for x in rates)
-    finite(2 * half, "The period")
-    n, third = (np.array([nearest(x) for x in v]) for v in (exact.field, exact.omega))
-    if not n.any():  # a free body precesses about its momentum
-        n = third * (1.0, 1.0, nearest(getattr(exact, "I", fmpq(1))))
-    n = L @ scaled(n)[0]
-    n /= np.linalg.norm(n) or 1.0
-    a = np.eye(3)[getattr(exact, "places", (0, 1, 2))[2]] @ C
-    if exact.is_steady:
-        return Wheels(n, p, a, s, np.empty(0), lambda of, _: _values(motion, of)(0.0)[None])
-    M = np.pi / half
-    t = np.linspace(0.0, 2 * half, 4)  # a passage through a pole counts half a turn less: then S would change its sign
-    first, later = motion.rotation(t), motion.rotation(t + 2 * half)
-    p, s = min(
-        ((p + k * M / 2, s + k * M / 2) for k in (0, 1)),
-        key=lambda x: float(abs(rodrigues(n, 2 * x[0] * half) @ first @ rodrigues(a, 2 * x[1] * half) - later).max()),
-    )
-
-    def at(of: str, x: FloatArray) -> FloatArray:
-        t = x[0] / M
-        values, back = _values(motion, of)(t), rodrigues(a, s * t)
-        if values.ndim == 2:
-            return np.asarray(np.matvec(back, values))
-        return np.asarray(rodrigues(n, -p * t) @ values @ np.swapaxes(back, -1, -2))
-
-    return Wheels(n, p, a, s, np.array([M]), at)
-
-
-def _rates(exact: Any) -> list[arb]:
-    """Return half the period of nutation, and the rates about the field and about the body's axis."""
-    solution = exact.solution
-    if exact.is_steady:
-        first, second = arb(solution.alpha.rate), arb(solution.beta.rate)
-        return [arb(1), first + second, first - second]
-    if infinite(solution.lattice.half):
-        raise DomainError("On a separatrix the axis comes to rest: the motion has no lines.")
-    T = exact.period
-    # of an elliptic motion the spin is that of the nutation
-    return [T / 2, exact.precession_rate, arb(0) if exact.swings_evenly else exact.spin_rate]
-
-
-def _of_torus(single: Any, kernel: ThetaKernel, L: FloatArray, C: FloatArray) -> Wheels:
-    """Return the turns of a motion on a torus."""
-    f = np.array([float(x.mid()) for x in enclosed(lambda: single.exact.frequencies, BITS)])
-    n = L @ kernel.axis
-
-    def at(of: str, x: FloatArray) -> FloatArray:
-        R, Omega, K = kernel.on_torus(x)
-        if of == "angular_velocity":
-            return Omega @ C
-        return K @ C if of == "field" else L @ R @ C
-
-    return Wheels(n, float(f[2]), np.array([0.0, 0.0, 1.0]), 0.0, f[:2], at)
+def mean(function: Callable[[FloatArray], FloatArray]) -> float:
+    """Return the mean of a function of one phase (1, m)."""
+    indices, amplitudes = coefficients(function, 1)
+    return float(amplitudes[np.flatnonzero(indices[:, 0] == 0)[0]].real)
 
 
 def rodrigues(n: FloatArray, angle: Any) -> FloatArray:

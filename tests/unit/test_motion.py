@@ -239,8 +239,18 @@ def test_every_class_takes_the_laboratory() -> None:
         along = field / np.linalg.norm(B) if made is atlas.TopMotion else field
         if hasattr(m, "field_in_body"):
             assert np.abs(np.matvec(m.rotation(0.7), m.field_in_body(0.7)) - along).max() <= 32 * EPS
-    with pytest.raises(atlas.DomainError, match=r"no ElementaryMotion starts, but one of the family general"):
+    with pytest.raises(atlas.DomainError, match=r"gives no ElementaryMotion: atlas.motion finds the class"):
         atlas.ElementaryMotion.in_laboratory(1.5, B, A, w)
+
+
+@pytest.mark.parametrize(
+    ("made", "more"),
+    [(atlas.GeneralMotion, {"angular_velocity": (0.3, 0.7, 0.2)}), (atlas.ElementaryMotion, {"omega2": 0.7})],
+)
+def test_three_different_moments_are_no_symmetric_body(made: Any, more: Any) -> None:
+    """One of the moments is not left out: the class of symmetric bodies is refused."""
+    with pytest.raises(atlas.DomainError, match=f"gives no {made.__name__}"):
+        made.in_laboratory((1.0, 2.0, 2.5), (0.1, 0.2, 0.3), np.eye(3), **more)
 
 
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-0.4, 0.3)])

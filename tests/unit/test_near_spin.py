@@ -16,7 +16,7 @@ import atlas
 from atlas.bodies.inertia import principal
 from atlas.cli.app import atlas as command
 from atlas.errors import NotCertifiedError
-from atlas.motions.any_body import body_of
+from atlas.motions.start import body_of
 from atlas.motions.torus.certified_flow import Flow
 from tests.oracles.taylor import taylor
 

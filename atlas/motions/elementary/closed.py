@@ -91,6 +91,13 @@ class ClosedMotion(ElementaryMotion):
         """
         return float(finite(self._closed.period, "The period"))
 
+    def _inputs_of(self, _: int) -> Any:
+        """Raise DomainError: the input in the place of omega2 is a whole fraction."""
+        raise DomainError(
+            "A closed motion has p/q in the place of omega2: ask ElementaryMotion(ratio, field, omega2) for what "
+            "depends on it."
+        )
+
 
 def _check(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
     """Raise DomainError where no motion, or more than one, has phi/k = r, see theorem-closed."""

@@ -1,6 +1,7 @@
 """Motions of a symmetric body in elementary functions, (58) to (88), and the free body beside them, (87)."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from math import prod
 from typing import Any
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.dimensions import RATE, TIME
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.given import broadcast, low_word, part
+from atlas.arithmetic.given import broadcast, exact_number, low_word, part
 from atlas.arithmetic.inputs import (
     FloatArray,
     as_given,
@@ -34,6 +35,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
 from atlas.motions.base import DoubleTurn
 from atlas.motions.elementary.formula import conserved, constants, free, quotient, scalars, turning
+from atlas.motions.start import Start, across, exactly
 
 
 class Elementary(DoubleRotation):
@@ -227,6 +229,39 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             for index in [np.flatnonzero(codes == code)]
         ]
 
+    @classmethod
+    def _from_start(  # type: ignore[override]
+        cls, start: Start, omega2: Any = None, omega3: Any = None
+    ) -> tuple[Any, FloatArray] | None:
+        """Return the motion and axes in which omega1 = B1 = 0, with `omega2` and `omega3` if they are given."""
+        from atlas.motions.nutation.kernel_general import standing
+
+        if not start.is_symmetric:
+            return None
+        body, axes, K, w = start.symmetric
+        if omega2 is not None:
+            K1, K2, K3 = exactly(*K)
+            size, turn = across(K1, K2)
+            return cls(body, (exact_number(size), exact_number(K3)), omega2, omega3), turn @ axes
+        if start.shape or not start.has_field:
+            return None
+        K1, K2, K3, w1, w2, w3 = exactly(*K, *w)
+        if w1 * K2 != w2 * K1 or not standing(*moments(body), K1, K2, K3, w1, w2, w3).exact.is_steady:
+            return None
+        size, turn = across(K1, K2)
+        square = K1 * K1 + K2 * K2
+        along = exact_number((w1 * K1 + w2 * K2) / square * size if square != 0 else w2)
+        for third in (None, exact_number(w3)):
+            with suppress(DomainError):
+                return ElementaryMotion(body, (exact_number(size), exact_number(K3)), along, third), turn @ axes
+        return None
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.elementary.derivatives import of_elementary
+
+        return of_elementary(self, i)
+
     def _groups(self) -> list[Group]:
         return [(partial(turning, case), index, inputs) for case, index, inputs in self._cases()]
 
@@ -252,8 +287,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         AtlasError
             For a time that is not finite or whose phases exceed 2^50.
         """
-        Omega = self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
-        return self._spun(Omega, t)
+        return super().angular_velocity(t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, eqs. (32), (60), (62).
@@ -459,8 +493,7 @@ class FreeMotion(DoubleTurn[Free]):
         AtlasError
             For a time that is not finite or whose phases exceed 2^50.
         """
-        Omega = self._evaluate(lambda single, t, out: single.swung(single.vector("Omega"), t, out), t, (3,))
-        return self._spun(Omega, t)
+        return super().angular_velocity(t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = 0 in the body: a free body has no field.
@@ -481,6 +514,20 @@ class FreeMotion(DoubleTurn[Free]):
             For a time that is not finite.
         """
         return np.zeros((*common_shape(self.shape, real(t, "The time", TIME).shape), 3))
+
+    @classmethod
+    def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
+        """Return the motion of a symmetric body without a field, and its principal axes."""
+        if start.has_field or not start.is_symmetric:
+            return None
+        body, axes, _, w = start.symmetric
+        return cls(body, tuple(broadcast(x, start.shape) if start.shape else x for x in w)), axes
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.elementary.derivatives import of_free
+
+        return of_free(self, i)
 
     def _groups(self) -> list[Group]:
         return [(free, slice(None), self._inputs)]

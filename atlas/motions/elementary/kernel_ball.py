@@ -6,14 +6,27 @@ import numpy as np
 
 from atlas.arithmetic.dimensions import INERTIA, MOMENTUM, RATE
 from atlas.arithmetic.double_double import over
+from atlas.arithmetic.given import exact_number
 from atlas.arithmetic.inputs import FloatArray, as_given, components, kept, numbers, plain
-from atlas.arithmetic.numbers import alone, direction, workprec
+from atlas.arithmetic.numbers import (
+    alone,
+    as_rational,
+    cross,
+    direction,
+    dot,
+    length,
+    nearest,
+    rational,
+    unit,
+    workprec,
+)
 from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.rotation_rows import Group
 from atlas.arithmetic.words import ONE, ZERO, exact
 from atlas.bodies.formula_domain import check_ball
 from atlas.motions.base import DoubleTurn
 from atlas.motions.elementary.formula_ball import rates, turning
+from atlas.motions.start import Start, exactly
 
 
 class Ball(DoubleRotation):
@@ -135,9 +148,7 @@ class BallMotion(DoubleTurn[Ball]):
         AtlasError
             For a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spun(
-            self._evaluate(lambda single, t, out: single.turned(single.vector("Omega"), t, out), t, (3,)), t
-        )
+        return super().angular_velocity(t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body with B' = (0, 0, alpha), eq. (32).
@@ -160,6 +171,31 @@ class BallMotion(DoubleTurn[Ball]):
         if self._placement is not None:
             return np.asarray(np.vecmat(self._placement.field, self.rotation(t)))
         return np.asarray(np.asarray(self.larmor)[..., None] * self.rotation(t)[..., 2, :])
+
+    @classmethod
+    def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
+        """Return the motion, and axes with the third along the field and m(0) across the first."""
+        I = start.body.moments
+        if start.shape or not start.has_field or not I[0] == I[1] == I[2]:
+            return None
+        _, axes, field, omega = start.symmetric
+        K, w = exactly(*field), exactly(*omega)
+        square, along, size = dot(K, K), dot(w, K), rational(float(I[2]))
+        aside = [square * x - along * y for x, y in zip(w, K, strict=True)]
+        with workprec():
+            b, side = as_rational(length(*K)), as_rational(length(*aside))
+            if side == 0:
+                e = exact(*np.eye(3)[np.argmin([abs(nearest(x / b)) for x in K])])
+                aside = [square * x - dot(e, K) * y for x, y in zip(e, K, strict=True)]
+            turn = np.array([[nearest(x) for x in unit(row)] for row in (cross(aside, K), aside, K)])
+        larmor, m2, m3 = (exact_number(x) for x in (b, size * side / square, size * along / square * b))
+        return cls(float(I[2]), larmor, (m2, m3)), turn @ axes
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.elementary.derivatives import of_ball
+
+        return of_ball(self, i)
 
     def _groups(self) -> list[Group]:
         return [(turning, slice(None), self._inputs)]

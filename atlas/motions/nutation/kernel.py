@@ -16,6 +16,7 @@ from atlas.motions.nutation.rows import MotionsAtTimes, Rows
 from atlas.motions.nutation.rows_blocks import Blocks
 from atlas.motions.nutation.rows_scalars import Scalars
 from atlas.motions.nutation.single import BITS, SingleMotion
+from atlas.motions.spectrum import Wheels
 
 NAME = "U28"
 """Names of kinds, none of which is longer."""
@@ -145,8 +146,7 @@ class NutatingMotion(Motion[Nutation]):
         AtlasError
             For a time that is not finite or whose phases exceed 2^50.
         """
-        Omega = self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,))
-        return self._spun(np.asarray(finite(Omega, "Omega")), t)
+        return np.asarray(finite(super().angular_velocity(t), "Omega"))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, eq. (32).
@@ -182,6 +182,12 @@ class NutatingMotion(Motion[Nutation]):
         for i in np.flatnonzero(~certain).tolist():
             rows[i] = value(self._single(i).exact)
         return rows.reshape(self.shape + rows.shape[1:])
+
+    def _wheels(self) -> Wheels:
+        """Return the turns of one motion."""
+        from atlas.motions.nutation.spectrum import of_nutation
+
+        return of_nutation(self, self._single().exact)
 
     def _fill_grid(self, single: Nutation, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""

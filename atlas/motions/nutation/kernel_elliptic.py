@@ -16,6 +16,7 @@ from atlas.motions.nutation.rows_elliptic import EllipticAtTimes, EllipticBlocks
 from atlas.motions.nutation.rows_scalars import IN_ARRAYS
 from atlas.motions.nutation.single import BITS
 from atlas.motions.nutation.single_elliptic import SingleElliptic
+from atlas.motions.start import Start, parts
 
 CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
 """What a motion conserves, in this order."""
@@ -189,6 +190,18 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         omega = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
         finite(omega, "omega")
         return (omega[..., 0], omega[..., 1], omega[..., 2]) if self.shape else tuple(omega)
+
+    @classmethod
+    def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
+        """Return the motion, and its principal axes."""
+        axes = start.body.axes
+        return cls(parts(start.body.moments), tuple(start.along(axes)[0]), **parameters), axes
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.nutation.derivatives_inputs import of_elliptic
+
+        return of_elliptic(self._single(i).exact)
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory.

@@ -17,6 +17,7 @@ from atlas.motions.nutation.constants import FIRST_BITS
 from atlas.motions.nutation.kernel import SymmetricMotion
 from atlas.motions.nutation.rows_scalars import IN_ARRAYS, KINDS
 from atlas.motions.nutation.single import SingleGeneral
+from atlas.motions.start import Start
 
 CONSTANTS = (*NAMES[:4], "(M,B')")
 """What a motion conserves, in this order."""
@@ -86,6 +87,21 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         self.arguments = {
             "ratio": self.ratio, "field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega)),
         }  # fmt: skip
+
+    @classmethod
+    def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
+        """Return the motion of a symmetric body, and its principal axes."""
+        if not start.is_symmetric:
+            return None
+        body, axes, K, w = start.symmetric
+        return cls(body, tuple(K), tuple(w)), axes
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.nutation.derivatives_inputs import of_general
+
+        exact = self._single(i).exact
+        return of_general(exact.I, exact.field, exact.omega)
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory, as in (88).

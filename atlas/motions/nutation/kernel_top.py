@@ -5,11 +5,11 @@ from typing import Any, Self
 import numpy as np
 
 from atlas.arithmetic.certified_digits import enclosed
-from atlas.arithmetic.dimensions import LENGTH, MASS, RATE, SI_FIELDS
-from atlas.arithmetic.double_double import over
+from atlas.arithmetic.dimensions import INERTIA, LENGTH, MASS, RATE, SI_FIELDS
+from atlas.arithmetic.double_double import given, over
 from atlas.arithmetic.given import exact_number
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, number, plain, positive
-from atlas.arithmetic.numbers import as_rational, length, nearest, rational, workprec
+from atlas.arithmetic.numbers import Number, as_rational, length, nearest, rational, select, workprec
 from atlas.bodies.body import SymmetricBody
 from atlas.bodies.charge import ChargeMoments
 from atlas.bodies.laboratory import anisotropy
@@ -24,6 +24,7 @@ from atlas.motions.nutation.rows import TopsAtTimes
 from atlas.motions.nutation.rows_blocks import TopBlocks
 from atlas.motions.nutation.rows_scalars import IN_ARRAYS, TOP_KINDS
 from atlas.motions.nutation.single import BITS, SingleTop
+from atlas.motions.start import Body, Start, of_moments
 from atlas.surfaces.formula_top import constants, of_given
 from atlas.surfaces.kernel import TopQuadric
 
@@ -39,6 +40,15 @@ def _constants(*row: float) -> list[float]:
     with workprec():
         h, M3, p = map(nearest, balls(*row[:6], *row[8:], *row[6:8]).invariants)
     return [2 * h, M3, p]
+
+
+def _in_plane(*numbers: Number) -> tuple[Number, ...]:
+    """Return n2, n3, omega, and cosine and sine, after the turn about e3 that makes n1 zero."""
+    n1, n2, n3, w1, w2, w3, one = numbers
+    size = length(n1, n2)
+    unit = select(size, size, one)
+    c, s = select(size, n2 / unit, one), n1 / unit
+    return size, n3, c * w1 - s * w2, s * w1 + c * w2, w3, c, s
 
 
 class TopMotion(SymmetricMotion[SingleTop]):
@@ -307,6 +317,31 @@ class TopMotion(SymmetricMotion[SingleTop]):
     def quadric(self) -> TopQuadric:
         """Quadric of starts with nu'' = 0 of this top for any omega, theorem-top-quadric: a `TopQuadric`."""
         return TopQuadric(self.inertia, self.coupling, self.direction, self.linear, self.quadratic)
+
+    @staticmethod
+    def _body_of(inertia: Any) -> Body:
+        """Return the body of a top with the moments (I2, I3)."""
+        I2, I3 = components(inertia, ("I2", "I3"), "The inertia", INERTIA)
+        return of_moments((I2, I2, I3), np.eye(3))
+
+    @classmethod
+    def _from_start(cls, start: Start, **parameters: Any) -> tuple[Any, FloatArray]:
+        """Return the top, and axes in which its direction is in the plane of e2 and e3."""
+        n, w = start.along(np.eye(3))
+        axes: FloatArray = np.eye(3)
+        if np.any(n[0]):
+            n2, n3, w1, w2, w3, c, s = given(_in_plane, *n, *w, 1.0, unit=slice(3, 6), count=7)
+            n, w = [0.0, n2, n3], [w1, w2, w3]
+            zero, one, c, s = np.broadcast_arrays(0.0, 1.0, np.asarray(c), np.asarray(s))
+            axes = np.moveaxis(np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]), (0, 1), (-2, -1))
+        I = start.body.moments
+        return cls((plain(I[..., 1]), plain(I[..., 2])), direction=n[1:], omega=w, **parameters), axes
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.nutation.derivatives_inputs import of_top
+
+        return of_top(self._row(i))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Unit vector b(t) = R^T n/|n| in the body.

@@ -17,6 +17,8 @@ from atlas.motions.base import Motion
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.kernel import scalar
 from atlas.motions.nutation.single_elliptic import MAX_ERROR, SingleElliptic, SingleEulerTop
+from atlas.motions.spectrum import Wheels
+from atlas.motions.start import Start, parts
 from atlas.motions.torus.certified import AsymmetricMotion as Balls
 from atlas.motions.torus.rounded import Certified
 from atlas.motions.torus.theta import MAX_ROUNDING, ThetaKernel, closed_form
@@ -32,6 +34,9 @@ CHECK_TIMES = (5.3, -61.7, 2.9e5, -8.1e11)
 
 MAX_DIFFERENCE = 1e-14
 """Largest difference from it."""
+
+BESIDE = ("ball", "symmetric body")
+"""Kinds that `BallMotion` and `GeneralMotion` answer."""
 
 
 class SingleAsymmetric:
@@ -378,6 +383,41 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
+    @classmethod
+    def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]
+        """Return the motion of a body with three different moments, and its principal axes."""
+        axes = start.body.axes
+        return None if start.is_symmetric else (cls(parts(start.body.moments), *start.along(axes)), axes)
+
+    def _inputs_of(self, i: int) -> Any:
+        """Return the exact inputs of the i-th motion."""
+        from atlas.motions.torus.derivatives_inputs import of_asymmetric
+
+        return of_asymmetric(self._single(i))
+
+    def _dynamics(self) -> Any:
+        """Return principal moments, coupling and potential of one motion."""
+        J = np.array(self.inertia)
+        return J, J, 0.0, 0.0
+
+    def _wheels(self) -> Wheels:
+        """Return the turns of one motion. Raises DomainError where there are none."""
+        from atlas.motions.elementary.kernel_ball import BallMotion
+        from atlas.motions.nutation.kernel_general import GeneralMotion
+        from atlas.motions.nutation.spectrum import of_nutation
+        from atlas.motions.torus.spectrum import of_torus
+
+        single = self._single()
+        if isinstance(single.closed, ThetaKernel):
+            return of_torus(single.exact, single.closed, *self._sides)
+        if single.exact.kind in BESIDE:
+            family: Any = BallMotion if single.exact.kind == BESIDE[0] else GeneralMotion
+            wheels: Wheels = family.in_laboratory(self.inertia, self.field, np.eye(3), self.omega)._wheels()  # noqa: SLF001
+            return wheels
+        if single.closed is None:
+            raise DomainError(f"The motion has no lines in closed form: it is {single.exact.kind}, {single.agreement}")
+        return of_nutation(self, single.closed.exact)
+
     @property
     def curve(self) -> Any:
         """Spectral curve of one motion on a torus, with certified branch points, periods, frequencies and actions.
@@ -439,7 +479,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         NotCertifiedError
             Where no proof is found.
         """
-        return self._spun(self._evaluate(lambda single, t, out: single.angular_velocity(t, out), t, (3,)), t)
+        return super().angular_velocity(t)
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, eq. (32).

@@ -1,0 +1,210 @@
+"""The start of a motion: body, field, angular velocity and attitude, as they were given."""
+
+import reprlib
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+from flint import fmpq
+
+from atlas.arithmetic.dimensions import INERTIA, RATE
+from atlas.arithmetic.given import Given, element
+from atlas.arithmetic.inputs import FloatArray, common_shape, components, frozen, plain, real, vectors
+from atlas.arithmetic.numbers import as_rational, length, nearest, workprec
+from atlas.arithmetic.words import exact
+from atlas.bodies.body import SymmetricBody, moments
+from atlas.bodies.inertia import inertia_tensor, principal
+from atlas.errors import AtlasError, DomainError
+from atlas.lazy import cached_property
+from atlas.motions.frames import Placement, turned_by
+
+ORTHOGONAL = 1e-9
+"""An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
+
+
+class Body(NamedTuple):
+    """Principal moments (..., 3), axes as rows (..., 3, 3) in the given ones, and the inertia tensor (..., 3, 3)."""
+
+    moments: FloatArray
+    axes: FloatArray
+    tensor: FloatArray
+
+
+class Start:
+    """Body, field in the laboratory, angular velocity, by components, and attitude (..., 3, 3), as they were given.
+
+    The angular velocity is along the axes of the body, or where `outside` along those of the laboratory.
+    """
+
+    def __init__(self, body: Body, B: list[Any], w: list[Any], R: FloatArray, *, outside: bool = False) -> None:
+        self.body, self.B, self.w, self.R, self.outside = body, B, w, R, outside
+        self.shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
+
+    def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
+        """Return the components of field and angular velocity along axes of the body, its rows, without rounding."""
+        back = np.swapaxes(self.R, -1, -2)
+        return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
+
+    @property
+    def omega(self) -> FloatArray:
+        """Angular velocity along the axes of the body, (..., 3)."""
+        w = joined_columns(self.w)
+        return np.asarray(np.vecmat(w, self.R)) if self.outside else w
+
+    @cached_property
+    def is_symmetric(self) -> bool:
+        """Whether two moments are equal. Raises DomainError where they are for some bodies of an array."""
+        I = self.body.moments
+        symmetric = np.logical_or.reduce([I[..., i] == I[..., j] for i, j in ((0, 1), (1, 2), (0, 2))])
+        if symmetric.any() and not symmetric.all():
+            raise DomainError("Some of these bodies are symmetric and some are not: make one array of each.")
+        return bool(symmetric.any())
+
+    @cached_property
+    def symmetric(self) -> tuple[Any, FloatArray, list[Any], list[Any]]:
+        """Body with two equal moments, or its ratio; axes with that of symmetry last; field and velocity along them."""
+        I = self.body.moments
+        third = np.where(I[..., 0] == I[..., 1], 2, np.where(I[..., 1] == I[..., 2], 0, 1))
+        order = (third[..., None] + np.array([1, 2, 3])) % 3
+        axes = np.take_along_axis(np.broadcast_to(self.body.axes, (*I.shape, 3)), order[..., None], axis=-2)
+        I2, I3 = (plain(np.take_along_axis(I, order[..., i : i + 1], axis=-1)[..., 0]) for i in (0, 2))
+        return I3 if np.all(I2 == 1) else SymmetricBody(I2, I3), axes, *self.along(axes)
+
+    @property
+    def has_field(self) -> bool:
+        """Whether there is a field."""
+        return any(np.any(x) for x in self.B)
+
+    def place(
+        self, own: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
+    ) -> Any:
+        """Return a motion along axes of its class, rows in those of the body, in the axes that were given."""
+        left = self.R @ np.swapaxes(axes, -1, -2)
+        before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (left, axes))
+        B, R, omega = frozen((joined_columns(self.B), self.R, self.omega))
+        placement = Placement(before, after, frozen(self.body.tensor), B, R, omega, make, dict(own.arguments))
+        kept = {name: _copied(value) for name, value in arguments.items()}
+        return own._place(placement, kept, made_by)  # noqa: SLF001  nobody else has the motion yet
+
+
+def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
+    """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
+    R, B = attitude_of(attitude), columns(field, "The field", "B")
+    w = [0.0, 0.0, 0.0] if omega is None else columns(omega, "The angular velocity", "omega")
+    start = Start(family._body_of(body), B, w, R, outside=True)  # noqa: SLF001  of the same folder
+    found = family._from_start(start, **parameters)  # noqa: SLF001
+    if found is None:
+        raise DomainError(f"This start gives no {family.__name__}: atlas.motion finds the class that fits.")
+    own, axes = found
+    if omega is None:
+        start.w, start.outside = list(parts(np.asarray(own.angular_velocity(0.0)) @ axes)), False
+    arguments = {
+        "body": body, "field": argument(field, B), "attitude": attitude,
+        "angular_velocity": None if omega is None else argument(omega, w), **parameters,
+    }  # fmt: skip
+    return start.place(own, axes, family.in_laboratory, arguments, f"{family.__name__}.in_laboratory")
+
+
+def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
+    """Return the component of a vector along e2 after the turn about e3 that makes K1 zero, and that turn."""
+    if K1 == 0:
+        return K2, np.eye(3)
+    with workprec():
+        size = as_rational(length(K1, K2))
+        c, s = (nearest(x / size) for x in (K2, K1))
+    return size, np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+
+def _copied(value: Any) -> Any:
+    """Return what was given with arrays of its own, so that it stays when those of the user change."""
+    if isinstance(value, tuple | list):
+        return type(value)(map(_copied, value))
+    return frozen(value.copy()) if isinstance(value, np.ndarray) else value
+
+
+def body_of(inertia: Any) -> Body:
+    """Return what a body is by its ratio, its moments or its tensor. Raises DomainError for what no body has."""
+    if isinstance(inertia, SymmetricBody):
+        I2, I3 = moments(inertia)
+        return of_moments((I2, I2, I3), inertia.axes)
+    if isinstance(inertia, tuple) and len(inertia) == 3 and not any(isinstance(x, tuple | list) for x in inertia):
+        return of_moments(components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
+    is_ratio = not getattr(inertia, "ndim", isinstance(inertia, tuple | list))
+    inertia_matrix = real(inertia, "The inertia", "" if is_ratio else INERTIA)
+    if inertia_matrix.shape == (3,):
+        return of_moments(inertia_matrix, np.eye(3))
+    if inertia_matrix.shape[-2:] != (3, 3):
+        if isinstance(inertia, tuple | list):
+            raise AtlasError(
+                f"The inertia is a ratio I3/I2, three moments (I1, I2, I3), a tensor (3, 3) or a SymmetricBody, not "
+                f"{reprlib.repr(inertia)}."
+            )
+        I2, I3 = moments(inertia_matrix)
+        return of_moments((I2, I2, I3), np.eye(3))
+    for tensor in inertia_matrix.reshape(-1, 3, 3):
+        inertia_tensor(tensor)
+    found = [principal(tensor) for tensor in inertia_matrix.reshape(-1, 3, 3)]
+    I, axes = (np.reshape(x, inertia_matrix.shape[:-2] + np.shape(x[0])) for x in zip(*found, strict=True))
+    first, second, largest = np.moveaxis(np.sort(I), -1, 0)
+    # the rounding of a tensor's elements may put a plane body beyond all bodies
+    np.put_along_axis(I, I.argmax(axis=-1)[..., None], np.minimum(largest, first + second)[..., None], axis=-1)
+    return Body(I, axes, inertia_matrix)
+
+
+def of_moments(moments: Any, axes: FloatArray) -> Body:
+    """Return the body of principal moments along axes. Raises DomainError for what no body has."""
+    rows = _stacked([real(x, "A moment of inertia") for x in moments])
+    for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
+        inertia_tensor(row)
+    tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
+    return Body(rows, axes, tensor)
+
+
+def parts(v: FloatArray) -> tuple[Any, Any, Any]:
+    """Return the components of vectors (..., 3), numbers or arrays."""
+    return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
+
+
+def columns(value: Any, name: str, letter: str) -> list[Any]:
+    """Return the components of vectors: of a `Field`, of a tuple of numbers or arrays, or of an array (..., 3)."""
+    listed = isinstance(value, list) and any(isinstance(x, Fraction) for x in value)
+    if isinstance(value, tuple) or listed or hasattr(value, "exact"):
+        names = [f"{letter}{i}" for i in (1, 2, 3)]
+        return [x if isinstance(x, Given) else plain(x) for x in components(value, names, name, RATE)]
+    return list(parts(vectors(value, name, RATE)))
+
+
+def joined_columns(v: list[Any]) -> FloatArray:
+    """Return vectors (..., 3) by their components, rounded."""
+    return np.stack(np.broadcast_arrays(*map(np.asarray, v)), -1)
+
+
+def argument(value: Any, parts: list[Any]) -> Any:
+    """Return what is kept of vectors: an array of them, or where no floats hold the components what was given."""
+    return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
+
+
+def exactly(*numbers: Any) -> tuple[fmpq, ...]:
+    """Return the numbers of one motion as rational ones."""
+    return exact(*(element(x, ()) for x in numbers))
+
+
+def _stacked(parts: list[FloatArray]) -> FloatArray:
+    """Return components, which broadcast, as the last axis of an array."""
+    shape = common_shape(*(x.shape for x in parts))
+    return np.stack([np.broadcast_to(x, shape) for x in parts], -1)
+
+
+def attitude_of(attitude: Any) -> FloatArray:
+    """Return rotation matrices (..., 3, 3), orthogonal to rounding. Raises DomainError for what is no rotation."""
+    if attitude is None:
+        return np.eye(3)
+    R = real(attitude.as_matrix() if hasattr(attitude, "as_matrix") else attitude, "The attitude")
+    if R.shape[-2:] != (3, 3):
+        raise AtlasError(f"The attitude must be a rotation matrix (3, 3), not of shape {R.shape}.")
+    off = abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(initial=0.0)
+    if off > ORTHOGONAL or (np.linalg.det(R) < 0).any():
+        raise DomainError("The attitude must be a rotation matrix: R^T R = 1 to 1e-9, and det R = 1.")
+    # Newton's step to the nearest orthogonal matrix: what is one already stays
+    return np.asarray(R if off == 0 else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)
