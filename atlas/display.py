@@ -61,21 +61,54 @@ class Shown:
         target: str | None = None,
         **parameters: Any,
     ) -> Any:
-        """Draw it as a `matplotlib.figure.Figure`, by the recipe `figure` of those that take it, or the first of them.
+        """Matplotlib figure of the object, by a recipe in figures/.
 
-        `parameters` are those of the recipe that the object does not settle, as turns or azimuth; `style` and `target`
-        are as for `atlas.figure`; `panel`, counted from 1, asks for one panel alone. With Matplotlib axes `ax` it is
-        drawn into them, the first panel if no other is asked for, and their figure is returned. Raises AtlasError where
-        there is no such picture of it.
+        Parameters
+        ----------
+        figure : str, optional
+            Name of the recipe; by default the first that takes the object.
+        panel : int, optional
+            Number of a single panel, counted from 1.
+        ax : matplotlib.axes.Axes, optional
+            Axes that the panel is drawn into, by default the first panel.
+        style : str or dict or list, optional
+            Matplotlib style, as for `atlas.figure`.
+        target : str, optional
+            Publication target, as for `atlas.figure`.
+        **parameters
+            Parameters of the recipe that the object leaves free, such as azimuth.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure; with `ax` the figure of these axes.
+
+        Raises
+        ------
+        AtlasError
+            If no such picture of the object exists.
         """
         return notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
 
     def to_dataframe(self, times: Any = None, *, quantities: Sequence[str] | None = None) -> Any:
-        """Return a `pandas.DataFrame`: a row an object, with its parameters and quantities; or, of one, a row a time.
+        """Table of the object as a `pandas.DataFrame`: one row per object, or one row per time.
 
-        `times` (N,) ask for rotation matrix, angular velocity and what else the family has at a time; `quantities` are
-        those of the family, all numbers without them. Units are in ``frame.attrs["units"]``. Raises AtlasError where
-        pandas is missing, and for what is unknown.
+        Parameters
+        ----------
+        times : array_like, shape (N,), optional
+            Times of one object; the columns are then rotation matrix, angular velocity and other functions of time.
+        quantities : sequence of str, optional
+            Names of quantities of the family; by default all numbers.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Parameters and quantities by column; units are in ``frame.attrs["units"]``.
+
+        Raises
+        ------
+        AtlasError
+            Without pandas, and for an unknown quantity.
         """
         return notebook("frames").frame(self, times, quantities)
 

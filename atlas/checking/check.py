@@ -155,40 +155,50 @@ def check(
     threshold: float = 6.0,
     **plural: Any,
 ) -> Check | Convergence:
-    """Grade a trajectory that was computed elsewhere against a motion: what `atlas check` prints, and its numbers.
+    """Errors and correct digits of a trajectory computed elsewhere, against a certified motion.
 
     Parameters
     ----------
     t : array_like, shape (N,), or list of such arrays
-        Times. A list of arrays holds runs of one integrator with several steps.
+        Times. A list holds runs of one integrator with several steps; the data are then lists too.
     rotation : array_like, shape (N, 3, 3)
-        Matrices R(t) that take the body to the laboratory; of several runs a list of arrays, as of the next two. At
-        least one of the three is needed. The names are those of `atlas.fit`; the plurals `rotations`, `quaternions`
-        and `angular_velocities` are taken as well.
-    quaternion : array_like, shape (N, 4)
-        Unit quaternions of either sign, scalar last as `scipy.spatial.transform.Rotation.as_quat` gives them.
-    angular_velocity : array_like, shape (N, 3)
-        Omega along the axes of the body.
+        Matrices R(t) from the body to the laboratory. At least one of rotation, quaternion and angular velocity is
+        needed.
     motion : ElementaryMotion, FreeMotion, GeneralMotion, TopMotion or AsymmetricMotion
-        One motion, or one of `atlas.motion` in any axes and from any attitude; errors of the latter below
-        4e-14 + 9e-16 f t, f the largest rate, are its own rounding and count as that.
+        One reference motion, also from `atlas.motion`.
+    quaternion : array_like, shape (N, 4)
+        Unit quaternions of either sign, scalar last as in `scipy.spatial.transform.Rotation.as_quat`.
+    angular_velocity : array_like, shape (N, 3)
+        Omega along the axes of the body, in rad/time.
     scalar_first : bool
-        Whether the scalar is the first component of a quaternion.
+        True if the scalar is the first component of a quaternion.
     step : float or list of float, optional
-        Steps of the integrator; without them the mean distances of the times.
+        Steps of the integrator; by default the mean differences of the times.
     threshold : float
-        Correct digits below which a column fails, from the first such row on.
+        Number of correct digits below which a column fails, from the first such row on.
+    **plural
+        `rotations`, `quaternions`, `angular_velocities`: other names of the data.
 
     Returns
     -------
     Check or Convergence
-        Errors and digits by column; of several runs the order of convergence. Both have `str`, `record()` for JSON and
-        `scene()` for a figure.
+        Errors and digits by column; for several runs the order of convergence. Both have `str`, `record()` for JSON
+        and `scene()` for a figure.
 
     Raises
     ------
     AtlasError
         For arrays of another shape, for an entry that is no number, and for a motion of another class.
+
+    Notes
+    -----
+    For a motion of `atlas.motion`, errors below 4e-14 + 9e-16 f t, with the largest rate f, count as rounding.
+
+    Examples
+    --------
+    >>> motion, t = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7), [0.0, 1.0]
+    >>> atlas.check(t, motion.rotation(t), motion=motion).rows
+    2
     """
     columns = {"rotation": rotation, "quaternion": quaternion, "angular_velocity": angular_velocity}
     for name, values in plural.items():

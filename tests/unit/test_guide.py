@@ -1,6 +1,7 @@
 """The guide: what stands in it can be typed, and gives what stands below it."""
 
 import doctest
+import inspect
 import re
 import shlex
 from importlib import import_module
@@ -137,3 +138,20 @@ def test_sections_of_a_docstring_become_tables() -> None:
     assert "<strong>Notes</strong>" in piece
     assert "<p>As in (71).</p>" in piece
     assert "<pre><code>&gt;&gt;&gt; 1 + 1\n2</code></pre>" in piece
+
+
+def test_parameters_of_docstrings_are_those_of_signatures() -> None:
+    """Each public class, function and method lists its parameters in their order, and results where it has some."""
+    missing = list[str]()
+    for name, one in described().items():
+        members = {f"{name}.{inner}": member for inner, member in one.members.items()}
+        for where, thing in {name: one, **members}.items():
+            call = "" if thing.arguments in {"", "()"} else f"lambda {thing.arguments[1:-1].replace('...', 'None')}: 0"
+            section = re.search(r"^Parameters\n-{10}\n((?:(?!.*\n-{3}).*\n?)*)", thing.docstring, re.MULTILINE)
+            entries = re.findall(r"^(\S.*?)(?: : .*)?$", section[1] if section else "", re.MULTILINE)
+            listed = [x.lstrip("*") for entry in entries for x in entry.split(", ")]
+            if call and listed != [*inspect.signature(eval(call)).parameters]:  # noqa: S307  our own signature
+                missing.append(f"{where}{thing.arguments}: {listed}")
+            if call and where.count(".") and "\nReturns\n-------\n" not in thing.docstring:
+                missing.append(f"{where}: no result")
+    assert not missing, "\n".join(missing)
