@@ -598,16 +598,20 @@ def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:
 
 def _quaternion(motion: Any, t: Any, R: Any, near: Any) -> Any:
     """Return the quaternion of a motion in balls, near to doubles; not certified where the matrix R is not."""
+    from flint import fmpq
+
     from atlas.arithmetic.certified_digits import NOT_CERTIFIED
     from atlas.motions.nutation.certified_cayley_klein import quaternion
 
     if near is None or isinstance(R[0][0], str):
         return [NOT_CERTIFIED] * 4
+    q = quaternion(R, near)
     if not hasattr(motion, "quaternion"):
-        return quaternion(R, near)
-    w, *vector = motion.quaternion(t)  # what is zero at all times is exactly zero
-    q, i = [*vector, w], max(range(4), key=lambda i: abs(near[i]))
-    return q if (q[i] > 0) == (near[i] > 0) else [-x for x in q]
+        return q
+    w, *vector = motion.quaternion(t)  # what is zero at all times is exactly zero in one of both
+    own, i = [*vector, w], max(range(4), key=lambda i: abs(near[i]))
+    own = own if (own[i] > 0) == (near[i] > 0) else [-x for x in own]
+    return [x if isinstance(x, fmpq) or x.rad() < y.rad() else y for x, y in zip(own, q, strict=True)]
 
 
 def _quantities(

@@ -256,7 +256,11 @@ class Motion(Shown, Generic[Single]):
         """Return R II Omega in the laboratory; `factors` gives II Omega along the axes of the class."""
         Omega, p = self.angular_velocity(t), self._placement
         momentum = factors(Omega) if p is None else np.matvec(p.tensor, Omega)
-        return np.asarray(finite(np.matvec(self.rotation(t), momentum), name))
+        m = np.asarray(finite(np.matvec(self.rotation(t), momentum), name))
+        free = ~np.any(np.broadcast_arrays(*getattr(self, "field", (1.0,))), axis=0)
+        if free.any() and np.any(t):  # it stays as it was, to the last digit
+            np.copyto(m, self._momentum_of(factors, 0.0, name), where=free[..., None])
+        return m
 
     def angular_velocity_in_laboratory(self, t: Any) -> FloatArray:
         """Angular velocity R(t) Omega(t) in the laboratory.

@@ -109,3 +109,25 @@ def test_a_zero_of_a_quaternion_is_proved() -> None:
         q = atlas.BallMotion(1.0, 0.0, (0.3, -0.7)).quaternion(row["t"])
         assert row["q"][0] == "0"
         assert np.allclose([float(x) for x in row["q"]], q, rtol=0, atol=2e-12)
+
+
+def test_the_momentum_of_a_free_body_stays_to_the_last_digit() -> None:
+    """Its zeros are proved, and zero in doubles: in arrays the bodies in a field beside it move."""
+    words = "motion --ratio 1.5 --field 0 0 --omega 0 0.3 1.2 --times 1 7.3 --digits 12 --json".split()
+    assert [x["m"][0] for x in json.loads(CliRunner().invoke(command, words).output)["samples"]] == ["0", "0"]
+    for m in (
+        atlas.GeneralMotion(1.5, (0, 0), (0, 0.3, 1.2)),
+        atlas.AsymmetricMotion((1, 1.1, 1.5), (0, 0, 0), (0, 0.3, 1.2)),
+    ):
+        assert np.array_equal(m.angular_momentum([0.0, 1.0, 7.3]), [m.angular_momentum(0.0)] * 3)
+    two = atlas.GeneralMotion(1.5, (np.array([0.0, 1.0]), 0), (0, 0.3, 1.2)).angular_momentum(3.0)
+    assert two[0, 0] == 0
+    assert np.allclose(two[0], (0, 0.3, 1.8), rtol=1e-15, atol=0)
+    assert abs(two[1] - two[0]).max() > 0.1
+
+
+def test_a_proved_zero_of_a_spin_stays_zero() -> None:
+    """A spin about e2 along the field has no other component of its quaternion."""
+    words = "motion --ratio 1.5 --field 1 0 --omega 0 0.7 0 --times 1 7.3 --digits 12 --json".split()
+    for row in json.loads(CliRunner().invoke(command, words).output)["samples"]:
+        assert (row["q"][0], row["q"][2]) == ("0", "0")

@@ -199,8 +199,9 @@ class GeneralMotion(Nutating):
 
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory frame."""
-        w1, w2, w3 = self.angular_velocity(t)
-        return [dot(row, (w1, w2, self.I * w3)) for row in self.rotation(t)]
+        w1, w2, w3 = self.angular_velocity(t) if any(self.field) else self.omega
+        m = [w1, w2, self.I * w3]
+        return [dot(row, m) for row in self.rotation(t)] if any(self.field) else m
 
     @property
     def invariants(self) -> dict[str, fmpq]:

@@ -372,8 +372,9 @@ class AsymmetricMotion:
 
     def angular_momentum(self, t: Any) -> list[Real]:
         """Return m = R II Omega in the laboratory frame."""
-        m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
-        return [dot(row, m) for row in self.rotation(t)]
+        Omega = self.angular_velocity(t) if any(self.field) else self.omega
+        m = [I * w for I, w in zip(self.inertia, Omega, strict=True)]
+        return [dot(row, m) for row in self.rotation(t)] if any(self.field) else m
 
 
 def _power(x: fmpq) -> fmpq:
