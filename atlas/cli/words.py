@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import click
 
-from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined
+from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, parts_of
 from atlas.measured import WANTED
 
 OTHERS = {
@@ -43,6 +43,16 @@ def apart(word: str) -> list[str]:
 def is_number(word: str, *, more: bool = True) -> bool:
     """Whether a word was meant as a number and is no file; a bare number is none where more numbers are wanted."""
     return bool(LIKE_A_NUMBER.fullmatch(word) and ((more and NUMBER.fullmatch(word)) or not os.access(word, os.F_OK)))
+
+
+def check_units(option: str, value: Any) -> None:
+    """Raise click.UsageError where one number of an option has a unit, and another that is not zero has none."""
+    known = [x for x in parts_of(value) if isinstance(x, Typed) and x]
+    bare, units = [x for x in known if not x.unit], [x for x in known if x.unit]
+    if bare and units:
+        raise click.UsageError(
+            f"{option}: {bare[0].text} has no unit, and {units[0].text} beside it has one; give each its unit, or none."
+        )
 
 
 class Words:
@@ -112,6 +122,8 @@ class Command(click.Command):
         rest = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
         for name in (str(param.name) for param in self.params if param.multiple and param.type is REAL):
             ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
+        for option in (param for param in self.params if param.name != "grid"):
+            check_units(option.opts[0], ctx.params.get(str(option.name)))
         if ctx.params.get("angle") is not None:
             name = next((name for name in ("magnetic", "field") if ctx.params[name] is not None), "")
             if not name:

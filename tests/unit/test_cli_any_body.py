@@ -218,6 +218,7 @@ def test_units_are_those_of_si() -> None:
         ("--ratio 1.5 --mu 2C/kg --magnetic 0.5T 10000G", "--ratio 1.5 --charge-to-mass 2 --magnetic 0.5 1 --units si"),
         ("--inertia 2g*m^2 3g*m2 --field 1 2", "--inertia 2e-3 3e-3 --field 1 2"),
         ("--ratio 1.5 --field 90deg/s 1rad/s", f"--ratio 1.5 --field {np.pi / 2!r} 1"),
+        ("--ratio 1.5 --field 1rev/s 60rpm", "--ratio 1.5 --field 1Hz 1Hz"),
         ("--ratio 1.5 --field 2 --angle 90deg", "--ratio 1.5 --field 2 1.2246467991473532e-16"),
     ],
 )
