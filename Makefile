@@ -90,6 +90,7 @@ SCRIPTS := $(filter-out %/minisearch.js,$(wildcard templates/html/*.js)) $(wildc
 lint: lint-python lint-scripts lint-types lint-floors
 lint-python: $(VENV)/.test
 	@$(BIN)/ruff check .
+	@$(BIN)/ruff check --preview --select D417,DOC102 atlas   # parameters of docstrings are those of signatures
 	@$(BIN)/ruff format --check .
 lint-scripts: $(VENV)/.test
 	@NO_COLOR=1 $(BIN)/deno lint --quiet --no-config $(SCRIPTS)
