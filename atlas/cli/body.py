@@ -353,22 +353,21 @@ def check_speeds(options: Mapping[str, Any]) -> None:
 
     Raises DomainError where the drift in crossed fields is not below the speed of light.
     """
+    known = options.get("magnetic") is not None and system_of(options) != "natural"
+    charge, shape = "electric" in options and known, options.get("shape") is not None and units_of(options)
+    if not (charge or ("electric" not in options and shape)):
+        return
     from atlas.bodies.speeds import check_drift, fastest_point, speed_of_light, warn_of
     from atlas.bodies.units import system
 
-    known = options.get("magnetic") is not None and system_of(options) != "natural"
     units = system(system_of(options)) if known else system("SI")
-    if "electric" in options:
-        if not known:
-            return
+    if charge:
         check_drift(options["electric"] or (0, 0, 0), options["magnetic"], units)
         speed, what = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"
-    elif options.get("shape") is not None and units_of(options):
+    else:
         start = options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
         sizes = {name: float(size) for name, size in given(options, SIZES).items()}
         speed, what = fastest_point(options["shape"].replace("-", "_"), sizes, start), "the surface at t = 0"
-    else:
-        return
     warn_of(what, speed / speed_of_light(units))
 
 

@@ -424,8 +424,8 @@ class Motion(Shown, Generic[Single]):
 
         Examples
         --------
-        >>> unstable = atlas.motion(0.7, (-0.765, 1.02, 0.192), (0.88, -1.1735, 0.2746))
-        >>> bool(unstable.input_error(100.0) > 1e-12)
+        >>> motion = atlas.motion(1.5, (0.1, 1.0, 2.0), (0.3, 0.7, 0.2))
+        >>> bool(motion.input_error(1.0) < 1e-14 < motion.input_error(1e6))
         True
         """
         from atlas.motions.derivatives import of_rounding

@@ -61,8 +61,8 @@ def test_the_light_falls_on_the_pages_as_in_the_pictures() -> None:
     from atlas.pictures.drawing.shaded import _LIGHTS
 
     text = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
-    (lamps,) = re.findall(r"LAMPS = (\[\[[-\d., \[\]]*\]\])", text)
-    assert json.loads(lamps) == [[*place, strength] for place, strength in _LIGHTS]
+    (lamps,) = re.findall(r"LAMPS = (\[\[[-\d.,\s\[\]]*\]\])", text)
+    assert json.loads(re.sub(r",\s*\]", "]", lamps)) == [[*place, strength] for place, strength in _LIGHTS]
 
 
 def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:

@@ -293,8 +293,8 @@ def test_the_least_energies_of_a_ball_are_those_of_its_precessions_with_w_zero(M
     """Between p = M3 and -M3 the potential of a ball has one least value, 2H = M3^2 + b^2, at nu = p/M3."""
     (panel,) = panels("energy_momentum", ratios=(1.0,), M3=M3)
     line = layers(panel, Curve, "main")[-1].points
-    assert np.array_equal(abs(line[:, 0]), np.full(2, min(abs(M3), 1.6)))
-    for p, h in line * (0.9, 1.0):
+    assert abs(line[:, 0]).max() == pytest.approx(abs(M3), rel=1e-3)
+    for p, h in line[::20] * (0.9, 1.0):
         assert h == pytest.approx(potential(1.0, 1.0, M3, p, p / M3), rel=4 * EPS)
         assert potential(1.0, 1.0, M3, p, np.linspace(-0.99, 0.99, 1001)).min() >= h * (1 - 4 * EPS)
 

@@ -122,7 +122,7 @@ def test_a_section_is_cut_where_the_axis_touches(ratio: float, M3: float, count:
 
     Each inner end is on the axis or has M3 = 0, and the two outer ones are at `reach`.
     """
-    branches = section(ratio, M3, points=400)
+    branches = [branch for branch in section(ratio, M3, points=400) if np.ptp(branch.w)]
     assert len(branches) == count
     assert -branches[0].w[0] == pytest.approx(3.0, abs=1e-3) == branches[-1].w[-1]
     for before, after in pairwise(branches):

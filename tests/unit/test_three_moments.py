@@ -29,16 +29,12 @@ DATA = [0.5, 1.0, 1.25], [0.5, 0.75, 0.5], [0.25, 0.5, 0.25]
 
 def small(source: str) -> str:
     """Return the file of the report with the section of the family alone, without figures."""
-    first, *pages = re.split(r"(?m)^(?=\[\[pages\]\]$)", source)
-    kept = [page for page in pages if 'slug = "family"' in page]
-    text = re.sub(
-        r"(?m)^\[\[pages\.blocks\]\]\nkind = \"figure\"\n(?:.+\n)*",
-        "",
-        first + kept[0].replace('"family"', '"index"', 1),
-    )
-    text = text.replace("@fig:family", "a figure")
-    said = "Here $v=$ @cell:family-4-2, as @clebsch1871."
-    return f'{text}\n[[pages.blocks]]\nkind = "prose"\ntext = "{said}"\n\n[[pages.blocks]]\nkind = "bibliography"\n'
+    head, text = source.rsplit("+++\n", 1)
+    first, *pages = re.split(r"(?m)^(?=# )", text)
+    (kept,) = (page for page in pages if 'slug = "family"' in page)
+    kept = re.sub(r"(?s)```\{figure\}\n.*?```\n", "", kept.replace('"family"', '"index"', 1))
+    kept = kept.replace("@fig:family", "a figure")
+    return f"{head}+++\n{first}{kept}\nHere $v=$ @cell:family-4-2, as @clebsch1871.\n\n```{{bibliography}}\n```\n"
 
 
 def test_the_letter_is_about_one_body() -> None:
@@ -56,9 +52,9 @@ def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, t
     """The largest moment in the file: the keys have the digits of balls, and the sentence the number by its key."""
     source = find("three_moments")
     text = small(source.read_text("utf-8")).replace("1.25]", f"{moment}]")
-    (tmp_path / "letter.toml").write_text(text, encoding="utf-8")
+    (tmp_path / "letter.md").write_text(text, encoding="utf-8")
     (tmp_path / "references.bib").write_bytes((source.parent / "references.bib").read_bytes())
-    made = build_tex(tmp_path / "letter.toml", tmp_path / "out").parent
+    made = build_tex(tmp_path / "letter.md", tmp_path / "out").parent
     numbers = dict(re.findall(r"\\atlasnumber\{([^}]+)\}\{\d+\}\{([^}]+)\}", (made / "atlas-numbers.tex").read_text()))
     motion = EllipticMotion((0.5, 1.0, moment), DATA[1], -0.75, 1)
     true = certified(lambda: {"v": motion.v, "T": motion.period}, 20)

@@ -177,9 +177,10 @@ def _asked(server: Explorer, query: dict[str, str]) -> Subject:
 def _page(name: str) -> bytes:
     """Return a file of the page; its style is that of the reports, without their fonts."""
     from atlas.book.templates import templates
+    from atlas.pictures.style import STYLES
 
     if name == "style.css":
-        return templates("html").get_template(name).render(faces={}).encode()
+        return templates("html").get_template(name).render(faces={}, looks=STYLES).encode()
     return (folder("templates") / "html" / name).read_bytes()
 
 
