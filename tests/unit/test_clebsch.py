@@ -44,7 +44,7 @@ def flow(name: str) -> Flow:
 def test_the_error_of_a_way_is_what_is_stated(
     name: str, times: tuple[Any, Any], bits: int, steps: int, state: float, turn: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Steps, and the largest radii of (W, K) and of q, in units of 2^-bits; each bounds the difference from 120 more bits."""
+    """Steps, and the largest radii of (W, K) and q; each radius bounds the difference from 120 more bits."""
     count, step = [0], clebsch_flow._Way.step
     H, F = map(fmpq, times)
     with monkeypatch.context() as patch:
