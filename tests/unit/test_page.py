@@ -272,6 +272,12 @@ def test_a_negative_field_keeps_its_sign_in_si(unbuilt: Callable[[str], dict[str
     assert record["pages"][0]["blocks"][0]["parameters"]["time"] == "s"
 
 
+def test_a_field_may_be_a_rate_with_a_unit(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """Where B' itself is typed with a unit of 1/time there is no B to show."""
+    record = unbuilt("--ratio 1.5 --field 5/s 3/s --omega2 1/s")
+    assert record["parameters"]["fields"]["field"]["prime"] == [5.0, 3.0]
+
+
 @pytest.mark.parametrize(
     ("units", "names"), [("si", "C/kg V/m T m m/s 1"), ("gaussian", "statC/g statV/cm G cm cm/s cm/s")]
 )
