@@ -122,7 +122,8 @@ class Command(click.Command):
         rest = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
         for name in (str(param.name) for param in self.params if param.multiple and param.type is REAL):
             ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
-        for option in (param for param in self.params if param.name != "grid"):
+        vectors = (x for x in self.params if not x.multiple and x.name not in {"grid", "heavy"})  # whose units are one
+        for option in vectors:
             check_units(option.opts[0], ctx.params.get(str(option.name)))
         if ctx.params.get("angle") is not None:
             name = next((name for name in ("magnetic", "field") if ctx.params[name] is not None), "")

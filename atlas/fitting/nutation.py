@@ -151,7 +151,7 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
         start = {**values, **dict(zip((*B, *OMEGA, *ATTITUDE), [*n, *omega, *at_rest.as_rotvec()], strict=True))}
         with np.errstate(all="ignore"):
             field = n * _Steady(motion, start | {"b": 1.0}).modes(np.array([values["ratio"]])).field
-        across = float((in_plane(at_rest.inv().apply(field))[1] @ omega)[1])
+            across = float((in_plane(at_rest.inv().apply(field))[1] @ omega)[1])
         x = other.inside({**start, **dict(zip(B, field.tolist(), strict=True)), "omega2": across})
         found.append(grown(other, x, t.size))
     return other, min(found, key=other.chi_square)

@@ -31,6 +31,7 @@ from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
+from atlas.cli.words import Words
 from atlas.errors import AtlasError
 from atlas.motions.elementary.kernel import ElementaryMotion
 from atlas.motions.register import FAMILIES
@@ -245,7 +246,7 @@ def test_several_reports_are_built_at_once(tmp_path: Path) -> None:
 )
 def test_the_family_is_that_of_the_options(words: str, name: str) -> None:
     """Options that only one family takes choose it, by their names and by how many numbers they have."""
-    assert best(words.split()) == name
+    assert best(Words(words.split())) == name
 
 
 @pytest.fixture

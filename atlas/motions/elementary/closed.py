@@ -91,6 +91,10 @@ class ClosedMotion(ElementaryMotion):
         """
         return float(finite(self._closed.period, "The period"))
 
+    def _dynamics(self) -> Any:
+        """Return moments, coupling and potential, as of the elementary motion that starts at the nearest double."""
+        return super()._inputs_of(0).parts
+
     def _inputs_of(self, _: int) -> Any:
         """Raise DomainError: the input in the place of omega2 is a whole fraction."""
         raise DomainError(
