@@ -41,7 +41,7 @@ from atlas.motions.torus.kernel import AsymmetricMotion
 from atlas.sweeps.rotation_errors import constants, formula
 from benchmarks.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from benchmarks.oracle import BITS
-from benchmarks.peers import Turn, compiled, composed, lambdified
+from benchmarks.peers import AxisAndRate, compiled, composed, lambdified
 
 SOLENOID: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega2": 0.7}
 NUTATION: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega": (0.3, 0.7, 0.2)}
@@ -111,7 +111,7 @@ def frequencies() -> tuple[float, float, float, float]:
     return constants(SOLENOID["I"], *SOLENOID["B"], SOLENOID["omega2"])
 
 
-def turns() -> tuple[Turn, Turn]:
+def turns() -> tuple[AxisAndRate, AxisAndRate]:
     """Return the two turns of (85)."""
     h2, h3, k, phi = frequencies()
     return ((0.0, h2, h3), k), ((0.0, 0.0, 1.0), phi)
@@ -138,7 +138,7 @@ def ball_frequencies() -> tuple[float, float, float, float]:
     return -m2 / size, -(m3 + alpha * I0) / size, size / I0, alpha
 
 
-def ball_turns() -> tuple[Turn, Turn]:
+def ball_turns() -> tuple[AxisAndRate, AxisAndRate]:
     """Return the two turns of (28): by -alpha t about the field, by -gamma t about k_hat."""
     k2, k3, gamma, alpha = ball_frequencies()
     return ((0.0, 0.0, 1.0), -alpha), ((0.0, k2, k3), -gamma)
