@@ -55,6 +55,10 @@ class Given:
     def __float__(self) -> float:
         return float(self.hi)
 
+    def tolist(self) -> Any:
+        """Return the nearest doubles as Python's floats, as an array does."""
+        return self.hi.tolist()
+
     def as_integer_ratio(self) -> tuple[int, int]:
         """Return one number as a fraction, as a float does."""
         x = self.at(())
