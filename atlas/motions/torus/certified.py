@@ -112,6 +112,8 @@ class OnTorus:
             return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
         if abs(t) <= MAX_FLOW_TIME and self.torus.spin is not None and self.torus.pushed is None:
             return self._directly(t, "the motion is next to an unstable spin"), turn
+        if abs(t) <= MAX_FLOW_TIME and self.torus.is_long:
+            return self._directly(t, "a period of its torus is long"), turn
         try:
             first, second = self.torus.periods(ctx.prec + more)
         except NotCertifiedError as reason:

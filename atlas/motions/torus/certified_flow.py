@@ -107,6 +107,10 @@ class Flow:
             [-(a + g * x) * y for x, y in zip(I, across, strict=True)],
         )
 
+    def length(self, a: fmpq, g: fmpq) -> float:
+        """Return the largest rate of the flow of a H + g F/2 times the size of (W, K): a step is one to five of it."""
+        return float(max(abs(x) for row in self.rates(a, g) for x in row)) * float(sum(abs(x) for x in self.start))
+
     def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
         """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
 
@@ -117,7 +121,8 @@ class Flow:
                 f"not certified: so many digits would take more than {MAX_PRECISION} binary ones; of three moments "
                 "some 1000 decimal ones can be had, fewer of numbers near zero."
             )
-        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, proven=proven)
+        first = max(1, min(PARTS, int(PARTS / max(self.length(a, g), 1e-9))))
+        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, first, proven=proven)
         while way.left:
             way.step()
         with workprec(2 * bits):
@@ -127,13 +132,11 @@ class Flow:
 class _Way:
     """The state of a flow under way, and the bound on its error."""
 
-    def __init__(self, rates: Rates, start: list[int], bits: int, *, proven: bool) -> None:
+    def __init__(self, rates: Rates, start: list[int], bits: int, first: int, *, proven: bool) -> None:
         self.rates, self.bits, self.proven = rates, bits, proven
         self.state = [*start, 1 << bits, 0, 0, 0]
         self.left, self.steps = PARTS, 0
-        size = _float(sum(abs(x) for x in start), bits) + 1e-300
-        rate = float(max(abs(x) for row in rates for x in row)) * size
-        self.guess = max(1, min(PARTS, int(PARTS / max(rate, 1e-9))))
+        self.guess = first
         self.order = max(12, int(TERMS_PER_BIT * bits))
         self.X: Matrix = np.eye(6)
         self.w: Matrix = np.ones(6)  # the start is rounded

@@ -40,6 +40,9 @@ NEXT = fmpq(1, 2**40)
 MAX_GROWTH, MIN_DETERMINANT = 1e-6, 1e-6
 """Largest growth of a small push beside its frequencies, and the least determinant of two pairs of these."""
 
+MAX_LENGTH = 500.0
+"""Largest length of a period's flow that is gone for a proof: some thirty flows of one to three seconds each."""
+
 NEWTON_ROUNDS = 4
 """Rounds of Newton's method from the periods of small pushes."""
 
@@ -81,6 +84,14 @@ class Torus:
         first = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
         second = [(I[k] - I[j]) * (K[j] * K[k]) for j, k in cycle]
         return [*first, *cross(K, W)], [*second, *cross(K, M)]
+
+    @cached_property
+    def is_long(self) -> bool:
+        """Whether a period is so long that to prove the motion's formulas would take minutes."""
+        try:
+            return any(self.flow.length(H, F) > MAX_LENGTH for H, F in self._approximate())
+        except NotCertifiedError:  # none is known
+            return False
 
     def periods(self, bits: int) -> tuple[Period, Period]:
         """Return two periods with so many bits; NotCertifiedError where none are found."""

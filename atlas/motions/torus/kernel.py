@@ -32,6 +32,9 @@ MOTION_CACHE_SIZE = 16
 CHECK_TIMES = (5.3, -61.7, 2.9e5, -8.1e11)
 """Times, over the largest rate, at which a closed form is held against the certified twin; the last if it is proved."""
 
+DIRECT_CHECKS = 2
+"""Of them those that need no proven periods: all that are taken where these are long."""
+
 MAX_DIFFERENCE = 1e-14
 """Largest difference from it."""
 
@@ -64,7 +67,9 @@ class SingleAsymmetric:
         closed, known = self._first
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, known
-        times, differences = [t / self.size for t in (CHECK_TIMES if closed.proved is None else CHECK_TIMES[-1:])], []
+        count = DIRECT_CHECKS if closed.made_of[1].is_long else len(CHECK_TIMES)
+        times = [t / self.size for t in (CHECK_TIMES[:count] if closed.proved is None else CHECK_TIMES[-1:])]
+        differences: list[float] = []
         for t in times:
             try:
                 differences.append(self._difference(closed, t))

@@ -143,6 +143,8 @@ class ThetaKernel:
         from atlas.motions.torus.certified_distances import distances, drifts
 
         theta, torus = self.made_of
+        if torus.is_long:
+            return None
         try:
             periods = torus.periods(PERIOD_BITS)
             M, K, N = distances(theta, torus, periods) + drifts(theta, periods, self.periods)
