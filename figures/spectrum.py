@@ -42,8 +42,8 @@ def scene(
         caption=(
             rf"Lines of the motion of {tex_setting(ratio, field)} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "
-            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are amplitudes beside the root of "
-            r"the mean square."
+            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are the norms of complex vector "
+            r"amplitudes, of one of both signs of a frequency, beside the root of the mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "

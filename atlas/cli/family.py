@@ -507,7 +507,10 @@ def _show_lines(family: Family, options: dict[str, Any], motion: Any = None) -> 
         f"spectrum of the {lines.of.replace('_', ' ')}",
         [Line(name, "rate", f"{rate:.10g}", unit) for name, rate in zip(lines.names, lines.rates, strict=True)],
         [*lines.names, f"frequency [{unit}]", "amplitude"], rows,
-        ["In doubles. Each line stands for the opposite frequency, with the conjugate amplitude, too."],
+        [
+            "In doubles. Each line stands for the opposite frequency, with the conjugate amplitude, too.",
+            "An amplitude is the norm of the complex ones of all components: one swings by twice the size of its own.",
+        ],
     ))  # fmt: skip
 
 

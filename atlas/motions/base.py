@@ -458,7 +458,7 @@ class Motion(Shown, Generic[Single]):
         -----
         Frequencies are integer combinations of 2 pi/period, `precession_rate` and `spin_rate`. For an
         `AsymmetricMotion` they combine its `frequencies`. Amplitudes are integrals over the phases, accurate to
-        rounding.
+        rounding. The lines at f and -f together move a component by twice the size of its complex amplitude.
 
         Examples
         --------

@@ -47,7 +47,8 @@ class Spectrum:
     those of opposite frequencies conjugate; `combinations` (N, k), whole numbers whose products with the `rates` (k,),
     `names` of which say what turns, add up to the frequencies; where several do, the shortest stands. `mean_square` is
     the mean over all times of the sum of squares, of which `power`, the squares of each line, add up to what the lines
-    that are left out leave (Parseval).
+    that are left out leave (Parseval). A component of f swings by twice the size of its complex amplitude:
+    a line and the one at the opposite frequency together.
     """
 
     of: str

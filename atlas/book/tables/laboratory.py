@@ -59,25 +59,32 @@ def levitated(asked: Dipole) -> Data:
     for spin in asked.spins:
         motion = asked.motion(spin)
         I = motion.inertia[0]
-        small, slow = sqrt(asked.energy / I) / (2 * pi), asked.energy / (I * 4 * pi**2 * spin) if spin else 0.0
-        frequencies = 1 / motion.period, motion.precession_rate / (2 * pi) if spin else 0.0
+        small, slow = sqrt(asked.energy / I) / (2 * pi), -asked.energy / (I * 4 * pi**2 * spin) if spin else 0.0
+        frequencies = 1 / motion.period, _precession(motion) / (2 * pi)
         rows.append((Number(f"{spin:g}"), *map(_three, (frequencies[0], small, frequencies[1], slow))))
     return Data(
         heads(
             ("Spin", "Hz"), ("Nutation", "Hz"), (r"$\sqrt{dE/I}/2\pi$", "Hz"),
-            ("Precession", "Hz"), (r"$dE/4\pi^2I\,\text{spin}$", "Hz"),
+            ("Precession", "Hz"), (r"$-dE/4\pi^2I\,\text{spin}$", "Hz"),
         ),
         tuple(rows),
         rf"A ball of the radius {asked.radius * 1e6:g} µm and {asked.density:g} kg m$^{{-3}}$ with a dipole of "
         rf"{asked.dipole:g} $e$ µm, which starts {asked.inclination:g} rad off a field of {asked.field / 1e3:g} kV/m "
-        "and spins about it: the exact frequencies, beside those of small librations and of a fast spin.",
+        "and spins about it: the frequencies of the motion, beside those of small librations and of a fast spin.",
         (
             (
-                "Three digits. Without a spin the axis goes through the field twice a period of libration, so that the "
-                "inclination nods at twice its frequency."
+                "Three digits of doubles, not proven. A negative precession goes round the field against the spin. "
+                "Without a spin the axis goes through the field twice a period of libration: the inclination nods at "
+                "twice its frequency, and half a turn about the field in each nod is the precession."
             ),
         ),
     )  # fmt: skip
+
+
+def _precession(motion: TopMotion) -> float:
+    """Return the rate of precession of which the lines of the axis are made: half a turn a nutation for a pendulum."""
+    spectrum = motion.spectrum("axis")
+    return float(spectrum.rates[spectrum.names.index("precession")])
 
 
 class Lines(Dipole, frozen=True):
@@ -87,7 +94,11 @@ class Lines(Dipole, frozen=True):
 
 
 def lines(asked: Lines) -> Data:
-    """Return the lines of the axis for each spin, those at positive frequencies, with the numbers they are made of."""
+    """Return the lines of the axis for each spin with the numbers they are made of, and how far they move a component.
+
+    A line a exp(i f t) and its conjugate at -f draw an ellipse, whose larger semi-axis is twice the largest singular
+    value of (Re a, Im a); the mean has no conjugate.
+    """
     rows: list[tuple[str | Number, ...]] = []
     for spin in asked.spins:
         spectrum = asked.motion(spin).spectrum("axis", least=asked.least)
@@ -96,7 +107,8 @@ def lines(asked: Lines) -> Data:
                 continue
             parts = [f"{n:+d} {name}" for name, n in zip(spectrum.names, whole.tolist(), strict=True) if n]
             n = np.array([0.0, np.sin(asked.inclination), np.cos(asked.inclination)])
-            sizes = [float(np.linalg.norm(component)) for component in (amplitude - (amplitude @ n) * n, amplitude @ n)]
+            parts_of_line = amplitude - (amplitude @ n) * n, np.atleast_1d(amplitude @ n)
+            sizes = [(1 + (f > 0)) * float(np.linalg.norm([a.real, a.imag], 2)) for a in parts_of_line]
             seen = [_three(x if x > MIN_COMPONENT * asked.least else 0.0) for x in sizes]
             rows.append(
                 (
@@ -109,8 +121,9 @@ def lines(asked: Lines) -> Data:
     return Data(
         heads(("Spin", "Hz"), ("Line", "Hz"), "Turns", "across the field", "along it"),
         tuple(rows),
-        f"Lines of the axis of the ball, down to {asked.least:g} of the whole: amplitudes of the dipole's components.",
-        ("Three digits, and a dash below a thousandth of the least.",),
+        f"Lines of the axis of the ball, down to {asked.least:g} of the whole: how far each moves a component of the "
+        "axis to either side, that component across the field which it moves most, and that along the field.",
+        ("Three digits of doubles, not proven, and a dash below a thousandth of the least; of the mean its size.",),
     )  # fmt: skip
 
 
@@ -142,7 +155,7 @@ def inferred(asked: Watch) -> Data:
         tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
         f"Standard deviations that {asked.samples} looks at the axis within {asked.seconds:g} s, each with a noise of "
         f"{asked.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
-        ("Two digits, of first order; a dash for what the axis does not tell by itself.",),
+        ("Two digits of doubles, not proven, of first order; a dash for what the axis does not tell by itself.",),
     )
 
 
@@ -175,7 +188,11 @@ class Design(StrictStruct, frozen=True):
 
 
 def beyond_larmor(asked: Design) -> Data:
-    """Return the precession beyond Larmor's turn, by the charge and by magnetisation, and what would spoil it."""
+    """Return the precession beyond Larmor's turn by the charge, by magnetisation and by both, and what would spoil it.
+
+    All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: what the charge
+    changes is the rate by both less that by magnetisation alone.
+    """
     along = demagnetization(asked.aspect)
     rows: list[tuple[str | Number, ...]] = []
     for r in asked.radii:
@@ -186,30 +203,36 @@ def beyond_larmor(asked: Design) -> Data:
         b = mu * asked.magnet / 2
         magnetic = -anisotropy(asked.susceptibility, volume, along) * asked.magnet**2
         n = np.sin(asked.inclination), np.cos(asked.inclination)
-        omega = 0.0, -b * n[0], asked.spin * b - b * n[1]
-        own, both = (
-            TopMotion((body.I2, body.I3), (b * body.I2, b * body.I3), n, omega, 0.0, quadratic).precession_rate + b
-            for quadratic in (0.0, magnetic)
-        )
-        offset = abs(body.I3 - body.I2) * b * b / 2 / (mass * GRAVITY)
+        own, induced, both = (
+            TopMotion(
+                (body.I2, body.I3), (larmor * body.I2, larmor * body.I3), n,
+                (0.0, -larmor * n[0], asked.spin * b - larmor * n[1]), 0.0, quadratic,
+            ).precession_rate + larmor
+            for larmor, quadratic in ((b, 0.0), (0.0, magnetic), (b, magnetic))
+        )  # fmt: skip
+        potential = (body.I3 - body.I2) * b * b
+        offset = abs(potential) / 2 / (mass * GRAVITY)
         speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
         drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * r**4 / body.I3
-        pressure = abs(own) / (2 * pi) / drag
-        turns = (b / (2 * pi), own / (2 * pi), both / (2 * pi))
-        rows.append(tuple(map(_three, (r, *turns, both / own, offset, pressure))))
+        pressure = abs(both - induced) / (2 * pi) / drag
+        rates = [Number(f"{rate / (2 * pi):.7g}") if magnetic else _three(rate / (2 * pi)) for rate in (induced, both)]
+        first, last = (r, b / (2 * pi), own / (2 * pi)), ((both - induced) / (2 * pi), magnetic / potential)
+        rows.append((*map(_three, first), *rates, *map(_three, (*last, offset, pressure))))
     return Data(
         heads(
-            ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("beyond it, by the charge", "Hz"), ("by both", "Hz"),
-            "quotient", (r"offset $\delta$", "m"), ("pressure", "Pa"),
+            ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("by the charge", "Hz"), ("by magnetism", "Hz"), ("by both", "Hz"),
+            ("both less magnetism", "Hz"), "quotient", (r"offset $\delta$", "m"), ("pressure", "Pa"),
         ),
         tuple(rows),
         rf"Spheroids of $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:-1]}$ and {asked.density:g} "
         rf"kg m$^{{-3}}$, {asked.aspect:g} times as high as wide, charged to "
         rf"{Number(f'{asked.surface_field:.0e}').tex()} V/m, in {asked.magnet:g} T: the mean precession about the "
         rf"field beyond Larmor's turn, of a spin of ${asked.spin:g}\,b$ in Larmor's frame, "
-        rf"{asked.inclination:g} rad off the field; the offset $\delta$ of the centre of charge for which $m_0g\delta$ "
-        "is as large as the potential; the pressure at which the gas stops the spin within one such turn.",
-        ("Three digits.",),
+        rf"{asked.inclination:g} rad off the field, by the charge alone, by magnetism alone and by both; the quotient "
+        rf"of the potentials, magnetism's over the charge's; the offset $\delta$ of the centre of charge for which "
+        rf"$m_0g\delta$ is as large as the charge's potential; the pressure at which the gas stops the spin within "
+        "one turn of what the charge changes.",
+        ("Three or seven digits of doubles, not proven.", "The drag is that of a sphere of the radius $r$."),
     )  # fmt: skip
 
 
