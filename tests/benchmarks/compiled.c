@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 enum { BLOCK = 256 };
 
@@ -11,7 +12,7 @@ static inline void turn(double high, double low, double t, double *sine, double 
 {
     const double P1 = 1.5707963267948966, P2 = 6.123233995736766e-17, P3 = -1.4973849048591833e-33;
     double p = high * t, rest = fma(high, t, -p) + low * t;
-    double n = (p / P1 + 6755399441055744.0) - 6755399441055744.0; /* the nearest integer */
+    double shifted = p / P1 + 6755399441055744.0, n = shifted - 6755399441055744.0; /* the nearest integer */
     double a = fma(-n, P1, p), q = n * P2, w = rest - q - fma(n, P2, -q) - n * P3;
     double x = a + w, tail = w - (x - a), z = x * x, half = 0.5 * z, one = 1 - half;
     double S = -1.66666666666666324348e-01 + z * (8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04
@@ -19,7 +20,8 @@ static inline void turn(double high, double low, double t, double *sine, double 
     double C = 4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * (2.48015872894767294178e-05
         + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))));
     double s = x + (z * x * S + tail * one), c = one + (((1 - one) - half) + (z * z * C - x * tail));
-    int64_t quadrant = (int64_t)n;
+    int64_t quadrant; /* n in the last bits of `shifted`: AVX2 has no conversion to integers of 64 bits */
+    memcpy(&quadrant, &shifted, sizeof quadrant);
     double first = quadrant & 1 ? c : s, second = quadrant & 1 ? s : c;
     *sine = quadrant & 2 ? -first : first;
     *cosine = (quadrant + 1) & 2 ? -second : second;
