@@ -120,7 +120,7 @@ def properties(request: Request, thing: Thing) -> Data:
         heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
         tuple(rows),
         f"{says[:1].upper()}{says[1:]}: {heading}.",
-        ("Numbers that are given are taken as the doubles nearest to them, and these as exact.", *reasons),
+        ("Given numbers are rounded to doubles, then exact.", *reasons),
     )  # fmt: skip
 
 

@@ -21,7 +21,7 @@ from atlas.pictures import Scene, Space
 DIGITS, SPARE = 10, 1 << 10
 """Digits that are proven when the sliders rest, and bits beyond them in which a proof is looked for."""
 EXACT = "decided exactly"
-"""How sure a name is, as of a case or a kind."""
+"""Certification of a name, such as that of a case or a kind."""
 DRAWING = Lock()
 """Matplotlib's settings are one for all threads."""
 FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}

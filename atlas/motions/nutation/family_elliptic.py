@@ -17,7 +17,7 @@ FAMILY = Family(
         Parameter("branch", "Sign of v, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
     ),
     (
-        Quantity("kind", "name of the kind"),
+        Quantity("kind", "type of motion"),
         Quantity("stability", "of the curve of K"),
         Quantity(
             "splitting", "squared frequency of small departures", "1/time^2", checked="elliptic splitting",

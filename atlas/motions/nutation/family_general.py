@@ -14,7 +14,7 @@ FAMILY = Family(
     "motions.nutation.{}_general.GeneralMotion",
     (RATIO, FIELD, OMEGA),
     (
-        Quantity("kind", "name of the kind"),
+        Quantity("kind", "type of motion"),
         Quantity(
             "turning_points", "least and largest", RATE, symbol="Omega3", columns=("least", "largest"),
             text=" ... ".join, certified=True,

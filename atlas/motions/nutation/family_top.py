@@ -44,7 +44,7 @@ FAMILY = Family(
         ),
     ),
     (
-        Quantity("kind", "name of the kind"),
+        Quantity("kind", "type of motion"),
         Quantity(
             "turning_points", "least and largest", symbol="nu", columns=("least", "largest"), text=" ... ".join,
             certified=True,

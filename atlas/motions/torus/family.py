@@ -13,7 +13,7 @@ FAMILY = Family(
         OMEGA,
     ),
     (
-        Quantity("kind", "name of the kind"),
+        Quantity("kind", "type of motion"),
         Quantity("agreement", "of R, K, Omega", exact=lambda _: "every digit is proven", tabled=False, slow=True),
         Quantity(
             "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
