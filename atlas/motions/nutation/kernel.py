@@ -1,6 +1,7 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
 from collections.abc import Callable, Container, Sequence
+from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -34,6 +35,7 @@ class NutatingMotion(Motion[Nutation]):
     _blocks_of: type[Blocks] = Blocks
     _motions_of: type[MotionsAtTimes] = MotionsAtTimes
     _scalars_of: type[Scalars] = Scalars
+    _few = 8
 
     @cached_property
     def _blocks(self) -> Blocks:
@@ -175,7 +177,7 @@ class NutatingMotion(Motion[Nutation]):
 
     def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
         """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
-        if not self.shape or name not in self._in_arrays:
+        if 0 < prod(self.shape) <= self._few or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
         values, certain = self._scalars[name]
         rows = np.moveaxis(shown(values), -1, 0)
