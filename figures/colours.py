@@ -62,9 +62,9 @@ def scene() -> Scene:
         area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
         columns[column] += [area, beside(ends[1], name)]
     return Scene(
-        caption="The colours of the figures: in each of them a colour means one thing. They differ in lightness too, "
-        "so that they stay apart in grey print. The colours of bodies are for figures in which they are compared. "
-        "Elementary motions are initial angular velocities, and have their hue.",
+        caption="One colour means one thing in all figures. In grey print a vector is told by its name; two lines of a "
+        "column differ in lightness, width or dashes, and marks in shape. The colours of bodies are for figures in "
+        "which they are compared. Elementary motions are initial angular velocities, and have their hue.",
         alt="Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image "
         "under the inverse inertia tensor pink, E blue, m green, the direction n of a top gold, angular velocities "
         "plum, the elementary motions violet, the body's axis and its path navy, the path of a point teal, the "

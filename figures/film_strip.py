@@ -4,6 +4,7 @@ A body drawn at equal steps of one turn of its precession k about the field, (84
 the painted seam shows the proper rotation phi on top of it.
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from atlas.pictures import Arrow, Curve, Label, Layer, Scene, solids
 from atlas.pictures.arrange import stacked
 from atlas.pictures.bodies import drawn_body, row
 from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_setting
-from atlas.pictures.movement import about, riding
+from atlas.pictures.movement import riding, turned
 from atlas.pictures.quadric_panel import E3, in_plane, tolerance
 
 WIDTH, HEIGHT = 178.0, 50.0
@@ -32,7 +33,7 @@ def scene(
 ) -> Scene:
     """Draw ``count`` moments from t = 0 to one period of the precession, side by side.
 
-    In motion the first body runs through what the others show. At the default phi = k, and it ends as it began.
+    In motion each body goes on from where it is drawn. At the default phi = k, and all end as they began.
     """
     motion = ElementaryMotion(ratio, field, omega2)
     if not (motion.k and any(field) and 2 <= count <= 24):
@@ -50,18 +51,18 @@ def scene(
         ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
         cells.append(
             [
-                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, fine)], "" if i else "first"),
+                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, fine)], f"body {i}"),
                 Curve(ring, "trace"),
-                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides="" if i else "first"),
+                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides=f"body {i}"),
                 Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
-                Label(centre - 1.35 * E3, rf"${i}/{count - 1}$" if i else "start", "note", (0.0, -5.0)),
+                Label(centre - 1.35 * E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),
             ]
         )
     return Scene(
         caption=(
-            rf"One turn of the precession in {count} moments: the axis $\mathbf{{R}}_3$ keeps its angle with "
-            rf"$\mathbf{{B}}$; the dark seam has made $\phi/k={tex(motion.phi / motion.k)}$ turns about it at the end. "
-            rf"Below, the part of the period $2\pi/k$ gone by. {tex_setting(ratio, field, first='A')}, "
+            rf"The axis $\mathbf{{R}}_3$ goes once round $\mathbf{{B}}$ and keeps its angle with it; the dark seam has "
+            rf"made $\phi/k={tex(motion.phi / motion.k)}$ turns about the axis at the end. Below each of the {count} "
+            rf"moments, the part of the period $2\pi/k$ elapsed. {tex_setting(ratio, field, first='A')}, "
             rf"$\omega_2={tex(omega2)}$."
         ),
         alt=(
@@ -72,6 +73,9 @@ def scene(
         panels=stacked(cells, 1, azimuth, elevation, STEP),
         narrow=stacked(cells, 2, azimuth, elevation, STEP),
         size=(WIDTH, HEIGHT),
-        paths={"first": lambda t: about(places[0], motion.rotation(t))},
+        paths={
+            f"body {i}": partial(turned, motion, time, centre)
+            for i, (time, centre) in enumerate(zip(times, places, strict=True))
+        },
         lasts=float(times[-1]),
     )

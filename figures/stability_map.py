@@ -4,8 +4,8 @@ With tau = |B3/B2| the least nutation frequency squared along the hyperbola (67)
 
     least = 2 tau sqrt(1 + tau^2) |1-I| - (1-I)(1 - 2 tau^2),        at x^2 = tau |1-I|/sqrt(1 + tau^2),
 
-negative for I < 1 and tau < 1/(2 sqrt 2) only: there its root is the greatest rate of growth. Not in the paper. Each
-pixel is a row of a table.
+negative for I < 1 and tau < 1/(2 sqrt 2) only: there the root of its magnitude is the greatest rate of growth, drawn as
+negative. Not in the paper. Each pixel is a row of a table.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ from atlas.pictures import Curve, Image, Label, Layer, Plane, Scene
 from atlas.pictures.sample import flat
 from atlas.sweeps.plan import Range, Tabulation
 
-WIDTH, HEIGHT, MARGIN = 120.0, 70.0, 12.0
+WIDTH, HEIGHT, MARGIN = 120.0, 88.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
 CELLS = (160, 96)
@@ -30,55 +30,38 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     """Draw where the greatest growth rate, or the least frequency, is one of ``rates`` times |B2|."""
     if not all(0.0 < rate < 1.0 for rate in rates):
         raise DomainError(f"rates of figure stability_map lie between 0 and 1, in units of |B2|, not {rates}.")
-    growth, rising = mapped(1.0, EDGE, -1.0, r"$\sqrt{-\nu_n^2}/|B'_2|$")
-    frequency, waving = mapped(2.0, TOP, 1.0, r"$\nu_n/|B'_2|$")
-    unstable: list[Layer] = [rising]
-    stable: list[Layer] = [
-        waving,
-        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
-        Label(np.array([0.5, 0.5 * EDGE]), "some unstable: (a)"),
+    x, y = np.linspace(0.0, 2.0, CELLS[0] + 1), np.linspace(0.0, TOP, CELLS[1] + 1)
+    inputs = {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}
+    table = Tabulation("hyperbola", inputs, ("least_stability",))
+    square = table.columns()["least_stability"].T
+    root = np.copysign(np.sqrt(np.abs(square)), square)
+    layers: list[Layer] = [
+        Image(x, y, root, r"rate of growth $-\sqrt{-\nu_n^2}/|B'_2|$,   frequency $\nu_n/|B'_2|$"),
         *(Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2),
+        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
+        Label(np.array([0.21, 0.46 * EDGE]), "unstable"),
+        Label(np.array([1.75, 0.5 * TOP]), "stable"),
     ]
-    for rate in rates:
-        growing = level(-(rate**2), -1)
-        unstable += [Curve(growing, "map_curve"), Label(growing[len(growing) // 2], f"${rate:g}$")]
-        for line in filter(len, (level(rate**2, side) for side in (-1, 1))):
-            stable += [Curve(line, "map_curve"), Label(on(line, rate), f"${rate:g}$")]
-    stable += [Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), UP]), name) for I, name in BODIES]
-    views = ((0.0, 1.0), (0.0, EDGE)), ((0.0, 2.0), (0.0, TOP))
-    names = "(a) greatest rate of growth", "(b) least nutation frequency"
+    for value, side in ((sign * rate, side) for rate in rates for sign, side in ((-1, -1), (1, -1), (1, 1))):
+        if len(line := level(value * abs(value), side)):
+            layers += [Curve(line, "map_curve"), Label(on(line, abs(value)), f"${value:g}$")]
+    layers += [Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), UP]), name) for I, name in BODIES]
     return Scene(
         caption=(
-            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. (a) Where some are "
-            r"unstable: the greatest rate of growth, "
-            r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. (b) Where all are stable: the least frequency "
-            r"of their nutation."
+            r"Dark bodies have motions that run away: inside the vermilion line, for $I<1$ and "
+            r"$\tau=\lvert B'_3/B'_2\rvert<1/(2\sqrt2)$, some elementary motion is unstable. The number there is the "
+            r"greatest rate of growth, $-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$, as negative. "
+            r"Outside, where all are stable, it is the least frequency of their nutation."
         ),
         alt=(
-            "Two maps over I and tau. The rate of growth, for I up to 1 and tau up to 0.354, falls from the lower left "
-            "corner to zero at the upper and the right edge. The least nutation frequency, for I up to 2 and tau up to "
-            "0.6, is empty there and grows away from that rectangle. Five bodies are named."
+            "A map over I, up to 2, and tau, up to 0.6. The rate of growth, for I up to 1 and tau up to 0.354, falls "
+            "from the lower left corner to zero at the upper and the right edge of that rectangle; the least nutation "
+            "frequency grows away from the rectangle. Five bodies are named."
         ),
-        panels=tuple(
-            Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", *view, title=name)
-            for layers, view, name in zip((unstable, stable), views, names, strict=True)
-        ),
-        commands=(growth.command("growth.csv"), frequency.command("frequency.csv")),
-        size=(WIDTH, 2 * HEIGHT),
+        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP)),),
+        commands=(table.command("least_stability.csv"),),
+        size=(WIDTH, HEIGHT),
     )
-
-
-def mapped(wide: float, high: float, sign: float, label: str) -> tuple[Tabulation, Image]:
-    """Return the table of the least stability for I up to ``wide`` and tau up to ``high``, and its root as a map.
-
-    Where it does not have the sign the map is empty.
-    """
-    x, y = np.linspace(0.0, wide, CELLS[0] + 1), np.linspace(0.0, high, CELLS[1] + 1)
-    table = Tabulation(
-        "hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",)
-    )
-    square = sign * table.columns()["least_stability"].T
-    return table, Image(x, y, np.sqrt(np.where(square < 0, np.nan, square)), label)
 
 
 def on(line: FloatArray, rate: float) -> FloatArray:

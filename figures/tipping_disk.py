@@ -21,7 +21,7 @@ from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.arrange import stacked
 from atlas.pictures.bodies import drawn_body, row
 from atlas.pictures.captions import plain, quotient, tex
-from atlas.pictures.movement import about, along, riding
+from atlas.pictures.movement import along, riding, turned
 from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.pictures.sample import flat
 
@@ -82,11 +82,6 @@ def scene(
         },
         lasts=float(motion.period),
     )
-
-
-def turned(motion: GeneralMotion, start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how a body goes on from the moment at which it is drawn."""
-    return about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
 
 
 def moved(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -5,6 +5,8 @@ places in which it could rest as well, and it runs along it, the slower the smal
 the push times the time, the curves of all small pushes are one.
 """
 
+from typing import Literal
+
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
@@ -13,7 +15,7 @@ from atlas.motions.torus.kernel import AsymmetricMotion
 from atlas.pictures import Curve, Label, Plane, Scene
 from atlas.pictures.captions import plain, tex, tex_vector
 
-WIDTH, HEIGHT = 88.0, 62.0
+WIDTH, HEIGHT = 178.0, 62.0
 POINTS = 600
 ROLES = ("main", "second", "third")
 RANGES = {"reach": (0.1, 100.0)}
@@ -35,30 +37,43 @@ def scene(
         raise DomainError(
             f"figure turnover needs moments that are not all equal, not {inertia}: a ball does not run away."
         )
-    smallest = min(pushes, key=abs)
+    smallest, largest = min(pushes, key=abs), max(pushes, key=abs)
+    b = float(np.linalg.norm(field))
     curves = [(push, departure(inertia, field, push, reach)) for push in pushes]
     farthest = float(dict(curves)[smallest][:, 1].max())
-    layers = (
-        Curve(np.array([[0.0, 2.0], [reach, 2.0]]), "limit"),
-        Label(np.array([0.0, 2.0]), "upside down", "note", (6.0, -6.0)),
-        *(Curve(points, role, rf"$s={tex(push)}$") for role, (push, points) in zip(ROLES, curves, strict=False)),
-    )
+    drawn = [(role, rf"$s={tex(push)}$", push, points) for role, (push, points) in zip(ROLES, curves, strict=False)]
+    in_time = [Curve(points[1:] * (b / abs(push), 1.0), role, name) for role, name, push, points in drawn]
+    in_turns = [Curve(points, role, name) for role, name, _, points in reversed(drawn)]  # the least push on top
+    over_time, over_turns = (0.01 * reach * b / abs(largest), reach * b / abs(smallest)), (0.0, reach)
     return Scene(
         caption=(
-            rf"How far the field in the body is from where it was, for a body with $I_i={tex_vector(inertia)}$ at rest "
-            rf"in $\mathbf{{B}}'={tex_vector(field)}$ that is pushed about $\mathbf{{e}}_2$ with the angular "
-            rf"velocities $s$, against $st$: the curves of small pushes are one. With ${tex(smallest)}$ it reaches "
-            rf"${tex(round(farthest, 2))}$."
+            r"A body at rest that is pushed turns over: a small push makes it later (a), but not less far (b), where "
+            r"against the push times the time the curves of small pushes are one. Drawn is how far the field in the "
+            rf"body is from where it was, for $I_i={tex_vector(inertia)}$ at rest in "
+            rf"$\mathbf{{B}}'={tex_vector(field)}$, $b=\lvert\mathbf{{B}}'\rvert$, pushed about $\mathbf{{e}}_2$ with "
+            rf"the angular velocities $s$. With ${tex(smallest)}$ it reaches ${tex(round(farthest, 2))}$."
         ),
         alt=(
-            f"Curves of a distance against the push times the time, for pushes {', '.join(map(plain, pushes))}: those "
-            f"of small pushes are one curve, which rises from 0 to {plain(round(farthest, 2))}."
+            f"Curves of a distance for pushes {', '.join(map(plain, pushes))}, in two panels: against the time, where "
+            "those of small pushes rise later, and against the push times the time, where they are one curve, which "
+            f"rises from 0 to {plain(round(farthest, 2))}."
         ),
         panels=(
-            Plane(layers, "$st$", r"$|\mathbf{K}-\mathbf{B}'|/b$", (0.0, reach), (0.0, 2.1), legend=True),
+            panel("(a) over the time", "$bt$", over_time, in_time, log=True),
+            panel("(b) over push times time", "$st$", over_turns, in_turns, log=False),
         ),
+        columns=2,
         size=(WIDTH, HEIGHT),
-    )  # fmt: skip
+    )
+
+
+def panel(title: str, x_label: str, view: tuple[float, float], curves: list[Curve], *, log: bool) -> Plane:
+    """Return the distances over one measure of time, with that of a body that is turned upside down."""
+    top = Curve(np.array([[view[0], 2.0], [view[1], 2.0]]), "limit")
+    name = Label(np.array([view[0], 2.0]), "upside down", "note", (6.0, -6.0))
+    scale: Literal["log", "linear"] = "log" if log else "linear"
+    y_label = r"$|\mathbf{K}-\mathbf{B}'|/b$"
+    return Plane((top, name, *curves), x_label, y_label, view, (0.0, 2.1), scale, legend=not log, title=title)
 
 
 def departure(

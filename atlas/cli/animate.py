@@ -72,6 +72,8 @@ def command(
         moving = animation.animate(name, *moves, fps=fps, style=style, progress=tell, **parameters)
         animation.save(moving, file, kind, fps, dpi)
     click.echo(file)
+    if moving.jumps:
+        click.echo(f"{file}: the motion does not end as it began, so that it jumps where it is repeated.", err=True)
 
 
 def through(text: str) -> tuple[str, list[Any]]:

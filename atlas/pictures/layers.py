@@ -197,10 +197,11 @@ def frame(space: Space) -> FloatArray:
 
 def seen(space: Space) -> FloatArray:
     """Return all the points (N, 3) of a panel that must be seen. Raises AtlasError for a layer without a depth."""
-    return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in _points_of(layer)])
+    return np.concatenate([np.reshape(points, (-1, 3)) for layer in space.layers for points in points_of(layer)])
 
 
-def _points_of(layer: Layer) -> Iterator[FloatArray]:
+def points_of(layer: Layer) -> Iterator[FloatArray]:
+    """Yield the points of a layer in space, or of curves and points in a plane; AtlasError for areas of a plane."""
     if isinstance(layer, Curve | Points):
         yield layer.points
     elif isinstance(layer, Arrow):

@@ -1,10 +1,15 @@
 """A scene at another time: the layers that ride on a path are moved as it says."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from atlas.pictures.layers import FloatArray, Layer, Scene, moved
+from atlas.motions.base import Motion
+from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, moved, points_of
+
+SEAM = 0.01
+"""Distance, in units of the extent of what moves, below which the seam of a loop is not seen."""
 
 
 def scene_at(scene: Scene, t: float) -> Scene:
@@ -28,6 +33,11 @@ def about(centre: FloatArray, turns: FloatArray) -> tuple[FloatArray, FloatArray
     return turns, centre - turns @ centre
 
 
+def turned(motion: Motion[Any], start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how a body about a centre (3,) goes on from the time ``start`` of its motion, at which it is drawn."""
+    return about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
+
+
 def along(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the rigid motions of what goes from a place (D,) to others (N, D), and does not turn."""
     return np.broadcast_to(np.eye(len(start)), (*places.shape, len(start))), places - start
@@ -36,3 +46,19 @@ def along(places: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray
 def riding(layers: list[Layer], path: str) -> list[Layer]:
     """Return layers that ride on a path."""
     return [replace(layer, rides=path) for layer in layers]  # type: ignore[arg-type]  # no map or region rides
+
+
+def closes(scene: Scene) -> bool:
+    """Return whether all that rides is back where it began at the end, within `SEAM` of its extent in each panel."""
+    end = scene_at(scene, scene.lasts)
+    for before, after in zip(map(_riders, scene.panels), map(_riders, end.panels), strict=True):
+        if np.abs(after - before).max(initial=0.0) > SEAM * np.ptp(before, axis=0).max(initial=0.0):
+            return False
+    return True
+
+
+def _riders(panel: Panel) -> FloatArray:
+    """Return the points (N, 2) or (N, 3) of a panel that ride on a path."""
+    flat = 2 if isinstance(panel, Plane) else 3
+    found = [points for layer in panel.layers if getattr(layer, "rides", "") for points in points_of(layer)]
+    return np.concatenate([np.empty((0, flat)), *(np.reshape(points, (-1, flat)) for points in found)])

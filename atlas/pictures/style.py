@@ -5,8 +5,8 @@ top, plum an angular velocity and all that is made of such (the hyperbola of the
 the body's axis R_3 and what it draws, pale blue R_1, teal the path of a particle or of a point, vermilion instability,
 brown the body, charcoal the first of several plotted lines; where bodies are compared, the loop is magenta, the short
 solenoid petrol, the ball olive, the long one umber. A diamond is the motion -2 B', a cross an unstable one.
-Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
-panel, their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
+In grey print lines that meet in a panel differ in lightness, dashes or width; vectors have names. Widths, marker sizes
+and tubes are in printer's points.
 """
 
 from collections.abc import Mapping
@@ -140,7 +140,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "surface": Style("#4f8fd0", fill=0.30, back="#f0b25c", glass=0.40),
         # a scale, from little to much, of a rate on a surface
         **{
-            f"rate_{k}": Style(colour, fill=0.88, back=colour, glass=0.80)
+            f"rate_{k}": Style(colour, fill=0.97, back=colour, glass=0.97)
             for k, colour in enumerate(("#f7efdc", "#eed3a4", "#dfa870", "#c4764d", "#9a4334"))
         },
         "sphere": Style("#9fb6cf", fill=0.22, back="#c9d3de"),

@@ -15,7 +15,7 @@ from pypdf import PdfReader
 
 import atlas
 from atlas import AtlasError, gl
-from atlas.pictures import Curve, Image, Plane, Scene, recipes
+from atlas.pictures import Curve, Image, Plane, Points, Scene, recipes
 from atlas.pictures.drawing import context, save, to_figure
 from atlas.pictures.drawing.style import style_of
 from atlas.pictures.drawing.text import typeset
@@ -282,6 +282,36 @@ def test_lines_that_are_components_keep_apart_in_grey() -> None:
     light = [lab(((np.array(mpl.colors.to_rgb(look.colour)) + 0.055) / 1.055) ** 2.4)[0] for look in looks]
     for (a, one), (b, other) in combinations(zip(light, looks, strict=True), 2):
         assert abs(a - b) > 15.0 or one.dash != other.dash
+
+
+def test_the_key_to_the_colours_holds_in_grey_print() -> None:
+    """Two lines in a column of figure colours differ by 8 in lightness, or in width or dashes; all marks in shape."""
+    (panel,) = recipes.load("colours").scene().panels
+    columns: dict[float, list[tuple[float, float, tuple[float, ...]]]] = {}
+    with context():
+        for layer in panel.layers:
+            if isinstance(layer, Curve):
+                look = style_of(layer.role)
+                light = lab(((np.array(mpl.colors.to_rgb(look.colour)) + 0.055) / 1.055) ** 2.4)[0]
+                columns.setdefault(round(float(layer.points[0, 1]), 6), []).append((light, look.width, look.dash))
+    assert sorted(map(len, columns.values())) == [3, 4, 6]
+    for column in columns.values():
+        for one, other in combinations(column, 2):
+            assert abs(one[0] - other[0]) > 8.0 or abs(one[1] - other[1]) > 0.25 or one[2] != other[2], (one, other)
+    marks = [STYLES[layer.role] for layer in panel.layers if isinstance(layer, Points)]
+    assert len({(look.marker, look.colour == "#ffffff") for look in marks}) == len(marks) == 4
+
+
+def test_the_key_of_a_tinted_surface_holds_on_both_sides() -> None:
+    """Of a rate on the ribbon the key, the outside and the inside have one colour, to 0.06 of its opacity."""
+    with context():
+        (axes,) = to_figure(recipes.load("ribbon").scene()).axes
+        for k in range(5):
+            colour = mpl.colors.to_rgb(STYLES[f"rate_{k}"].colour)
+            areas = [one for one in axes.patches if one.get_facecolor()[:3] == colour]
+            drawn = [one.get_alpha() for one in areas]
+            assert len(drawn) > 4
+            assert min(drawn) > max(drawn) - 0.06
 
 
 def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:

@@ -113,9 +113,9 @@ def test_the_pixels_of_a_map_are_the_rows_of_the_sweep_beside_it(
 
 
 def stability(tables: list[Any]) -> list[Any]:
-    """Return the rate of growth where some motions are unstable, and the frequency elsewhere."""
-    growth, frequency = (np.array(table["least_stability"], dtype=float) for table in tables)
-    return [np.sqrt(np.where(square < 0, np.nan, square)) for square in (-growth, frequency)]
+    """Return the least frequency where all motions are stable, and less the rate of growth elsewhere."""
+    square = np.array(tables[0]["least_stability"], dtype=float)
+    return [np.where(square < 0, -1.0, 1.0) * np.sqrt(np.abs(square))]
 
 
 def swings(tables: list[Any]) -> list[Any]:

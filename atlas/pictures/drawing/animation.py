@@ -74,9 +74,13 @@ class Frames:
 
 
 class Moving(FuncAnimation):
-    """An animation that shows itself in a notebook, as a GIF: Matplotlib's own player asks a foreign host for icons."""
+    """An animation that shows itself in a notebook, as a GIF: Matplotlib's own player asks a foreign host for icons.
+
+    `jumps` tells whether it is known that the last frame does not lead back to the first.
+    """
 
     fps = FPS
+    jumps = False
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         """Return all frames as one picture."""
@@ -115,7 +119,7 @@ def animation(
     fps: float = FPS,
     style: Any = None,
     progress: Progress = lambda _done, _total, _what: None,
-) -> FuncAnimation:
+) -> Moving:
     """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
     if not 2 <= count <= MAX_FRAMES:
         raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
@@ -127,7 +131,7 @@ def animation(
     return moving
 
 
-def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> FuncAnimation:
+def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> Moving:
     """Matplotlib animation of a recipe's figure over one parameter, or over the time t.
 
     Parameters
@@ -144,7 +148,7 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
     Returns
     -------
     matplotlib.animation.FuncAnimation
-        ``.save("x.gif")`` writes a file.
+        ``.save("x.gif")`` writes a file; ``jumps`` is true where a figure's motion does not end as it began.
 
     Raises
     ------
@@ -158,7 +162,9 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
     recipe = recipes.load(name)
     if over == "t" and "t" not in recipe.parameters:
         scene = recipe.scene(**parameters)
-        return animation(*_in_time(scene, recipe, values), **options)
+        moving = animation(*_in_time(scene, recipe, values), **options)
+        moving.jumps = values is None and not movement.closes(scene)
+        return moving
     if values is None:
         raise AtlasError(f"say through which values {over} goes")
     if over in parameters:

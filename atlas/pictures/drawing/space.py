@@ -92,7 +92,7 @@ class _Drawing:
             self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
 
     def surface(self, surface: Surface) -> None:
-        """Tint the two sides, then draw silhouette, edges and wires.
+        """Tint the two sides, the far parts below the near ones, then draw silhouette, edges and wires.
 
         Of an opaque surface, a piece of a convex body, only the near part is drawn, its inner side below all else.
         """
@@ -101,7 +101,8 @@ class _Drawing:
         parts = [area for area in areas(surface, view.towards) if area[0] or not opaque]
         for near, outer, edge in parts:
             colour = look.colour if outer or not look.back else look.back
-            self._area(edge, colour, look.fill if near else 0.5 * look.fill, _TINT if outer or not opaque else _INSIDE)
+            opacity = look.fill * (1.0 if near else max(0.5, look.fill))  # so that a dense tint is the same inside
+            self._area(edge, colour, opacity, _TINT if near and (outer or not opaque) else _INSIDE)
         if not opaque or any(outer for _, outer, _ in parts):
             light = _LIGHT @ view.frame
             for edge, shade in zip(shadows(surface, view.towards, light, _LEVELS), cycle(_SHADES), strict=False):
