@@ -101,7 +101,7 @@ for (
     holds(existsSync(file), query, "leads to a page that is there:", href);
   }
 }
-for (const query of ["equation 72", "eq. 72", "(72)"]) {
+for (const query of ["equation 72", "eq. 72", "(72)", "72"]) {
   holds((await hits(page, query))[0].title.includes("(72)"), query, "is that equation first");
 }
 const across = (await hits(page, "slips found in the paper")).filter(({ href }) =>

@@ -9,14 +9,23 @@ from collections.abc import Callable
 from typing import Any
 
 from atlas.motions.elementary import formula_hyperbola as hyperbola
+from atlas.motions.nutation.rows_roots import from_start
 from atlas.pictures.style import STYLES
 from atlas.places import folder
 from atlas.surfaces import formula as quadric
+
+
+def nutation(_: Any, I: Any, B2: Any, B3: Any, *omega: Any) -> tuple[Any, ...]:
+    """Return the coefficients of (dOmega3/dt)^2 in Omega3 - omega3, the constant one first."""
+    momenta = (omega[1] + B2, I * (omega[2] + B3))
+    return from_start(I, (B2, B3), omega, momenta, (1, 1), I - 1)
+
 
 FORMULAS: dict[str, tuple[Callable[..., Any], str]] = {
     "ordinate": (hyperbola.ordinate, "I B2 B3 omega2"),
     "frequencies": (hyperbola.frequencies, "I B2 B3 omega2"),
     "stability": (hyperbola.stability, "I B2 B3 omega2"),
+    "nutation": (nutation, "I B2 B3 omega1 omega2 omega3"),
     "closing": (hyperbola.closing, "I B2 B3 r"),
     "residual": (quadric.residual, "I B2 B3 omega1 omega2 omega3"),
     "halfAngle": (quadric.half_angle, "I B2 B3"),
@@ -60,12 +69,19 @@ class Term:
     def __truediv__(self, other: Any) -> "Term":
         return self._named(f"{self} / {other}")
 
+    def __neg__(self) -> "Term":
+        return self._named(f"-{self}")
+
     def __abs__(self) -> "Term":
         return self._named(f"Math.abs({self})")
 
     def sqrt(self) -> "Term":
         """Return the root."""
         return self._named(f"Math.sqrt({self})")
+
+    def scaled(self, power: int) -> "Term":
+        """Return the product with a power of two."""
+        return self._named(f"{self} * {2**power}")
 
     def select(self, positive: Any, other: Any) -> "Term":
         """Return `positive` where this term is, else the other."""

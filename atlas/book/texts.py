@@ -34,6 +34,8 @@ _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 """Where in a node of a tree its attributes are."""
 
 
+_APOSTROPHE = re.compile(r"(?<=[a-z])'")
+"""In a title a straight apostrophe behind a small letter; behind a capital it is a prime, as in B'."""
 _FORMULA = re.compile(r"((?<!\\)\$(?=\S)[^$]+(?<=\S)\$(?!\d))")
 """A formula of a title, as pandoc finds it."""
 
@@ -153,13 +155,13 @@ def deepest(markdown: str) -> int:
 
 def title(text: str) -> str:
     """Return a title as Markdown: its formulas are set, and all else in it is plain words."""
-    words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(text)
+    words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(_APOSTROPHE.sub("’", text))
     return "".join(part if k % 2 else re.sub(words, r"\\\1", part) for k, part in enumerate(formulas))
 
 
 def title_words(text: str) -> str:
     """Return a title in plain words, for bookmarks and navigation."""
-    return _FORMULA.sub(lambda formula: plain_words(formula[1]), text)
+    return _FORMULA.sub(lambda formula: plain_words(formula[1]), _APOSTROPHE.sub("’", text))
 
 
 def citations(markdown: str) -> list[str]:

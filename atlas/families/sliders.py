@@ -45,7 +45,7 @@ def letters(name: str) -> str:
     """Return a name as the atlas writes it: omega2 is ω₂, ratio I, field.1 B₂; other words stay."""
     name = {"ratio": "I", "field.1": "B2", "field.2": "B3"}.get(name, name)
     stem, _, index = re.sub(r"(?<=\D)\.?(\d*)$", r" \1", name).partition(" ")
-    greek = {"omega": "ω", "Omega": "Ω", "phi": "φ", "mu": "μ", "nu": "ν", "beta": "β", "gamma": "γ"}
+    greek = {"omega": "ω", "Omega": "Ω", "phi": "ϕ", "mu": "μ", "nu": "ν", "beta": "β", "gamma": "γ"}
     if stem not in greek and len(stem) != 1:
         return name
     return greek.get(stem, stem) + index.translate({ord("0") + i: 0x2080 + i for i in range(10)})

@@ -81,6 +81,33 @@
       return step(made[whole], t - whole * h);
     };
   };
+  // The real roots between two places of a polynomial, the constant coefficient first: between the
+  // roots of its slope it has at most one, which is halved in as far as doubles go.
+  const roots = (c, low, high) => {
+    const value = (x) => c.reduceRight((sum, one) => sum * x + one, 0), HALVINGS = 80;
+    if (c.length < 2) return [];
+    const ends = [low, ...roots(c.slice(1).map((one, i) => (i + 1) * one), low, high), high];
+    return ends.slice(1).flatMap((end, i) => {
+      let [from, to] = [ends[i], end];
+      const above = value(from) > 0;
+      if (above === value(to) > 0) return [];
+      for (let n = 0; n < HALVINGS; n += 1) {
+        const middle = (from + to) / 2;
+        if (above === value(middle) > 0) from = middle;
+        else to = middle;
+      }
+      return [to];
+    });
+  };
+  // The least and the largest Omega3, theorem-quartic: at the start the square of its rate is
+  // positive, or it stands there at one end. None is beyond the poles, where the axis is along B.
+  const turning = (I, B2, B3, omega) => {
+    const c = formulas.nutation(I, B2, B3, ...omega), b = norm(B2, B3), rests = !c[0];
+    const rest = rests ? c.slice(1) : c, sense = rests ? Math.sign(rest[0]) : 0;
+    const low = sense > 0 ? 0 : roots(rest, B3 - b, 0).at(-1) ?? B3 - b,
+      high = sense < 0 ? 0 : roots(rest, 0, B3 + b)[0] ?? B3 + b;
+    return [low, high].map((v) => omega[2] + (rests && !sense ? 0 : v));
+  };
   const matrix = (y) => [y.slice(3, 6), y.slice(6, 9), y.slice(9)];
   // The square of dOmega3/dt at nu, the cosine between axis and field, of motions with the momenta
   // of this one and an energy h, with its own energy and c3 = Omega3 + b nu; and the potential,
@@ -131,10 +158,23 @@
     }
     return [best, gap(best)];
   };
-  root.atlasMotion = { motion, rotation, quadric, kind, closed, course, portrait, rate, beside };
+  root.atlasMotion = {
+    motion,
+    rotation,
+    quadric,
+    kind,
+    closed,
+    course,
+    portrait,
+    rate,
+    beside,
+    turning,
+  };
   if (!root.document || !root.atlasViewer) return;
 
   const SCALE = 0.11,
+    TRACE_STEP = 0.1, // radians, of which the corners are a tenth of a pixel
+    MOST_STEPS = 1500,
     REACH = 0.42,
     TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
   const frame = (azimuth, elevation) => {
@@ -154,6 +194,8 @@
     const [front, , back, glass] = looks[role];
     return [form, planes, [], front, back, glass, Array(3).fill(-reach), Array(3).fill(reach)];
   };
+  const sampled = (low, high, count, f) =>
+    Array.from({ length: count + 1 }, (_, i) => f(low + (high - low) * i / count));
   const circle = (middle, a, b, radius, from = 0, to = 2 * Math.PI) =>
     Array.from({ length: 73 }, (_, i) => {
       const w = from + (to - from) * i / 72;
@@ -230,7 +272,7 @@
   };
   // In space: a cylindrical shell with this I, its axis, and the trace of that over a span of time,
   // gone by and to come.
-  const body = ({ I, B2, B3, at, span }, t) => {
+  const body = ({ I, B2, B3, at, span, fast }, t) => {
     const panel = empty(20, 15),
       R = at(t),
       [a, b, n] = [0, 1, 2].map((j) => R.map((row) => row[j])),
@@ -253,9 +295,11 @@
       gone = Math.min(t, span),
       rod = 0.46,
       trace = (from, to) =>
-        Array.from(
-          { length: 145 },
-          (_, i) => at(from + (to - from) * i / 144).map((row) => rod * row[2]),
+        sampled(
+          from,
+          to,
+          Math.min(MOST_STEPS, Math.ceil((to - from) * fast / TRACE_STEP) + 1),
+          (s) => at(s).map((row) => rod * row[2]),
         );
     panel.lines.push(["#b9c7e2", 1.6, trace(t, t + span)]); // what is to come is paler
     if (gone) panel.lines.push(stroke("trace", trace(t - gone, t)));
@@ -307,8 +351,6 @@
 
   // What is drawn in a plane: {x, y: [low, high, letters], lines: [class, points], dots: [class, x,
   // y], words: [x, y, letters]}.
-  const sampled = (low, high, count, f) =>
-    Array.from({ length: count + 1 }, (_, i) => f(low + (high - low) * i / count));
   const places = (
     { x, y },
   ) => [
@@ -388,7 +430,7 @@
       const { I, B2, B3, omega } = state,
         m = motion(I, B2, B3, omega[1]),
         nutation = (m) => Math.sqrt(Math.max(m.stability, 0)),
-        kinds = [["k", "second", (m) => m.k], ["φ", "main", (m) => m.phi], [
+        kinds = [["k", "second", (m) => m.k], ["ϕ", "main", (m) => m.phi], [
           "νₙ",
           "third",
           nutation,
@@ -521,14 +563,14 @@
           state: moved,
           at: (t) => rotation(B2, B3, k, spin, t),
           span: 2 * Math.PI * value("q", 1) / Math.abs(k || 1),
+          fast: Math.abs(k),
           says: `${kind(I)}; ω₂ = ${DIGITS(omega2)}, ω₃ = ${DIGITS(omega3)}, k = ${
             DIGITS(k)
-          }, φ = ${DIGITS(phi)}; ${stability > 0 ? "stable" : "unstable"}`,
+          }, ϕ = ${DIGITS(phi)}; ${stability > 0 ? "stable" : "unstable"}`,
           command: `atlas motion ${field} --omega2 ${omega2}`,
         };
       }
-      const swing = sampled(0, 4 * AHEAD, 400, (t) => moved(t)[2]),
-        [low, high] = [Math.min(...swing), Math.max(...swing)].map(DIGITS);
+      const [low, high] = turning(I, B2, B3, omega).map(DIGITS);
       return kept = {
         key,
         I,
@@ -539,6 +581,7 @@
         state: moved,
         at: (t) => matrix(moved(t)),
         span: AHEAD,
+        fast: norm(omega[0], omega[1], Math.sqrt(I) * omega[2]), // the axis never goes faster, by (36)
         says: `off the hyperbola: the axis nutates, Ω₃ swings from ${low} to ${high}`,
         command: `atlas motion ${field} --omega ${omega.join(" ")}`,
       };

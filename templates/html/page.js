@@ -90,7 +90,8 @@ const GREEK = {
   ω: "omega",
 };
 const plain = (text) =>
-  text.normalize("NFKD").replace(/[\u0300-\u036f'′_{}$\\]/g, "").replace(/[−–]/g, "-").toLowerCase()
+  text.normalize("NFKD").replace(/[\u0300-\u036f'’′_{}$\\]/g, "").replace(/[−–]/g, "-")
+    .toLowerCase()
     .replace(/[α-ωϑϕϵ]/g, (letter) => GREEK[letter] ?? letter).replace(/\s*([=<>≤≥≈≠])\s*/g, "$1");
 // A word, and of a formula its pieces too; a number in brackets is that of an equation and stays
 // whole.
@@ -156,8 +157,8 @@ const engine = () => (search ??= sections().then((rows) => {
   ); // without arguments
   return made;
 }));
-// "Equation 84" is (84). Words with a slip are found where there is none as typed; where no place
-// has all the words, those that have most, but for words that any sentence has.
+// "Equation 84", and 84 by itself, is (84). Words with a slip are found where there is none as typed;
+// where no place has all the words, those that have most, but for words that any sentence has.
 const EQUATION = /\b(?:eq|eqs|eqn|equations?)\b\.?\s*\(?(\d{1,3})\b\)?/gi,
   COMMON = new Set(
     ("a an and can do does for from get how i in is it make my of on own the to what where which " +
@@ -169,10 +170,9 @@ const SOME = {
 };
 const find = (made, words) => {
   const asked = words.replace(EQUATION, "($1)");
-  return [{ fuzzy: false }, {}, SOME].reduce(
-    (hits, options) => hits.length ? hits : made.search(asked, options),
-    [],
-  );
+  const number = asked.replace(/^\d{1,3}$/, "($&)");
+  const tries = [[number, { fuzzy: false }], [asked, {}], [asked, SOME]];
+  return tries.reduce((hits, one) => hits.length ? hits : made.search(...one), []);
 };
 const look = async () => {
   const asked = box.value.trim(), made = await engine();

@@ -117,6 +117,23 @@ def test_courses_of_the_script_are_general_motions() -> None:
 
 
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_turning_points_of_the_script_are_proven_ones() -> None:
+    """From anywhere, from a turning point, from next to the hyperbola: within 1e-9 of what the kernel proves."""
+    random, given = np.random.default_rng(61), [(1.5, (1.0, 2.0), (0.0, 0.7, 0.2)), (1.0, (1.0, 2.0), (0.3, 0.7, 0.2))]
+    for k in range(200):
+        I, angle = random.uniform(0.05, 2.0), random.uniform(0.02, 1.55)
+        B2, B3 = (np.sqrt(5.0) * np.array([np.cos(angle), np.sin(angle)])).tolist()
+        w1, w2, w3 = random.uniform(-3.0, 3.0, 3).tolist()
+        w3 = float(Hyperbola(I, (B2, B3)).omega3(w2)) + 1e-3 if k % 4 == 0 else w3
+        given.append((I, (B2, B3), (0.0 if k % 3 == 0 else w1, w2, w3)))
+    program = "({turning}) => given.map(([I, B, omega]) => turning(I, ...B, omega))"
+    found = run(f"console.log(JSON.stringify(({program})(globalThis.atlasMotion)));", given)
+    for (I, field, omega), ends in zip(given, found, strict=True):
+        true = GeneralMotion(I, field, omega).turning_points
+        assert np.abs(np.array(ends) - true).max() <= 1e-9 * (1.0 + np.abs(true).max()), (I, field, omega)
+
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_fractions_of_the_script_are_closed_motions() -> None:
     """Their omega2 is that of `Hyperbola.closed`."""
     asked = [(I, 1.0, 0.7, p, q) for I in (0.5, 1.5) for p, q in ((1, 2), (-2, 3), (3, 5), (0, 1))]

@@ -8,7 +8,7 @@ import click
 import pytest
 from lxml import html as reader
 
-from atlas.book import html
+from atlas.book import html, texts
 from atlas.book.blocks.figure import Picture
 from atlas.book.compose import compose
 from atlas.book.html import sections as rows_of
@@ -104,6 +104,12 @@ def test_a_table_is_found_by_its_number_whatever_follows_it() -> None:
     rows = {anchor: (title, text) for _, anchor, title, text in rows_of("index.html", "1 First", page)}
     assert rows["tab-a"] == ("Table 3 — 1 First", "Table 3. Slips. many words Sign text")
     assert rows["b"] == ("Next — 1 First", "Next more")
+
+
+def test_titles_have_the_apostrophes_of_print() -> None:
+    """Behind a small letter one is curved, in headings and in navigation; a prime stays one."""
+    assert texts.title_words("The bodies' own B' and Larmor's $B'_2$") == "The bodies’ own B' and Larmor’s B'_2"
+    assert texts.title("Larmor's $B'_2$, or B'") == r"Larmor’s $B'_2$\, or B\'"
 
 
 def test_the_search_box_needs_no_network(made: dict[str, str]) -> None:

@@ -23,6 +23,7 @@ from atlas.arithmetic.double_double import (
     stacked,
 )
 from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import Number
 from atlas.arithmetic.words import words
 from atlas.lazy import cached_property
 
@@ -184,24 +185,37 @@ def roots_of(
     """
     I, less = I3 / I2, (I2 - I3) / I2
     (n2, n3), (w1, w2, w3), (across, along) = n, omega, couplings
-    square, rest = n2 * n2, across * n2
-    c3, M2, rate = w3 + along * n3, w2 + rest, w1 * n2
-    M3 = I * c3
-    A, a = (top.A, top.linear + M3 * top.kappa) if top else (-less, None)
-    bend = A * n3
+    square, c3, M2, rate = n2 * n2, w3 + along * n3, w2 + across * n2, w1 * n2
+    A, a = (top.A, top.linear + I * c3 * top.kappa) if top else (-less, None)
+    q = from_start(I, n, omega, (M2, I * c3), couplings, A, a, top)
+    b = (square + n3 * n3).sqrt()
+    poles = poles_of(n3, square, b)
+    still = q[0].hi == 0
+    known = np.broadcast_to(q[1].rel, q[1].hi.shape) < 0.5
+    low, high, f = turning(q, poles)
+    steady, moving = still & (q[1].hi == 0) & known, ~still | ((q[1].hi != 0) & known)
+    frame = across * b
+    return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, plane, steady, moving)
+
+
+def from_start(
+    I: Number,
+    n: Sequence[Number],
+    omega: Sequence[Number],
+    momenta: Sequence[Number],
+    couplings: Sequence[Number],
+    A: Number,
+    a: Number | None = None,
+    top: Any = None,
+) -> tuple[Number, ...]:
+    """Return the coefficients of Q(v), the constant one first, see `roots_of`; `momenta` are M2 and M3."""
+    (n2, n3), (w1, w2, w3), (M2, M3), (across, along) = n, omega, momenta, couplings
+    square, rest, rate, bend = n2 * n2, across * n2, w1 * n2, A * n3
     q1 = n3 * (w1 * w1 + w2 * (M2 + rest)) - I * n2 * (w3 * (w2 + along * n2) + along * w2 * n3)
     if top:
         q1 = q1 + square * (top.linear + top.quadratic * n3)
     q2 = w1 * w1 + M2 * M2 + A * square + M3 * M3 - (plus(a, bend) * n3).scaled(2)
-    q = rate * rate, q1.scaled(1), -q2, -plus(a, bend.scaled(1)).scaled(1), A
-    b = (square + n3 * n3).sqrt()
-    poles = poles_of(n3, square, b)
-    still = q[0].hi == 0
-    known = np.broadcast_to(q1.rel, q1.hi.shape) < 0.5
-    low, high, f = turning(q, poles)
-    steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
-    frame = across * b
-    return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, plane, steady, moving)
+    return rate * rate, q1.scaled(1), -q2, -plus(a, bend.scaled(1)).scaled(1), A
 
 
 def in_plane(
@@ -226,7 +240,7 @@ def poles_of(along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> Doub
     return stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer))
 
 
-def plus(x: DoubleDouble | None, y: DoubleDouble) -> DoubleDouble:
+def plus(x: Number | None, y: Number) -> Number:
     """Return a sum whose first term may not be there."""
     return y if x is None else x + y
 
