@@ -29,7 +29,7 @@ WANTED: dict[str, str | tuple[str, ...]] = {
     "radius": "m", "height": "m", "equatorial": "m", "polar": "m", "position": "m", "velocity": "m/s", "mass": "kg",
     "charge": "C", "mu": "C/kg", "magnetic": "T", "electric": "V/m", "momentum": "kg m2/s", "times": "s", "grid": "s",
     "predict": "s", "epoch": "s",
-    "inertia": "kg m2", "tensor": "kg m2", "density": "kg/m3", "angle": "rad", "heavy": ("m/s2", "m"),
+    "inertia": "kg m2", "tensor": "kg m2", "density": "kg/m3", "angle": "rad", "sigma": "rad", "heavy": ("m/s2", "m"),
     "coupling": "kg m2/s", "linear": "J", "quadratic": "J", "charged": "C m2", "moment": "A m2",
     "polarizability": "A m2/T",
 }  # fmt: skip
@@ -54,6 +54,7 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
     Raises AtlasError for a unit that there is not, or of another quantity.
     """
     factor, powers = _parsed(unit)
+    option = "omega" if option == "sigma" and powers["s"] else option  # a standard error of rates
     units = WANTED.get(option, ())
     known = (units,) if isinstance(units, str) else units
     wanted = _parsed(known[min(place, len(known) - 1)])[1] if known else None
@@ -73,9 +74,9 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
 
 
 def heading(cell: str) -> tuple[str, str]:
-    """Return name and unit of a column, t and s of t [s]; the unit is empty where there is none."""
-    name, _, unit = cell.partition("[")
-    return name.strip(), unit.strip(" ]")
+    """Return name and unit of a column, t and s of t [s] or t (s); the unit is empty where there is none."""
+    name, _, unit = cell.replace("(", "[").partition("[")
+    return name.strip(" \t\"'\N{NO-BREAK SPACE}"), unit.strip(" \"')]").replace("\N{DEGREE SIGN}", "deg")
 
 
 @cache

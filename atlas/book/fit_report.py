@@ -110,8 +110,8 @@ class Fitted:
             "title": self.title or f"The motion in {self._file}",
             "subtitle": f"{self.fit.family} motion, {self.fit.t.size} times of {self.fit.kind.replace('_', ' ')}",
             "abstract": "Errors are standard errors, of first order. The numbers of a fit are estimates: no digit is "
-            "proven. Times are in the unit of the file, in s if its heading has one, moments of inertia in that of "
-            "$I_2$.",
+            f"proven. Times are in {'s' if self.fit.time_unit == 's' else 'the unit of the file'}, moments of inertia "
+            "in that of $I_2$.",
             "parameters": {kind: {name: record} for kind, name, record in records if record},
             "pages": [{"slug": "index", "title": "Fit", "blocks": blocks}],
         }  # fmt: skip
@@ -131,6 +131,7 @@ class Fitted:
             ("What speaks against this motion:", fit.warnings),
             ("What the data do not determine:", fit.undetermined),
             ("Alternatives:", fit.others),
+            ("Left out of the file:", fit.notes),
         ):
             lines += ["", head, "", *(f"- {_marked(sentence)}" for sentence in sentences)] if sentences else []
         return "\n".join(lines)
@@ -146,7 +147,7 @@ class Fitted:
                 if note == "fixed"
                 else "not determined"
             )
-            rows.append([f"`{name}`", what, number.replace("-", MINUS), unit])
+            rows.append([f"`{name}`", what, number.replace("-", MINUS), unit.replace("time", self.fit.time_unit)])
         return {
             "kind": "listing", "id": "parameters", "rows": rows, "columns": ["Name", "What it is", "Value", "Unit"],
             "caption": f"Parameters at the time {self.fit.epoch:g}, with their standard errors.",

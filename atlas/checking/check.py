@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, Required, TypedDict, Unpack, overload
+from typing import Any, Literal, Required, TypedDict, Unpack, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from atlas.checking.conserved import Drift, Drifts
 from atlas.checking.grades import LINES, MAX_DIGITS, Column, Envelope, Errors, Grade, inverse_fits
 from atlas.checking.order import Convergence, convergence
 from atlas.checking.reference import OF_TOPS, reference
-from atlas.checking.trajectory import Trajectory, of_arrays, opened
+from atlas.checking.trajectory import Trajectory, holes_left_out, of_arrays, opened, whole_rows
 from atlas.checking.truth import truth_of
 from atlas.errors import AtlasError
 from atlas.pictures import Curve, Plane, Scene
@@ -29,7 +29,7 @@ class Check:
     else the mean distance of the times; ``end`` is the last of them. ``errors`` holds for R, Omega and quaternion the
     largest error of each ``rows_a_point`` rows that follow one another, ``times`` the time of the first of them: so few
     that a curve can be drawn through them. ``inverse`` says that the matrices or quaternions fail, and that those of
-    the inverse rotations would not.
+    the inverse rotations would not. ``notes`` are sentences on columns and rows that were left out.
     """
 
     file: str
@@ -46,6 +46,7 @@ class Check:
     inverse: bool
     step: float
     end: float
+    notes: tuple[str, ...] = ()
 
     @property
     def _title(self) -> str:
@@ -57,6 +58,7 @@ class Check:
         lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
         if self.drifts:
             lines += ["what should not change", table(*self.drift_table(), left=True)]
+        lines += map(printable, self.notes)
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -135,6 +137,7 @@ class _Options(TypedDict, total=False):
     scalar_first: bool
     step: Any
     threshold: float
+    nan_policy: Literal["omit", "raise"]
 
 
 @overload
@@ -153,6 +156,7 @@ def check(
     scalar_first: bool = False,
     step: Any = None,
     threshold: float = 6.0,
+    nan_policy: Literal["omit", "raise"] = "omit",
     **plural: Any,
 ) -> Check | Convergence:
     """Errors and correct digits of a trajectory computed elsewhere, against a certified motion.
@@ -176,6 +180,8 @@ def check(
         Steps of the integrator; by default the mean differences of the times.
     threshold : float
         Number of correct digits below which a column fails, from the first such row on.
+    nan_policy : {"omit", "raise"}
+        Whether rows that hold NaN are left out, which `notes` of the result count, or raise an error.
     **plural
         `rotations`, `quaternions`, `angular_velocities`: other names of the data.
 
@@ -216,9 +222,9 @@ def check(
         each: list[dict[str, Any]] = [
             {name: None if x is None else x[i] for name, x in runs.items()} for i in range(len(t))
         ]
-        more = {"motion": motion, "scalar_first": scalar_first, "threshold": threshold}
+        more = {"motion": motion, "scalar_first": scalar_first, "threshold": threshold, "nan_policy": nan_policy}
         return convergence([check(times, **(run | more)) for times, run in zip(t, each, strict=True)])
-    trajectory = of_arrays(t, columns, scalar_first=scalar_first)
+    trajectory = of_arrays(t, columns, scalar_first=scalar_first, nan_policy=nan_policy)
     if step is not None:
         trajectory = replace(trajectory, parameters={"step": (float(real(step, "step")),)})
     return _graded(trajectory, threshold, _arguments(motion))
@@ -277,8 +283,12 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
         _within(threshold, errors.floor)
     grades = [Grade(name, threshold, errors) for name in graded if errors]
     drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
-    first = last = 0.0
-    for block in trajectory.blocks:
+    first, last, holes = 0.0, 0.0, 0
+    for read in trajectory.blocks:
+        block, missing = whole_rows(read)
+        holes += missing
+        if not block["t"].size:
+            continue
         if errors:
             differences = errors.of_block(block)
             _within(threshold, errors.floor)
@@ -289,6 +299,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
         drifts.add(block)
         first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
         rows += len(block["t"])
+    notes = trajectory.left_out, holes_left_out(holes, rows, trajectory.file)
     if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.drifts()):
         raise AtlasError(
             f"{trajectory.file}: without a certified motion for this inertia tensor the integrals are all there is to "
@@ -310,6 +321,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
         inverse=inverse,
         step=trajectory.parameters.get("step", (abs(last - first) / max(rows - 1, 1),))[0],
         end=last,
+        notes=tuple(filter(None, notes)),
     )
 
 

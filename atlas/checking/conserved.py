@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.bodies import formula_integrals as formulas
-from atlas.checking.trajectory import MATRIX, OMEGA, QUATERNION
+from atlas.checking.headings import MATRIX, OMEGA, QUATERNION
 from atlas.checking.truth import long
 from atlas.motions.elementary.certified import ElementaryMotion
 from atlas.motions.nutation.certified_general import GeneralMotion

@@ -15,7 +15,7 @@ from atlas.arithmetic.certified_inputs import Real
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import workprec
 from atlas.arithmetic.quaternions import of_matrix
-from atlas.checking.trajectory import MATRIX, OMEGA, QUATERNION
+from atlas.checking.headings import MATRIX, OMEGA, QUATERNION
 from atlas.checking.truth import KernelTruth, Long, Truth, long
 from atlas.motions.nutation.certified_cayley_klein import quaternion
 

@@ -1,19 +1,21 @@
 """A user's trajectory from a CSV file: columns by name, parameters from lines that begin with #.
 
-Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega1`` to ``Omega3`` (in the body's frame);
-a quaternion that takes the body's frame to the laboratory, scalar first, as ``q0 q1 q2 q3``, ``w x y z`` or ``qw qx qy
-qz``. Names may have units, as ``t [ms]`` or ``Omega1 [Hz]``; times are then in s, rates in rad/s. Lines such as ``#
-ratio = 1.5`` and ``# field: 1 2`` above the rows hold parameters; other # lines are comments, and so is what follows a
-colon and does not begin with a number. The numbers are separated by commas, or by semicolons, tabs or spaces where the
-line of names has no comma. Rows are read in blocks, so that a file may be larger than the memory.
+Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega1`` to ``Omega3`` (in the body's frame),
+or a gyroscope's x, y, z; a quaternion that takes the body's frame to the laboratory, as ``w x y z``, ``qw qx qy qz``
+or, scalar first, ``q0 q1 q2 q3``; other columns are left out. Names may have units, as ``t [ms]`` or ``Omega1 (Hz)``;
+times are then in s, rates in rad/s. Lines such as ``# ratio = 1.5`` and ``# field: 1 2`` above the rows hold
+parameters; other # lines are comments, and so is what follows a colon and does not begin with a number. The numbers are
+separated by commas, or by semicolons, tabs or spaces where the line of names has no comma; an empty cell is NaN. Rows
+are read in blocks, so that a file may be larger than the memory.
 """
 
+import codecs
+import csv
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import islice
 from pathlib import Path
 from typing import Any, TextIO
@@ -22,9 +24,9 @@ import msgspec
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, real
-from atlas.errors import AtlasError
+from atlas.checking.headings import FIELD, MATRIX, OMEGA, QUATERNION, Heading, headed
+from atlas.errors import AtlasError, DomainError
 from atlas.files import lines_of
-from atlas.measured import WANTED, heading, size
 
 BLOCK = 8192
 """Lines read at once."""
@@ -46,72 +48,75 @@ PARAMETERS: Mapping[str, tuple[int, ...]] = {
 }
 """Parameters with the counts of numbers they may have: moments I2, I3, or I1, I2, I3, or J11 J22 J33 J12 J13 J23."""
 
-MATRIX = tuple(f"R{i}{j}" for i in "123" for j in "123")
-OMEGA = ("Omega1", "Omega2", "Omega3")
-QUATERNION = ("q0", "q1", "q2", "q3")
-FIELD = ("K1", "K2", "K3")
-"""The field along the axes of the body, which `atlas fit` reads beside."""
-OPTIONS = {"t": "times"} | dict.fromkeys(OMEGA, "omega") | dict.fromkeys(FIELD, "field")
-"""Options that have the units of columns, by name."""
-PLAIN = ("", "1", "time", "1/time")
-"""Units that are taken as they are."""
-EULER = ("roll", "pitch", "yaw", "phi", "theta", "psi")
-"""How names of Euler angles begin."""
-_OTHER_NAMES = dict(zip(("w", "x", "y", "z", "qw", "qx", "qy", "qz"), QUATERNION * 2, strict=True)) | {"time": "t"}
-NAMED = re.compile(r"# *(t|time)( *\[[^]]*\])?([\s,;]+(R_?\d\d|(Omega_?|K|q)\d|q?[w-z])( *\[[^]]*\])?)+", re.IGNORECASE)
+NAMED = re.compile(
+    r"# *(t|time)( *[\[(][^])]*[\])])?([\s,;]+(R_?\d\d|(Omega_?|K|q)\d|q?[w-z])( *[\[(][^])]*[\])])?)+", re.IGNORECASE
+)
 """The names of columns in a comment, as NumPy's savetxt writes them."""
-_NAMES = {name.lower(): name for name in ("t", *MATRIX, *OMEGA, *QUATERNION)} | _OTHER_NAMES
+
+
+HOLES = ("na", "n/a", "null", "none")
+"""What stands in cells without a number, beside NaN and nothing."""
+
+POLICIES = ("omit", "raise")
+"""What may be done with rows that lack a number."""
 
 
 @dataclass(frozen=True)
 class Trajectory:
     """A trajectory: where it is from, its columns as they were called, its parameters, and the rows, block by block.
 
-    The keys of `names` are canonical. Each block has a column (m,) for each; together they can be gone through once.
+    The keys of `names` are canonical. Each block has a column (m,) for each, NaN where a number is missing; together
+    they can be gone through once. `left_out` is a sentence on columns that are not used, `units` holds those of the
+    headings.
     """
 
     file: str
     names: Mapping[str, str]
     parameters: Mapping[str, tuple[float, ...]]
     blocks: Iterator[dict[str, FloatArray]]
+    left_out: str = ""
+    units: Mapping[str, str] | None = None
 
 
 @contextmanager
 def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
-    """Open a file and read what stands above its rows; with `fields` the columns K1 to K3 are known, too.
+    """Open a file and read what stands above its rows; with `fields` the columns K1 to K3 and sigma are known, too.
 
     Raises AtlasError, which names the line and the column, for what is not such a trajectory; the blocks do as well.
     """
     parameters: dict[str, tuple[float, ...]] = {}
-    with path.open(encoding="utf-8-sig") as file:
+    separator = ""
+    with path.open("rb") as raw:
+        encoding = "utf-16" if raw.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
+    with path.open(encoding=encoding, errors="atlas-latin-1", newline=None) as file:
         lines = _decoded(file, path.name)
-        for number, raw in enumerate(lines, 1):
-            line, where = raw.strip(), f"{path.name}, line {number}"
+        for number, raw_line in enumerate(lines, 1):
+            line, where = raw_line.strip(" \n"), f"{path.name}, line {number}"
             line = line.lstrip("# ") if NAMED.fullmatch(line) else line
             if line.startswith("#"):
                 for name, values in _parameters(line.lstrip("# "), where).items():
                     if parameters.setdefault(name, values) != values:
                         raise AtlasError(f"{where}: {name} is there twice, with other numbers.")
-            elif line:
-                separator = next((s for s in (",", ";", "\t") if s in line), None)
-                cells = line.split(separator) if separator else re.sub(r"\s+\[", "[", line).split()
-                titles = [heading(cell.strip(" \"'")) for cell in cells]
-                names = _header([name for name, _ in titles], where, FIELD if fields else ())
-                written = dict(zip(names, (name for name, _ in titles), strict=True))
-                sizes = {name: _size(name, unit, where) for name, (_, unit) in zip(names, titles, strict=True)}
-                blocks = _blocks(lines, number, written, sizes, separator, path.name)
-                yield Trajectory(path.name, written, parameters, blocks)
+            elif re.fullmatch("sep=.", line):
+                separator = line[-1]
+            elif line.strip():
+                separator = separator or max(",;\t", key=re.sub('"[^"]*"', "", line).count)
+                separator = separator if separator in line else " "
+                title = headed(_split(_one_word(line) if separator == " " else line, separator), where,
+                               (*FIELD, "sigma") if fields else ())  # fmt: skip
+                blocks = _blocks(lines, number, title, separator, path.name)
+                yield Trajectory(path.name, title.written, parameters, blocks, title.left_out, title.units)
                 return
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
 
 
-def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> Trajectory:
+def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool, nan_policy: str = "omit") -> Trajectory:
     """Return the trajectory of times (N,) and arrays, None where one is left out.
 
     They are rotation (N, 3, 3), quaternion (N, 4) and angular_velocity (N, 3). Raises AtlasError for another shape,
-    and for what is no number.
+    and for what is no number; NaN is none with the policy "raise".
     """
-    times = real(t, "t")
+    times = measured(t, "t", nan_policy)
     if times.ndim != 1 or not times.size:
         raise AtlasError(f"The times are one array (N,) of one number or more, not {times.shape}.")
     shapes = {"rotation": (3, 3), "quaternion": (4,), "angular_velocity": (3,)}
@@ -120,7 +125,7 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> T
     for (what, shape), names in zip(shapes.items(), (MATRIX, order, OMEGA), strict=True):
         if quantities[what] is None:
             continue
-        values, wanted = real(quantities[what], what), (*times.shape, *shape)
+        values, wanted = measured(quantities[what], what, nan_policy), (*times.shape, *shape)
         if values.shape != wanted:
             raise AtlasError(f"The {what} at {times.size} times is an array {wanted}, not {values.shape}.")
         columns |= dict(zip(names, values.reshape(times.size, -1).T, strict=True))
@@ -132,60 +137,108 @@ def of_arrays(t: Any, quantities: Mapping[str, Any], *, scalar_first: bool) -> T
     return Trajectory("the trajectory", {name: written.get(name, name) for name in columns}, {}, blocks)
 
 
-def _decoded(file: TextIO, name: str) -> Iterator[str]:
-    """Yield the lines of a text file."""
+def measured(value: Any, name: str, nan_policy: str) -> FloatArray:
+    """Return measured numbers as `real` does, NaN among them unless the policy is "raise"."""
+    if nan_policy not in POLICIES:
+        raise AtlasError(f"nan_policy is {' or '.join(map(repr, POLICIES))}, not {nan_policy!r}.")
     try:
-        yield from lines_of(file, name)
-    except UnicodeDecodeError as error:
-        raise AtlasError(f"{name} is not a text file in UTF-8.") from error
+        return real(value, name)
+    except DomainError:
+        array = np.array(value, dtype=np.float64)
+        if nan_policy == "raise" or np.isinf(array).any():
+            raise
+        return array
+
+
+def whole_rows(block: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], int]:
+    """Return the rows of a block that have all their numbers, and the count of the others."""
+    whole = np.all([np.isfinite(x) for x in block.values()], axis=0)
+    return {name: x[whole] for name, x in block.items()}, int(whole.size - whole.sum())
+
+
+def holes_left_out(count: int, rows: int, file: str) -> str:
+    """Return the sentence on rows that lack a number, empty without any. Raises AtlasError where no row is whole."""
+    if not rows:
+        raise AtlasError(f"{file} has no row with all its numbers: {count} lack one.")
+    return f"{count} row{'s' * (count != 1)} left out, which lack{'s' * (count == 1)} a number" if count else ""
+
+
+def _latin_1(error: UnicodeError) -> tuple[str, int]:
+    """Read bytes that are no UTF-8 as Latin-1, as the degree signs of loggers."""
+    if not isinstance(error, UnicodeDecodeError):
+        raise error
+    return error.object[error.start : error.end].decode("latin-1"), error.end
+
+
+codecs.register_error("atlas-latin-1", _latin_1)
+
+
+def _decoded(file: TextIO, name: str) -> Iterator[str]:
+    """Yield the lines of a text file. Raises AtlasError for one that is none."""
+    for line in lines_of(file, name):
+        if "\0" in line:
+            raise AtlasError(f"{name} is not a text file.")
+        yield line
+
+
+def _split(line: str, separator: str) -> list[str]:
+    """Return the cells of a line, without quotes."""
+    if separator == " ":
+        return next(csv.reader([" ".join(line.split())], delimiter=" "))
+    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+
+
+def _one_word(line: str) -> str:
+    """Return a line of names parted by spaces with each unit beside its name."""
+    return re.sub(r"\s+(?=[\[(])", "", line)
 
 
 def _blocks(
-    lines: Iterator[str],
-    above: int,
-    names: Mapping[str, str],
-    sizes: Mapping[str, Fraction],
-    separator: str | None,
-    file: str,
+    lines: Iterator[str], above: int, title: Heading, separator: str, file: str
 ) -> Iterator[dict[str, FloatArray]]:
     """Yield the rows below the line of names, the number `above`; messages have the names as they are written."""
     first, empty = above + 1, True
     while block := list(islice(lines, BLOCK)):
-        numbered = [(i, line) for i, line in enumerate(block, first) if line.strip()]
+        numbered = [(i, line.strip(" \n")) for i, line in enumerate(block, first) if line.strip()]
         for i, line in numbered:
-            if line.lstrip().startswith("#") and _parameters(line.strip().lstrip("# "), f"{file}, line {i}"):
+            if line.startswith("#") and _parameters(line.lstrip("# "), f"{file}, line {i}"):
                 raise AtlasError(f"{file}, line {i}: a parameter stands above the line of names, not below it.")
-        rows = [(i, line) for i, line in numbered if not line.lstrip().startswith("#")]
+        rows = [(i, line) for i, line in numbered if not line.startswith("#")]
         if rows:
             empty = False
-            columns = _rows(rows, [*names.values()], separator, file).T
-            sized = zip(names, columns, strict=True)
-            yield {name: x * float(sizes[name].numerator) / float(sizes[name].denominator) for name, x in sized}
+            columns = _rows(rows, title, separator, file).T
+            sized = zip(title.places, columns, strict=True)
+            yield {
+                name: x * float(title.sizes[name].numerator) / float(title.sizes[name].denominator) for name, x in sized
+            }
         first += len(block)
     if empty:
         raise AtlasError(f"{file} has names but no rows of numbers.")
 
 
-def _rows(rows: Sequence[tuple[int, str]], names: Sequence[str], separator: str | None, file: str) -> FloatArray:
+def _rows(rows: Sequence[tuple[int, str]], title: Heading, separator: str, file: str) -> FloatArray:
     """Return the numbers of some lines, shape (rows, columns): as JSON, where they are; else each cell by itself."""
-    lines = [",".join(line.split(separator)) if separator != "," else line for _, line in rows]
-    if all(line.count(",") == len(names) - 1 for line in lines):
+    places = [*title.places.values()]
+    lines = [",".join(line.split(None if separator == " " else separator)) for _, line in rows]
+    if all(line.count(",") == title.width - 1 for line in lines):
         try:
-            return np.array(_DECODER.decode(f"[{','.join(lines)}]")).reshape(-1, len(names))
+            return np.array(_DECODER.decode(f"[{','.join(lines)}]")).reshape(-1, title.width)[:, places]
         except msgspec.DecodeError:
             pass  # 1., +1 and .5 are numbers but no JSON; and what is no number is told below
-    return np.array([_cells(line, names, separator, f"{file}, line {i}") for i, line in rows])
+    return np.array([_cells(line, title, separator, f"{file}, line {i}") for i, line in rows])
 
 
 _DECODER = msgspec.json.Decoder(list[float])
 
 
-def _cells(line: str, names: Sequence[str], separator: str | None, where: str) -> list[float]:
+def _cells(line: str, title: Heading, separator: str, where: str) -> list[float]:
     """Return the numbers of one line."""
-    cells = line.strip().split(separator)
-    if len(cells) != len(names):
-        raise AtlasError(f"{where}: {len(cells)} cells where the line of names has {len(names)}.")
-    return [_number(cell, f"{where}, column {name}") for name, cell in zip(names, cells, strict=True)]
+    cells = _split(line, separator)
+    if len(cells) == title.width + 1 and not cells[-1].strip():
+        del cells[-1]  # a separator at the end
+    if len(cells) != title.width:
+        raise AtlasError(f"{where}: {len(cells)} cells where the line of names has {title.width}.")
+    return [_number(cells[i], f"{where}, column {title.written[name]}") for name, i in title.places.items()]
 
 
 def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
@@ -206,55 +259,17 @@ def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
     return parameters
 
 
-def _header(cells: Sequence[str], where: str, more: Sequence[str]) -> list[str]:
-    """Return the canonical names of the columns."""
-    names = []
-    for cell in cells:
-        bare = cell.lower().replace("_", "")
-        name = _NAMES.get(bare, bare.upper() if bare.upper() in more else None)
-        if name is None and re.fullmatch(r"[+-]?\.?\d.*", cell):
-            raise AtlasError(f"{where}: {cell!r} stands where the names of columns are wanted, such as t,R11,R12,R13.")
-        if name is None:
-            raise AtlasError(
-                f"{where}: no column is called {cell!r}; "
-                f"there are t, R11 to R33 (the axis is R13, R23, R33), Omega1 to Omega3, "
-                f"{'K1 to K3, ' if more else ''}q0 to q3 (or w, x, y, z)."
-                + " Of Euler angles SciPy makes these: x, y, z, w = Rotation.from_euler(...).as_quat()."
-                * bare.startswith(EULER)
-            )
-        if name in names:
-            raise AtlasError(f"{where}: the column {name} is there twice.")
-        names.append(name)
-    if "t" not in names:
-        raise AtlasError(f"{where}: there is no column t.")
-    if len(names) == 1:
-        raise AtlasError(f"{where}: there is nothing to grade beside t; add R11 to R33, Omega1 to Omega3 or q0 to q3.")
-    if 0 < len(set(QUATERNION) & set(names)) < 4:
-        raise AtlasError(f"{where}: a quaternion has the four columns q0 to q3 (or w, x, y, z), an axis R13, R23, R33.")
-    return names
-
-
-def _size(name: str, unit: str, where: str) -> Fraction:
-    """Return how many of the unit of a column, s or rad/s, that of its heading is, 1 where it has none."""
-    if unit in PLAIN:
-        return Fraction(1)
-    option = OPTIONS.get(name, "")
-    try:
-        return Fraction(size(unit, option))
-    except AtlasError as error:
-        right = f"is in {WANTED[option]}, or what can be made of it" if option else "has no unit"
-        raise AtlasError(f"{where}: {name} {right}, not in {unit!r}.") from error
-
-
 def _number(cell: str, where: str) -> float:
-    plain = cell.isascii() and "_" not in cell  # Python reads underscores and the digits of other scripts
-    try:
-        value = float(cell if plain else "")
+    """Return the number in a cell, NaN where it is empty."""
+    text = cell.strip(" \t")
+    text = "" if text.lower() in HOLES else text
+    plain = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)  # Fortran's 1.5D-05
+    try:  # Python reads underscores and the digits of other scripts
+        value = float(plain if plain.isascii() and "_" not in plain else "") if text else math.nan
     except ValueError as error:
-        text = cell.strip()
         right = "; a decimal has a point" * bool(re.fullmatch(r"[+-]?\d+,\d+", text))
-        right = right or "; leave out a row that lacks one" * (not text)
+        right = right or "; it has a no-break space" * ("\N{NO-BREAK SPACE}" in text)
         raise AtlasError(f"{where}: {text!r} is not a number{right}.") from error
-    if not math.isfinite(value):
-        raise AtlasError(f"{where}: the cell is {cell.strip()}; every cell must be a finite number.")
+    if math.isinf(value):
+        raise AtlasError(f"{where}: the cell is {text}; every cell must be a finite number, or empty.")
     return value

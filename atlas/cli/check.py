@@ -79,7 +79,8 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.
 
     FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3 in the body, or a quaternion w, x, y, z; names may
-    have units, as t [ms]. The parameters are options, or lines such as '# field = 1 2' at the head of the file.
+    have units, as t [ms] or t (ms). Other columns, and rows that lack a number, are left out, with a line. The
+    parameters are options, or lines such as '# field = 1 2' at the head of the file.
 
     The motion is one of a symmetric body in a field, of a top (with a direction, as in atlas top), or of a body with
     three moments of inertia (--inertia I1 I2 I3, --field B1 B2 B3 and --omega; at the head of the file '# inertia = 0.8

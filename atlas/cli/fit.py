@@ -19,7 +19,7 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 fit_options: Callable[[Any], Any] = stack(
     click.option("--family", type=click.Choice(FAMILIES), default="general", show_default=True, help="Of motions."),
     click.option("--of", "kind", type=click.Choice(KINDS), help="Which columns are fitted, of several kinds."),
-    numbers("sigma", "Standard error of each number, of attitudes and axes in radians."),
+    numbers("sigma", "Standard error of each number, of attitudes in radians, or with a unit: 1deg."),
     click.option("--fix", multiple=True, metavar="NAME=VALUE [...]", help="Parameters that are known."),
     click.option("--start", multiple=True, metavar="NAME=VALUE [...]", help="Where a parameter is sought first."),
     numbers("epoch", "Time at which the parameters hold.", default="0", show_default=True),
@@ -52,8 +52,9 @@ def command(file: Path, **options: Any) -> int:
 
     FILE.csv has a column t and R11 to R33, or a quaternion w, x, y, z, or R13, R23, R33 of the axis alone, or Omega1 to
     Omega3 or K1 to K3 along the axes of the body, with units if there are any, as t [ms]; what is found is then in s
-    and 1/s. Single entries of R are a signal. A line '# sigma = 0.01' may stand at its head; without it the scatter
-    about the motion tells sigma. No start is needed.
+    and 1/s. Single entries of R are a signal. A line '# sigma = 0.01' may stand at its head, or a column sigma beside
+    the data; without it the scatter about the motion tells sigma. No start is needed. Other columns, and rows that lack
+    a number, are left out, with a line.
 
     What the data do not determine is said, and so is what speaks against the family: a reduced chi square far from 1,
     residuals that are correlated, a few that are far larger than the rest, or other parameters that give the same data

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -53,6 +53,7 @@ def fit(
     loss: str = "linear",
     epoch: float = 0.0,
     scalar_first: bool = False,
+    nan_policy: Literal["omit", "raise"] = "omit",
 ) -> Fit:
     """Find the body, the field and the motion from measurements at the times `t`.
 
@@ -89,6 +90,8 @@ def fit(
         Time at which the parameters hold.
     scalar_first : bool
         Whether the scalar is the first component of a quaternion.
+    nan_policy : {"omit", "raise"}
+        Whether times at which a number is NaN are left out, which `Fit.notes` counts, or raise an error.
 
     Returns
     -------
@@ -137,7 +140,7 @@ def fit(
         "rotation": rotation, "quaternion": quaternion, "axis": axis, "angular_velocity": angular_velocity,
         "field_in_body": field_in_body, "signal": signal,
     }  # fmt: skip
-    data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first)
+    data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first, nan_policy=nan_policy)
     if loss not in LOSSES:
         raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
     if loss != "linear" and not data.known:
@@ -163,8 +166,10 @@ def fit(
 
 def fit_file(file: Path, family: str = "general", *, kind: str | None = None, sigma: Any = None, **options: Any) -> Fit:
     """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
-    t, data, known = of_file(file, kind)
-    return fit(t, family, sigma=known if sigma is None else sigma, **data, **options)
+    table = of_file(file, kind)
+    found = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)
+    found.notes, found.time_unit = (*[table.left_out] * bool(table.left_out), *found.notes), table.unit
+    return found
 
 
 def _tried(problem: Problem) -> list[tuple[float, Any]]:

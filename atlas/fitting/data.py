@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from atlas.arithmetic.inputs import FloatArray, number, real
-from atlas.checking.trajectory import BLOCK, FIELD, MATRIX, OMEGA, QUATERNION, opened
+from atlas.checking.headings import FIELD, MATRIX, OMEGA, PLAIN, QUATERNION
+from atlas.checking.trajectory import BLOCK, holes_left_out, measured, opened
 from atlas.errors import AtlasError
 
 KINDS: Mapping[str, tuple[int, ...]] = {
@@ -68,6 +70,8 @@ class Data:
     function: Callable[[FloatArray], Any] | None = None
     known: bool = True
     """Whether the standard errors were given."""
+    notes: tuple[str, ...] = ()
+    """Sentences on what was left out."""
 
     def part(self, places: Any) -> "Data":
         """Return some of the data."""
@@ -166,31 +170,27 @@ def _inverse_right(rho: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + hat / 2 + second[:, None, None] * (hat @ hat))
 
 
-def of_arrays(t: Any, measured: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool) -> Data:
+def of_arrays(
+    t: Any, data: Mapping[str, Any], sigma: Any, epoch: float, *, scalar_first: bool, nan_policy: str = "omit"
+) -> Data:
     """Return the data of arrays, of one kind that is not None. Raises AtlasError for what cannot be fitted."""
-    kinds = [name for name, x in measured.items() if x is not None]
+    kinds = [name for name, x in data.items() if x is not None]
     if len(kinds) != 1:
-        raise AtlasError(f"Give one of {', '.join(measured)}, not {' and '.join(kinds) or 'none'}.")
-    kind, times = kinds[0], real(t, "t")
+        raise AtlasError(f"Give one of {', '.join(data)}, not {' and '.join(kinds) or 'none'}.")
+    kind, times = kinds[0], measured(t, "t", nan_policy)
     if times.ndim != 1 or times.size < LEAST:
         raise AtlasError(f"A fit needs an array (N,) of {LEAST} times or more, not {times.shape}.")
-    function = None
-    if kind == "signal":
-        if not (isinstance(measured[kind], tuple) and len(measured[kind]) == 2 and callable(measured[kind][1])):
-            raise AtlasError("signal = (values, function): numbers, and the function of rotations (N, 3, 3) they are.")
-        values, function = real(measured[kind][0], "The signal"), measured[kind][1]
-        if values.shape[:1] != times.shape or values.ndim > 2:
-            raise AtlasError(f"The signal at {times.size} times is an array ({times.size},), not {values.shape}.")
-        values = values.reshape(times.size, -1)
-    else:
-        values, wanted = real(measured[kind], f"The {kind}"), (times.size, *KINDS[kind])
-        if values.shape != wanted:
-            raise AtlasError(f"The {kind} at {times.size} times is an array {wanted}, not {values.shape}.")
-    values = _unit(kind, values, scalar_first)
+    values, function = _values(kind, data[kind], times, nan_policy)
     known = sigma is not None
-    errors = real(1.0 if sigma is None else sigma, "sigma")
-    if errors.shape not in ((), times.shape) or not (errors > 0).all():
+    errors = measured(1.0 if sigma is None else sigma, "sigma", nan_policy)
+    if errors.shape not in ((), times.shape) or (errors <= 0).any():
         raise AtlasError(f"sigma is one positive standard error, or {times.size} of them, not {sigma!r}.")
+    errors = np.broadcast_to(errors, times.shape)
+    rows = np.flatnonzero(np.isfinite(np.column_stack([times, values.reshape(times.size, -1), errors])).all(-1))
+    note = holes_left_out(times.size - rows.size, rows.size, "The data")
+    times, errors, values = times[rows], errors[rows], _unit(kind, values[rows], scalar_first, rows)
+    if times.size < LEAST:
+        raise AtlasError(f"A fit needs {LEAST} times or more that have all numbers, not {times.size}.")
     order = np.argsort(times, kind="stable")
     times = times[order] - number(epoch, "epoch")
     span = times[-1] - times[0]
@@ -201,12 +201,30 @@ def of_arrays(t: Any, measured: Mapping[str, Any], sigma: Any, epoch: float, *, 
             f"The data begin {abs(times).min():.3g} from t = 0, where the parameters hold, and span {span:.3g} only: "
             "give epoch = t[0], the time of the parameters, or subtract it."
         )
-    errors = np.broadcast_to(errors, times.shape)[order]
-    return Data(kind.replace("quaternion", "rotation"), times, values[order], errors[:, None], function, known)
+    kind = kind.replace("quaternion", "rotation")
+    return Data(kind, times, values[order], errors[order, None], function, known, tuple(filter(None, [note])))
 
 
-def _unit(kind: str, values: FloatArray, scalar_first: bool) -> FloatArray:
-    """Return rotations for matrices and quaternions, and axes of length 1. Raises AtlasError for what is none."""
+def _values(kind: str, given: Any, times: FloatArray, nan_policy: str) -> tuple[FloatArray, Any]:
+    """Return the measured numbers of a kind, the times first, and the function of a signal."""
+    if kind != "signal":
+        values, wanted = measured(given, f"The {kind}", nan_policy), (times.size, *KINDS[kind])
+        if values.shape != wanted:
+            raise AtlasError(f"The {kind} at {times.size} times is an array {wanted}, not {values.shape}.")
+        return values, None
+    if not (isinstance(given, tuple) and len(given) == 2 and callable(given[1])):
+        raise AtlasError("signal = (values, function): numbers, and the function of rotations (N, 3, 3) they are.")
+    values = measured(given[0], "The signal", nan_policy)
+    if values.shape[:1] != times.shape or values.ndim > 2:
+        raise AtlasError(f"The signal at {times.size} times is an array ({times.size},), not {values.shape}.")
+    return values.reshape(times.size, -1), given[1]
+
+
+def _unit(kind: str, values: FloatArray, scalar_first: bool, rows: NDArray[np.int_]) -> FloatArray:
+    """Return rotations for matrices and quaternions, and axes of length 1, of the `rows` of the data.
+
+    Raises AtlasError for what is none.
+    """
     if kind == "rotation":
         U, size, V = np.linalg.svd(values)
         bad = (abs(size - 1) > NEAR).any(-1) | (np.linalg.det(values) <= 0)
@@ -221,12 +239,25 @@ def _unit(kind: str, values: FloatArray, scalar_first: bool) -> FloatArray:
         return values
     if bad.any():
         what = {"rotation": "rotation matrix", "quaternion": "quaternion of length 1", "axis": "vector of length 1"}
-        raise AtlasError(f"Row {int(np.argmax(bad))} (from 0) of the {kind} is no {what[kind]}, by more than {NEAR}.")
+        raise AtlasError(
+            f"Row {int(rows[np.argmax(bad)])} (from 0) of the {kind} is no {what[kind]}, by more than {NEAR}."
+        )
     return values
 
 
-def of_file(path: Path, kind: str | None) -> tuple[FloatArray, dict[str, Any], float | None]:
-    """Return times, data as `fit` takes them, and sigma, out of a CSV file, see `atlas.checking.trajectory`.
+@dataclass(frozen=True)
+class Table:
+    """What a file holds: times, data as arguments of `fit`, sigma, the unit of time, a sentence on what is unused."""
+
+    t: FloatArray
+    data: dict[str, Any]
+    sigma: Any
+    unit: str
+    left_out: str
+
+
+def of_file(path: Path, kind: str | None) -> Table:
+    """Return what a CSV file holds, see `atlas.checking.trajectory`.
 
     Of what its columns hold it is the first of rotations, quaternions, the axis R13, R23, R33, Omega and K, or else
     what there is of R, as a signal; or the `kind`. Raises AtlasError for a file that has no such columns.
@@ -255,10 +286,14 @@ def of_file(path: Path, kind: str | None) -> tuple[FloatArray, dict[str, Any], f
             "quaternion, Omega1 to Omega3, or K1 to K3."
         )
     kind = kind or there[0]
-    if kind == "signal":
+    taken = entries if kind == "signal" else columns[kind]
+    rest = [other.replace("_", " ") for other in there if other not in (kind, "axis")]
+    left_out = [file.left_out] * bool(file.left_out) + [f"not fitted: {', '.join(rest)} (--of fits them)"] * bool(rest)
+    data: dict[str, Any] = {kind: np.column_stack([x[name] for name in taken]), "scalar_first": kind == "quaternion"}
+    if kind == "rotation":
+        data[kind] = data[kind].reshape(-1, 3, 3)
+    elif kind == "signal":
         rows, columns_of_R = zip(*((int(name[1]) - 1, int(name[2]) - 1) for name in entries), strict=True)
-        signal = np.column_stack([x[name] for name in entries]), Entries(rows, columns_of_R)
-        return x["t"], {"signal": signal}, known[0] if known else None
-    values = np.column_stack([x[name] for name in columns[kind]])
-    values = values.reshape(-1, 3, 3) if kind == "rotation" else values
-    return x["t"], {kind: values, "scalar_first": kind == "quaternion"}, known[0] if known else None
+        data[kind] = data[kind], Entries(rows, columns_of_R)
+    unit = "time" if (file.units or {}).get("t", "") in PLAIN else "s"
+    return Table(x["t"], data, x.get("sigma", known and known[0]), unit, "; ".join(left_out))

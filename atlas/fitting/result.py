@@ -76,6 +76,10 @@ class Fit:
         well with other values, and other minima of chi square.
     family, kind, epoch : str, str, float
         Family of motions, kind of data, and time of the parameters.
+    notes : tuple of str
+        Sentences on columns and rows that were left out.
+    time_unit : str
+        "s" where the heading of a file says the unit of its times, which are then converted to s; else "time".
 
     Notes
     -----
@@ -100,6 +104,8 @@ class Fit:
     _free: FloatArray
     _units: FloatArray
     _whole: FloatArray
+    notes: tuple[str, ...] = ()
+    time_unit: str = "time"
 
     @classmethod
     def of(
@@ -131,7 +137,7 @@ class Fit:
                       *warnings_of(parameters, equal, wider)),
             alternatives=(*equal, *(other for _, other in wider), *other_minima(problem, tried, free * scale**2)),
             problem=problem,
-            _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole,
+            _free=seen.null * seen.units[:, None], _units=seen.units, _whole=seen.whole, notes=data.notes,
         )  # fmt: skip
 
     def __getattr__(self, name: str) -> Any:
@@ -287,7 +293,7 @@ class Fit:
         return [other.sentence(self.family, self.parameters) for other in self.alternatives]
 
     def _sentences(self) -> list[str]:
-        return [*self.undetermined, *self.warnings, *self.others]
+        return [*self.undetermined, *self.warnings, *self.others, *self.notes]
 
     def report(self) -> str:
         """Return the table of parameters with their errors, then `undetermined`, `warnings` and the alternatives."""
@@ -310,7 +316,7 @@ class Fit:
             "family": self.family, "kind": self.kind, "epoch": self.epoch, "times": int(self.t.size), "params": values,
             "redchi": self.redchi, "sigma": np.asarray(self.sigma).tolist(), "names": list(self.names),
             "covariance": self.covariance.tolist(), "undetermined": list(self.undetermined),
-            "warnings": list(self.warnings),
+            "warnings": list(self.warnings), "notes": list(self.notes),
             "alternatives": [{**other._asdict(), "values": dict(other.values)} for other in self.alternatives],
         }  # fmt: skip
 

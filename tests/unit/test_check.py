@@ -22,7 +22,7 @@ from atlas.arithmetic.certified_digits import enclosed
 from atlas.checking import grades, trajectory, truth
 from atlas.checking.check import Check
 from atlas.checking.check import check_file as check
-from atlas.checking.trajectory import MATRIX, OMEGA
+from atlas.checking.headings import MATRIX, OMEGA
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError
 from atlas.motions.elementary import certified as exact
@@ -219,19 +219,21 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
         (HEAD + "t,R11\n", "no rows"),
         ("R11,R12\n1,2\n", "no column t"),
         ("t\n0\n", "nothing to grade"),
-        ("t,R11,R44\n0,1,1\n", "line 1: no column is called 'R44'"),
-        ("t,roll,pitch,yaw\n0,1,1,1\n", r"no column is called 'roll'; .*from_euler"),
-        ("t,phi_deg\n0,1\n", "no column is called 'phi_deg'; .*from_euler"),
+        ("t,R44\n0,1\n", "line 1: there is nothing to grade beside t.*'R44' .*row and column"),
+        ("t,roll,pitch,yaw\n0,1,1,1\n", r"There is 'roll', 'pitch', 'yaw' .*from_euler"),
+        ("t,phi_deg\n0,1\n", "There is 'phi_deg' .*from_euler"),
         ("t [kg],R11\n0,1\n", r"line 1: t is in s, or what can be made of it, not in 'kg'\."),
         ("t,R11 [m]\n0,1\n", "R11 has no unit, not in 'm'"),
         ("t,R11,r11\n0,1,1\n", "R11 is there twice"),
         ("0.0,1,0,0\n", "line 1: '0.0' stands where the names of columns are wanted"),
-        ("t,w,x,y\n0,1,0,0\n", "a quaternion has the four columns .*, an axis R13"),
+        ("t,w,x,y\n0,1,0,0\n", "the axis is R13, R23, R33.*quaternion qw, qx, qy, qz. There is 'w', 'x', 'y'"),
         (HEAD + "t,R11\n0,1\n1\n", "line 4: 1 cells where the line of names has 2"),
         (HEAD + "t,R11\n0,1\n1,one\n", "line 4, column R11: 'one' is not a number"),
-        (HEAD + "t,R11\n\n0,1\n1,\n", "line 5, column R11: '' is not a number; leave out a row that lacks one"),
+        (HEAD + "t,R11\n\n0,\n1,\n", "no row with all its numbers: 2 lack one"),
         (HEAD + "t;R11\n0,5;1\n", "line 3, column t: '0,5' is not a number; a decimal has a point"),
-        (HEAD + "t,R11\n0,nan\n", "line 3, column R11: the cell is nan"),
+        (HEAD + "t,R11\n0,nan\n", "no row with all its numbers: 1 lack one"),
+        (HEAD + "t,R11\n0,1\N{NO-BREAK SPACE}000\n", r"'1\\xa0000' is not a number; it has a no-break space"),
+        ("timestamp,R11\n0,1\n", r"timestamp has no unit; call it t \[s\], t \[ms\]"),
         (HEAD + "t,R11\ninf,1\n", "line 3, column t: the cell is inf"),
         ("# field = 1\nt,R11\n0,1\n", "line 1: field takes 2 or 3 numbers, not 1"),
         ("# ratio = ?\nt,R11\n0,1\n", "line 1, parameter ratio"),

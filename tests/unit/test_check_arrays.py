@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.checking.check import Check
+from atlas.checking.headings import MATRIX, OMEGA
 from atlas.checking.order import Convergence
-from atlas.checking.trajectory import MATRIX, OMEGA
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from atlas.checking.check import Check
 from atlas.checking.check import check_file as check
-from atlas.checking.trajectory import MATRIX, OMEGA, QUATERNION
+from atlas.checking.headings import MATRIX, OMEGA, QUATERNION
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
 

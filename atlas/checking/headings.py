@@ -1,0 +1,120 @@
+"""Headings of a table: which columns a trajectory has, in which units, and what is asked about names nearly right."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from atlas.errors import AtlasError
+from atlas.measured import WANTED, heading, size
+
+MATRIX = tuple(f"R{i}{j}" for i in "123" for j in "123")
+OMEGA = ("Omega1", "Omega2", "Omega3")
+QUATERNION = ("q0", "q1", "q2", "q3")
+FIELD = ("K1", "K2", "K3")
+"""The field along the axes of the body, which `atlas fit` reads beside."""
+OPTIONS = {"t": "times", "sigma": "sigma"} | dict.fromkeys(OMEGA, "omega") | dict.fromkeys(FIELD, "field")
+"""Options that have the units of columns, by name."""
+PLAIN = ("", "1", "time", "1/time")
+"""Units that are taken as they are."""
+
+PREFIXES = ("q", "quat", "quaternion", "orientation", "")
+SPELLINGS = ("q0 q1 q2 q3", *(" ".join(f"{prefix}{x}" for x in "wxyz") for prefix in PREFIXES))
+"""Names of the four components of a quaternion, each scalar first."""
+STARTS = {"ratio", "I1", "I2", "B2", "B3"}
+"""Parameters in a sweep's table, whose omega1 to omega3 are those of the start."""
+GYROSCOPES = ("gyroscope", "gyro", "gyr", "angularvelocity")
+"""How the names of a gyroscope's columns begin, before x, y, z along the axes of the body."""
+_NAMES = {name.lower(): name for name in (*MATRIX, *OMEGA)} | {"t": "t", "time": "t", "timestamp": "t"}
+_NAMES |= {f"{gyro}{axis}": name for gyro in GYROSCOPES for axis, name in zip("xyz", OMEGA, strict=True)}
+
+QUESTIONS = {
+    r"(omega|w|rate)[xyz123]|[pqr](deg|rad).*|(omega|gyr|angvel|angularvel).*": "a rate along the axes of the body is "
+    "called Omega1, Omega2, Omega3, with its unit, as Omega1 [deg/s]",
+    r".*(quat|attitude|orient).*|.*q[0-4wxyz]|e[0-4]": "of a quaternion qw is the scalar, beside qx, qy, qz",
+    r"r\w?\d+|rot.*|dcm.*|m\d\d": "matrices that take the body to the laboratory are R11 to R33, row and column",
+    r"(roll|pitch|yaw|phi|theta|psi|euler).*": "of Euler angles SciPy makes x, y, z, w = Rotation.from_euler(...)"
+    ".as_quat()",
+    r"t.*|.*time.*|.*sec.*": "the time is called t, with its unit, as t [ms]",
+}
+"""Patterns of names that are nearly those of columns, with what is said of them."""
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The columns of a table: canonical names with their places, what they were called, factors to s and rad/s."""
+
+    width: int
+    places: Mapping[str, int]
+    written: Mapping[str, str]
+    sizes: Mapping[str, Fraction]
+    units: Mapping[str, str]
+    left_out: str
+    """A sentence on columns that are not used, empty without any."""
+
+
+def headed(cells: Sequence[str], where: str, more: Sequence[str] = ()) -> Heading:
+    """Return what a line of names says; `more` are canonical names known beside. Raises AtlasError, with `where`.
+
+    What is not known is left out, as long as there are times and something beside them.
+    """
+    titles = [heading(cell) for cell in cells]
+    while len(titles) > 1 and not titles[-1][0]:
+        del titles[-1]  # a separator at the end
+    if all(re.fullmatch(r"[+-]?\.?\d.*", name) for name, _ in titles if name):
+        first = cells[0].strip()
+        raise AtlasError(f"{where}: {first!r} stands where the names of columns are wanted, such as t,R11,R12,R13.")
+    known = _canonical([name for name, _ in titles], more)
+    places: dict[str, int] = {}
+    for i, name in known.items():
+        if name in places:
+            raise AtlasError(f"{where}: the column {name} is there twice.")
+        places[name] = i
+    rest = [name for i, (name, _) in enumerate(titles) if name and i not in known]
+    hints = "; ".join(dict.fromkeys(filter(None, map(_hint, rest))))
+    ask = f" ({hints})" if hints else ""
+    if "t" not in places:
+        raise AtlasError(f"{where}: there is no column t{ask}.")
+    if not places.keys() - {"t", "sigma"}:
+        left = f" There is {', '.join(map(repr, rest))}{ask}." if rest else ""
+        raise AtlasError(
+            f"{where}: there is nothing to grade beside t; add R11 to R33 (the axis is R13, R23, R33), Omega1 to "
+            f"Omega3, {'K1 to K3, ' if more else ''}or the quaternion qw, qx, qy, qz.{left}"
+        )
+    written = {name: titles[i][0] for name, i in places.items()}
+    units = {name: titles[i][1] for name, i in places.items()}
+    if written["t"].lower() == "timestamp" and not units["t"]:
+        raise AtlasError(f"{where}: timestamp has no unit; call it t [s], t [ms], t [us] or t [ns].")
+    sizes = {name: _size(name, unit, where) for name, unit in units.items()}
+    left_out = f"columns left out: {', '.join(rest)}{ask}" if rest else ""
+    return Heading(len(titles), places, written, sizes, units, left_out)
+
+
+def _canonical(names: Sequence[str], more: Sequence[str]) -> dict[int, str]:
+    """Return the canonical names of columns that are known, by their places."""
+    bare = [re.sub(r"[\s_.]+", "", name).lower() for name in names]
+    known = _NAMES | {name.lower(): name for name in more}
+    spelling = next((s.split() for s in SPELLINGS if set(s.split()) <= set(bare)), ())
+    known |= dict(zip(spelling, QUATERNION, strict=False))
+    start = {name for name in ("omega1", "omega2", "omega3") if STARTS & {*names}}  # of a sweep, beside Omega
+    return {i: known[name] for i, name in enumerate(bare) if name in known and names[i] not in start}
+
+
+def _hint(name: str) -> str:
+    """Return what is said of a name that is nearly that of a column, nothing about others."""
+    bare = re.sub(r"[\s_.]+", "", name).lower()
+    if re.fullmatch(r"[wmbk][123]|omega[123]|theta|phi|psi", name, re.IGNORECASE):
+        return ""  # of the atlas's own tables: rates and momenta in the laboratory, the field in the body, angles
+    return next((text for pattern, text in QUESTIONS.items() if re.fullmatch(pattern, bare)), "")
+
+
+def _size(name: str, unit: str, where: str) -> Fraction:
+    """Return how many of the unit of a column, s or rad/s, that of its heading is, 1 where it has none."""
+    if unit in PLAIN:
+        return Fraction(1)
+    option = OPTIONS.get(name, "")
+    try:
+        return Fraction(size(unit, option))
+    except AtlasError as error:
+        right = f"is in {WANTED[option]}, or what can be made of it" if option else "has no unit"
+        raise AtlasError(f"{where}: {name} {right}, not in {unit!r}.") from error
