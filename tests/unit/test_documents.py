@@ -181,7 +181,7 @@ def test_no_label_of_the_source_stands_outside_the_ledger() -> None:
         if path.suffix in {".py", ".toml", ".md", ".html", ".typ", ".js", ".json"}
     }
     assert len(texts) > 300
-    assert {path.name for path, text in texts.items() if LABEL.search(re.sub(r"alias=\S+", "", text))} == set()
+    assert {path.name for path, text in texts.items() if LABEL.search(re.sub(r"alias = \S+", "", text))} == set()
 
 
 def home(floor: str, quantity: str) -> Path:
@@ -203,5 +203,6 @@ def test_the_number_leads_to_kernel_ball_entry_and_proof(name: str) -> None:
     for floor in {floor for found, floor, _ in CASES if found == name}:
         homes = {home(floor, quantity) for found, at, quantity in CASES if (found, at) == (name, floor)}
         assert any(name in path.read_text("utf-8") for path in homes), (floor, homes)
-    for floor in ("ledger", "proofs"):
-        assert f'    "{name}": ' in (ROOT / "atlas" / "trial" / floor / f"{topic(name)}.py").read_text("utf-8")
+    trial = ROOT / "atlas" / "trial"
+    assert name in tomllib.loads((trial / "ledger" / f"{topic(name)}.toml").read_text("utf-8"))
+    assert f'    "{name}": ' in (trial / "proofs" / f"{topic(name)}.py").read_text("utf-8")

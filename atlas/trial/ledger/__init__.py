@@ -1,20 +1,21 @@
 r"""The ledger: the equations of the paper, the claims that it makes in words, and our own theorems.
 
 The paper: A. A. Deriglazov, *Rotation matrix of a charged symmetrical body: one-parameter family of solutions in
-elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file holds one topic, in the paper's order.
-Data only: what is true of it is decided in `atlas.trial.proofs`.
+elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file of TOML holds one topic, in the paper's
+order: a table for each entry. What is true of an entry is decided in `atlas.trial.proofs`.
 
 The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` or closes the environment takes a number
 unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
 """
 
+import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
-from importlib import import_module
+from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from atlas.errors import AtlasError, unknown
-from atlas.trial.ledger.equation import Equation, Kind, Section, slug
+from atlas.trial.ledger.equation import ASSUMPTIONS, Equation, Kind, Section, slug
 
 __all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topic"]
 
@@ -30,12 +31,21 @@ _KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
 
 
 def _entries() -> Iterator[tuple[str, Equation]]:
-    """Yield the entries in the paper's order, each with its topic, and its name, section and kind filled in."""
+    """Yield the entries in the paper's order, each with its topic; a line break in the file is a space in the text."""
     for section, topics in _SECTIONS.items():
         for stem in topics:
-            for name, entry in import_module(f"atlas.trial.ledger.{stem}").EQUATIONS.items():
-                kind = entry.kind or _KINDS.get(name.partition("-")[0], "derivation step")
-                yield stem, replace(entry, name=name, section=section, kind=kind)
+            file = Path(__file__).with_name(f"{stem}.toml")
+            entries: dict[str, dict[str, Any]] = tomllib.loads(file.read_text("utf-8"))
+            shared = ASSUMPTIONS | entries.pop("assumptions", {})
+            for name, said in entries.items():
+                assumptions = tuple(_joined(shared.get(x, x)) for x in said.pop("assumptions", ()))
+                kind = said.pop("kind", _KINDS.get(name.partition("-")[0], "derivation step"))
+                texts = {key: _joined(text) for key, text in said.items()}
+                yield stem, Equation(name=name, section=section, kind=kind, assumptions=assumptions, **texts)
+
+
+def _joined(text: str) -> str:
+    return text.strip("\n").replace("\n", " ")
 
 
 _PLACED = tuple(_entries())

@@ -6,10 +6,12 @@ from typing import Literal
 Kind = Literal["definition", "derivation step", "claim", "theorem"]
 Section = Literal["II", "III", "IV", "V", "VII", "Atlas"]
 
-# what many entries take for granted
-SYMMETRIC = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
-FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
-OFF_LINES = r"$\omega_2$ differs from $-B'_2$"
+ASSUMPTIONS = {
+    "symmetric": r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+    "field": r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+    "off the lines": r"$\omega_2$ differs from $-B'_2$",
+}
+"""Assumptions of entries in several files, by the words that stand for them there."""
 
 
 def slug(name: str) -> str:
@@ -26,7 +28,8 @@ class Equation:
     says         what it says, in one line
     tex          the formula as printed, slips included, in modern TeX
     alias        its LaTeX label in the paper's source; (53) and (55) share one there
-    assumptions  what must hold for it, each in a few words
+    assumptions  what must hold for it, each in a few words; in its file also the name of one of `ASSUMPTIONS` or of the
+                 table `assumptions` there
     quote        the words of the paper that make the claim, where it has no formula for it
     kind         definition, derivation step (follows from what stands before it), claim (a result), theorem (ours);
                  where an entry doesn't say it, that of its name: one with a number is a derivation step, `text-...` a
@@ -35,14 +38,14 @@ class Equation:
                  its file, as `atlas.trial.ledger` has it
     """
 
-    name: str = ""
+    name: str
     says: str
     tex: str
     alias: str = ""
     assumptions: tuple[str, ...] = ()
     quote: str = ""
-    kind: Kind | Literal[""] = ""
-    section: Section = "Atlas"
+    kind: Kind
+    section: Section
 
     @property
     def number(self) -> int | None:
