@@ -77,7 +77,7 @@ def started(args: list[str]) -> tuple[str, str]:
     check_speeds(options)
     if family.name == "asymmetric" and (motion := motion_in_given_axes(options)):
         principal = in_principal_axes(motion)
-        click.echo(f"The axes are principal ones: {principal.axes} in those of the body that were given.", err=True)
+        click.echo(principal.note, err=True, nl=bool(principal.note))
         family, values = principal.family, principal.values
     else:
         parts = zip(family.parameters, values_of(family, options, exact=False), strict=True)

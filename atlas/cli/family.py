@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import click
 
+from atlas.arithmetic.given import Given
 from atlas.cli import body
 from atlas.cli.options import chosen_times, examples, given, numbers, output_options, stack, times_options
 from atlas.cli.present import (
@@ -334,31 +335,57 @@ def motion_in_given_axes(options: dict[str, Any]) -> Any:
 
 
 class Principal(NamedTuple):
-    """A motion in the axes of its class: the family, the options that say which, and these axes in those given."""
+    """A motion in the axes of its class: the family, the options that say which, and these axes in those given.
+
+    `is_rounded` tells whether numbers along these axes are rounded to floats.
+    """
 
     family: Family
     options: list[str]
     values: dict[str, tuple[float, ...]]
     axes: str
+    is_rounded: bool
 
     @property
-    def command(self) -> str:
-        """The name of its command."""
-        return self.family.command.name if self.family.command else self.family.name
+    def note(self) -> str:
+        """Sentence on these axes, where they are not those of the body."""
+        if self.axes == OWN_AXES:
+            return ""
+        rounded = "; numbers along them are rounded to floats" * self.is_rounded
+        return f"The axes are principal ones: {self.axes} in those of the body that were given{rounded}."
 
 
-def in_principal_axes(motion: Any, unit: str = "") -> Principal:
-    """Return what asks for a motion in given axes in those of its class, rates in a unit."""
-    from atlas.bodies.body import moments
+def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
+    """Return what asks for a motion in given axes in those of its class, rates in a unit.
 
-    family, arguments = FAMILIES["asymmetric" if motion.family == "free" else motion.family], dict(motion.own.arguments)
-    if motion.family == "free":
-        I2, I3 = moments(arguments["ratio"])
-        arguments = {"inertia": (I2, I2, I3), "field": (0.0, 0.0, 0.0), "omega": arguments["omega"]}
-    axes = motion.axes
-    if motion.family == "general":
+    Where floats do not hold what the class is made of, or its field has three components, the family is that of any
+    three moments; not for a motion that was fitted, which is rounded.
+    """
+    family, arguments, axes = FAMILIES[motion.family], dict(motion.own.arguments), motion.axes
+    if motion.family == "general" and (fitted or not float([0.0, *arguments["field"]][-3])):
         arguments, axes = _in_plane(arguments, axes)
+    parts = [x for value in arguments.values() for x in parts_of(value)]
+    typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in parts)
+    if motion.family == "free" or not (fitted or typed or motion.family == "elliptic"):
+        return along_principal_axes(motion, unit)
+    return _principal(family, arguments, axes, unit)
+
+
+def along_principal_axes(motion: Any, unit: str = "") -> Principal:
+    """Return what asks for a motion in given axes as that of a body with three moments, rates in a unit."""
+    from atlas.motions.start import start_of
+
+    start = start_of(**motion.arguments)
+    moments, axes = start.body.moments.tolist(), start.body.axes
+    field, omega = start.along(axes)
+    arguments = {"inertia": tuple(moments), "field": tuple(field), "omega": tuple(omega)}
+    return _principal(FAMILIES["asymmetric"], arguments, axes, unit)
+
+
+def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
+    """Return what asks for an object of a family."""
     words, values = list[str](), dict[str, tuple[float, ...]]()
+    rounded = any(x not in {-1, 0, 1} for x in axes.ravel())
     for p in family.parameters:
         value: Any = arguments.get(p.name)
         if p.name == "ratio" and hasattr(value, "I2"):
@@ -368,19 +395,24 @@ def in_principal_axes(motion: Any, unit: str = "") -> Principal:
             words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts_of(value))]
         if value is not None:
             values[p.name] = tuple(map(float, parts_of(value)))
-    rows = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)
-    return Principal(family, words, values, rows)
+            rounded |= any(isinstance(x, Given) for x in parts_of(value))
+    return Principal(family, words, values, axes_text(axes), rounded)
+
+
+def axes_text(axes: Any) -> str:
+    """Return axes, the rows of a matrix, as text."""
+    return ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)
 
 
 def _in_plane(arguments: dict[str, Any], axes: Any) -> tuple[dict[str, Any], Any]:
     """Return the arguments of a general motion in axes in which the field is (0, B2, B3), rounded, and these axes."""
     import numpy as np
 
-    *_, K2, K3 = K = [0.0, *map(float, arguments["field"])][-3:]
-    if not K[0]:
-        return arguments | {"field": (K2, K3)}, axes
-    size = hypot(K[0], K2)
-    turn = np.array([[K2 / size, -K[0] / size, 0.0], [K[0] / size, K2 / size, 0.0], [0.0, 0.0, 1.0]])
+    K1, K2, K3 = [0.0, *map(float, arguments["field"])][-3:]
+    if not K1:
+        return arguments | {"field": arguments["field"][-2:]}, axes
+    size = hypot(K1, K2)
+    turn = np.array([[K2 / size, -K1 / size, 0.0], [K1 / size, K2 / size, 0.0], [0.0, 0.0, 1.0]])
     omega = turn @ [float(x) for x in arguments["omega"]]
     return arguments | {"field": (size, K3), "omega": tuple(omega)}, turn @ axes
 
@@ -395,7 +427,7 @@ def _in_doubles(
         own = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
         raise click.UsageError(
             "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are "
-            f"along {own.axes}, and in them it is atlas {own.command} {' '.join(own.options)}"
+            f"along {own.axes}, and in them it is atlas motion {' '.join(own.options)}"
         )
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
@@ -409,7 +441,7 @@ def _in_doubles(
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
         printout = _printout(family, described, texts, options, worth, _in_hertz(family, texts, options))
-        axes, third = in_principal_axes(motion).axes, THIRD.get(motion.family, "")
+        axes, third = axes_text(motion.axes), THIRD.get(motion.family, "")
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
             printout = replace(printout, notes=chain([says], printout.notes))

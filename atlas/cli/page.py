@@ -94,7 +94,7 @@ def of_fit(file: Path, **options: Any) -> int:
 
 def motion_of(made: Any) -> Any:
     """Return what a page of a motion is asked for, in the axes of its class."""
-    own = in_principal_axes(made)
+    own = in_principal_axes(made, fitted=True)
     with COMMANDS[in_group(own.family.name)].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)
 
@@ -118,7 +118,7 @@ class ByOptions(click.Group):
             elif args and args[0].startswith("--"):
                 args = ["fit" if "--fit" in words.names else best(words), *args]
             if args[:1] == ["asymmetric"]:
-                args = along_principal_axes(args[1:], ctx) or args
+                args = in_own_axes(args[1:], ctx) or args
         return super().parse_args(ctx, args)
 
 
@@ -127,14 +127,16 @@ def in_group(family: str) -> str:
     return "motion" if family == "elementary" else family
 
 
-def along_principal_axes(args: list[str], parent: click.Context) -> list[str]:
-    """Return the arguments of a motion in given axes as those of the same motion in principal ones; none for others."""
+def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
+    """Return the arguments of a motion in given axes as those along the own axes of its class; none if the same."""
     with COMMANDS["asymmetric"].make_context("asymmetric", list(args), parent) as context:
         options = context.params
         motion = motion_in_given_axes(options)
         if motion is None:
             return []
         principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
+        if principal.family.name == "asymmetric" and not (principal.note or options["tensor"] or options["attitude"]):
+            return []
         own = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
         rest = [
             word
@@ -142,9 +144,8 @@ def along_principal_axes(args: list[str], parent: click.Context) -> list[str]:
             if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
             for word in (option, str(options[name]))
         ]
-    note = f"The axes of this page are principal ones: {principal.axes} in those of the body that were given."
-    click.echo(note, err=True)
-    return [in_group(principal.family.name), *principal.options, *rest, "--note", note]
+    click.echo(principal.note, err=True, nl=bool(principal.note))
+    return [in_group(principal.family.name), *principal.options, *rest, "--note", principal.note]
 
 
 def best(words: Words) -> str:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import click
 
 from atlas.cli import body
-from atlas.cli.family import in_principal_axes, motion_in_given_axes
+from atlas.cli.family import along_principal_axes, motion_in_given_axes
 from atlas.cli.options import Place, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
@@ -200,8 +200,8 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
     """Return what the options of body, field and start say, by the names of a table; a tensor along principal axes."""
     three, found = "tensor" in options, dict[str, float]()
     if three and body.given_tensor(options) is not None:
-        principal = in_principal_axes(motion_in_given_axes(options))
-        click.echo(f"The axes are principal ones: {principal.axes} in those of the body that were given.", err=True)
+        principal = along_principal_axes(motion_in_given_axes(options))
+        click.echo(principal.note, err=True, nl=bool(principal.note))
         names = {p.name: p.names for p in principal.family.parameters}
         parts = ((names[name], values) for name, values in principal.values.items())
         return {name: x for several, values in parts for name, x in zip(several, values, strict=True)}

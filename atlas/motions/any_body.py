@@ -5,7 +5,7 @@ from typing import Any
 from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
 from atlas.motions.elementary.kernel_ball import BallMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
-from atlas.motions.start import Start, argument, attitude_of, body_of, columns
+from atlas.motions.start import argument, start_of
 from atlas.motions.torus.kernel import AsymmetricMotion
 
 FAMILIES: tuple[Any, ...] = (AsymmetricMotion, FreeMotion, ElementaryMotion, BallMotion, GeneralMotion)
@@ -56,8 +56,8 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Any:
     >>> motion.family, motion.kind
     ('asymmetric', 'on a torus')
     """
-    B, w = columns(field, "The field", "B"), columns(omega, "The angular velocity", "omega")
-    start = Start(body_of(inertia), B, w, attitude_of(attitude))
-    arguments = {"inertia": inertia, "field": argument(field, B), "omega": argument(omega, w), "attitude": attitude}
+    start = start_of(inertia, field, omega, attitude)
+    B, w = argument(field, start.B), argument(omega, start.w)
+    arguments = {"inertia": inertia, "field": B, "omega": w, "attitude": attitude}
     own, axes = next(found for family in FAMILIES if (found := family._from_start(start)))  # noqa: SLF001
     return start.place(own, axes, motion, arguments, "motion")

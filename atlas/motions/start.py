@@ -88,6 +88,12 @@ class Start:
         return own._place(placement, kept, made_by)  # noqa: SLF001  nobody else has the motion yet
 
 
+def start_of(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Start:
+    """Return the start of a motion from what `atlas.motion` takes."""
+    B, w = columns(field, "The field", "B"), columns(omega, "The angular velocity", "omega")
+    return Start(body_of(inertia), B, w, attitude_of(attitude))
+
+
 def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
     """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
     R, B = attitude_of(attitude), columns(field, "The field", "B")

@@ -15,6 +15,9 @@ import atlas
 from atlas.cli.app import atlas as command
 from atlas.cli.explore import started
 from atlas.cli.page import COMMANDS, ByOptions
+from atlas.cli.page import asked as page_asked
+from atlas.motions.register import FAMILIES as REGISTER
+from atlas.sweeps.families import FAMILIES
 
 POINTS = np.array(
     [
@@ -300,6 +303,35 @@ def test_a_tensor_is_the_same_body_for_every_command(tmp_path: Path, monkeypatch
     status, out = run("sweep", "motion", *TENSOR.split(), "--quantity", "f1", "--out", "f.csv")
     assert status == 0, out
     assert float(Path("f.csv").read_text().splitlines()[1].split(",")[-2]) == pytest.approx(motion.frequencies[0])
+
+
+def test_an_unstable_start_in_any_field_is_that_of_every_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What page, sliders and sweep evaluate of a symmetric body is what was typed: after t = 60 it still agrees."""
+    monkeypatch.chdir(tmp_path)
+    I, field, omega = 0.7157322617930502, (-0.765050795081338, 1.0200677267751173, 0.19211036905670717), (
+        0.8801646474639836, -1.1735528632853114, 0.2745993411764893
+    )  # fmt: skip
+    R33 = atlas.motion(I, field, omega).rotation(60.0)[2, 2]
+    words = [f"--{name}" if x is None else repr(x) for name, xs in (("field", field), ("omega", omega))
+             for x in (None, *xs)]  # fmt: skip
+    for body in (["--ratio", repr(I)], ["--tensor", "1", "1", repr(I), "0", "0", "0"]):
+        name, numbers_of = started([*body, *words])
+        slid = {key: float(x) for key, (x,) in parse_qs(numbers_of.lstrip("#")).items() if key != "subject"}
+        assert FAMILIES[name].make(slid).rotation(60.0)[2, 2] == pytest.approx(R33, abs=1e-14)
+        assert run("sweep", "motion", *body, *words, *"--set t=60 --quantity R33 --out x.csv".split())[0] == 0
+        assert float(Path("x.csv").read_text().splitlines()[1].split(",")[-1]) == pytest.approx(R33, abs=1e-14)
+        with COMMANDS["asymmetric"].make_context("asymmetric", page_of([*body, *words])[1:]) as context:
+            values = page_asked(REGISTER["asymmetric"], context.params).values
+        assert atlas.AsymmetricMotion(**values).rotation(60.0)[2, 2] == pytest.approx(R33, abs=1e-14)
+
+
+def page_of(words: list[str]) -> list[str]:
+    """Return the command of a page and its arguments, but for the sentence on its axes."""
+    context = ByOptions("page", commands=COMMANDS).make_context("page", words)
+    found = [*context._protected_args, *context.args]
+    return found[: found.index("--note")] if "--note" in found else found
 
 
 def test_an_attitude_turns_the_laboratory() -> None:

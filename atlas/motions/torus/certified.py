@@ -296,9 +296,11 @@ class AsymmetricMotion:
         return self._motion.angular_velocity(t)
 
     @property
-    def _nutating(self) -> EllipticMotion:
-        """The free body or the elliptic motion that has a period. Raises DomainError for another."""
+    def _nutating(self) -> Any:
+        """The free body, the elliptic motion or that of a symmetric body, which have a period, else DomainError."""
         motion = self.elliptic
+        if isinstance(self._motion, Symmetric) and any(self.field):
+            return self._motion.exact
         if motion is None or (isinstance(motion, EulerTop) and any(self.field)):
             frequencies = ", but the three frequencies f1, f2, f3" if self.on_torus else ""
             raise DomainError(f"The motion, {self.kind}, has no one period and no mean rates{frequencies}.")
@@ -337,10 +339,9 @@ class AsymmetricMotion:
         body. Raises DomainError where there are none, and where no periods are proved.
         """
         if self.on_torus is None:
-            try:
-                motion = self._nutating
-            except DomainError as reason:
-                raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.") from reason
+            motion = self.elliptic
+            if motion is None or (isinstance(motion, EulerTop) and any(self.field)):
+                raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.")
             return [arb(abs(motion.spin_rate)), arb(0), arb(motion.precession_rate)]
         try:
             return list(self.on_torus.frequencies)

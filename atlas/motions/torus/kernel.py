@@ -316,12 +316,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @kept
     def period(self) -> Any:
-        """Period of Omega for a free body, of Omega and K for an elliptic motion; inf where these are constant.
+        """Period of Omega for a free body, of Omega and K for an elliptic motion; of nutation for a symmetric body.
 
         Raises
         ------
         DomainError
-            For any other single motion, which has `frequencies` instead; an array has NaN there.
+            For any other single motion of a body without two equal moments, which has `frequencies`; an array has NaN.
         """
         return self._scalar("period")
 
