@@ -58,7 +58,7 @@ def nutation(axis: str) -> tuple[Quantity, ...]:
         return {"says": words, "cases": {"free body": (words.replace(f"about {axis}", "about the momentum"), "")}}
 
     return (
-        Quantity("period", "period of nutation", TIME, certified=True),
+        Quantity("period", "period of nutation", TIME, certified=True, cases={"free body": ("period of Omega", "")}),
         *(
             Quantity(f"{name}_per_period", unit="rad", missing="no period", certified=True,
                      **of(f"turn about {what} in one period"))

@@ -171,8 +171,6 @@ def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None
     printed = json.loads(done.output)
     shown = {q.name: entry for q, entry in zip(FAMILIES[name].quantities, found["numbers"], strict=True)}
     same = [key for key in shown if isinstance(printed.get(key), str)]
-    if name == "free":  # its command makes a GeneralMotion, whose period is that of an infinitesimal nutation
-        same.remove("period")
     assert same
     for key in same:
         assert shown[key]["value"] == printed[key]

@@ -162,3 +162,18 @@ def test_derivatives_of_rates_are_limits_of_quotients(make: Any, names: tuple[st
     for of in NAMES:
         steps = [(getattr(make(x + e), of) - getattr(make(x - e), of)) / 2e-5 for e in 1e-5 * np.eye(len(x))]
         np.testing.assert_allclose(make(x).sensitivity(0.0, names, of), steps, rtol=1e-6, atol=1e-8)
+
+
+@pytest.mark.parametrize("omega", [(0.2, 0.3, 1.5), (0.0, 0.0, 1.0), (0.3, 0.4, 0.0), (0.0, 0.0, 0.0)])
+@pytest.mark.parametrize("ratio", [0.6, 1.0, 1.5])
+def test_a_general_motion_without_a_field_has_the_names_of_a_free_body(ratio: float, omega: Any) -> None:
+    """Period of Omega, rates about the momentum and the axis: of one motion, in an array, and of three moments."""
+    free = atlas.FreeMotion(ratio, omega)
+    general, three = atlas.GeneralMotion(ratio, (0, 0), omega), atlas.AsymmetricMotion((1, 1, ratio), (0, 0, 0), omega)
+    several = atlas.GeneralMotion(ratio, (0, np.array([0.0, 1.0])), omega)
+    for name in ("period", "precession_rate", "spin_rate"):
+        own = getattr(free, name)
+        for found in (getattr(general, name), getattr(three, name), getattr(several, name)[0]):
+            assert found == pytest.approx(own, rel=1e-15)
+    if free.phi:
+        assert general.spin_per_period == pytest.approx(np.sign(free.phi) * 2 * np.pi, rel=1e-15)

@@ -171,7 +171,7 @@ class Nutating:
     def _angles(self) -> tuple[arb, arb]:
         solution = self.solution
         T, pi = solution.period, arb.pi()
-        if infinite(T):
+        if infinite(self.period):
             raise DomainError(f"This motion, of the kind {self.kind!r}, has no period: no angle belongs to one.")
         signs = self.quartic.sign_beside(-1), self.quartic.sign_beside(1)
         if not self.is_steady and len(self.quartic.polynomial) == 3:

@@ -149,6 +149,31 @@ class GeneralMotion(Nutating):
             return arb.pi() / self.steady_rates()[0]
         return super()._half
 
+    @property
+    def period(self) -> arb:
+        """Period of nutation, see `Nutating.period`; of a free body that of Omega, 2 pi/|phi|, as of `FreeMotion`."""
+        if self.quartic.K2 != 0:
+            return super().period
+        phi = self.steady_rates()[1]
+        return 2 * arb.pi() / abs(phi) if phi != 0 else arb("inf")
+
+    def _angles(self) -> tuple[arb, arb]:
+        T = self.period
+        if self.quartic.K2 != 0 or not T.is_finite():
+            return super()._angles()
+        k, phi = self.steady_rates()
+        return T * k, T * phi
+
+    @property
+    def precession_rate(self) -> Real:
+        """Mean rate of precession, see `Nutating`; of a free body k, about its momentum."""
+        return self.steady_rates()[0] if self.quartic.K2 == 0 else super().precession_rate
+
+    @property
+    def spin_rate(self) -> Real:
+        """Mean rate of the body's turn about its axis, see `Nutating`; of a free body phi."""
+        return self.steady_rates()[1] if self.quartic.K2 == 0 else super().spin_rate
+
     def _ball(self, sphere: Sphere, M: tuple[fmpq, fmpq, fmpq]) -> Solution:
         """Return the turn of the vector about M, which stands in the body."""
         c, s, C, S = sphere.tilt

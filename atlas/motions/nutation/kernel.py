@@ -68,7 +68,7 @@ class NutatingMotion(Motion[Nutation]):
 
         Notes
         -----
-        Where Omega3 is constant, the period is that of an infinitesimal nutation.
+        Where Omega3 is constant, the period is that of an infinitesimal nutation; of a free body that of Omega.
         """
         return self._scalar("period")
 
@@ -102,12 +102,12 @@ class NutatingMotion(Motion[Nutation]):
     @property
     def precession_rate(self) -> Any:
         """Mean rate of precession about the field, `precession_per_period`/`period`, in rad/time."""
-        return plain(np.divide(self.precession_per_period, self.period))
+        return self._rate("precession")
 
     @property
     def spin_rate(self) -> Any:
         """Mean rate of rotation about the body's own axis, `spin_per_period`/`period`, in rad/time."""
-        return plain(np.divide(self.spin_per_period, self.period))
+        return self._rate("spin")
 
     @kept
     def modulus(self) -> Any:
@@ -170,6 +170,15 @@ class NutatingMotion(Motion[Nutation]):
         """
         K = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
         return self._in_body(np.asarray(finite(K, "K")))
+
+    def _rate(self, name: str) -> Any:
+        """Return a mean rate: the angle in a period over that, or where there is none the rate of a free body."""
+        if not self.shape and not np.isfinite(self.period):
+            return self._scalar(f"{name}_rate")
+        rates = np.array(np.divide(getattr(self, f"{name}_per_period"), self.period))
+        for i in np.flatnonzero(np.isnan(rates)).tolist():
+            rates.flat[i] = scalar(self._single(i).exact, f"{name}_rate", alone=False)
+        return plain(rates)
 
     def _scalar(self, name: str) -> Any:
         """Return a number for each motion, in an array NaN for a motion that has none."""
