@@ -4,7 +4,10 @@ In a motion of the elliptic family, see `atlas.motions.nutation.certified_ellipt
 the body, and I_i is to E_j E_k - 1. A free body with moments J and the angular momentum M = s K has Omega = s K/J. So
 it turns as each body does with
 
-    I_i : I_j = J_i (J_j + J_k + s) : J_j (J_k + J_i + s)    in the field    B = M/s,    s > 0 or s < -(J_j + J_k).
+    I_i : I_j = J_i (J_j + J_k + s) : J_j (J_k + J_i + s)    in the field    B = M/s.
+
+These are moments of a body for s > 0, for -min(J_j + J_k) < s < 0 where |s| (J_j + J_k - J_i) <= 2 J_j J_k for each i,
+and for s < -max(J_j + J_k) where it is >= for each i.
 
 Along them the least squares are a level valley, bent, on which standard errors at one place tell nothing.
 """
@@ -56,8 +59,8 @@ def freely(problem: Problem, tried: list[tuple[float, Any]]) -> tuple[list[tuple
         return tried, ""
     return [(least, level), *tried], (
         f"No field is seen beyond noise: one lowers chi square by {max(fallen, 0.0):.3g}. The motion is taken for that "
-        "of a free body of moments J. Other bodies turn alike: for any s, of moments in the ratios of "
-        "J_i (J_j + J_k + s), in the field M/s along the angular momentum M. Hold B1, B2 and B3 at 0 for errors of J."
+        "of a free body of moments J. Other bodies turn alike: of moments in the ratios of J_i (J_j + J_k + s), in the "
+        "field M/s along the angular momentum M, for any s > 0 and some s < 0. Hold B1, B2 and B3 at 0 for errors of J."
     )
 
 

@@ -3,6 +3,7 @@
 import json
 import pickle
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import nullcontext
 from copy import copy, deepcopy
 from multiprocessing import get_context
 from pathlib import Path
@@ -549,7 +550,7 @@ def test_a_signal_of_few_numbers_is_enough(seen: Any) -> None:
 
 
 def test_a_free_body_is_not_taken_for_one_of_those_in_a_field_that_turn_alike() -> None:
-    """For any s these have moments in the ratios of J_i (J_j + J_k + s), in the field M/s along M."""
+    """For s > 0, and some s < 0, these have moments J_i (J_j + J_k + s), but for a factor, in the field M/s along M."""
     J, omega = np.array([0.8, 1.0, 1.3]), np.array([1.3, 1.2, 0.9])
     t = np.sort(np.random.default_rng(1).uniform(0, 40, 120))
     R = atlas.AsymmetricMotion(J, np.zeros(3), omega).rotation(t)
@@ -561,6 +562,23 @@ def test_a_free_body_is_not_taken_for_one_of_those_in_a_field_that_turn_alike() 
     assert [found.params[name].value for name in ("I1", "I3", "b")] == pytest.approx([0.8, 1.3, 0.0], abs=0.01)
     assert "free body of moments J" in found.undetermined[0]
     assert {"I1", "I3"} <= set(found.undetermined[1].split(" are not")[0].replace(" and", ",").split(", "))
+
+
+def test_bodies_that_turn_like_a_free_one_are_bodies_for_the_fields_that_are_said() -> None:
+    """Moments J_i (J_j + J_k + s) are those of a body for s > 0, and where the two conditions on s < 0 hold."""
+    rng, kinds = np.random.default_rng(4), set()
+    for s in rng.uniform(-5, 1, 300):
+        J = np.sort(rng.uniform(0.3, 1, 3))
+        J[2] = rng.uniform(J[1], J[0] + J[1])
+        pairs, room = J.sum() - J, J.sum() - 2 * J
+        near = -pairs.min() < s < 0 and (-s * room <= 2 * J.prod() / J).all()
+        far = s < -pairs.max() and (-s * room >= 2 * J.prod() / J).all()
+        kinds.add((bool(s > 0), bool(near), bool(far)))
+        moments = J * (pairs + s) * (1 if s > -pairs.max() else -1)
+        said = bool(s > 0 or near or far)
+        with nullcontext() if said else pytest.raises(atlas.AtlasError):
+            atlas.AsymmetricMotion(moments, (0.1, 0.2, 0.3), (0.3, 0.1, 0.2))
+    assert len(kinds) == 4
 
 
 def test_confidence_intervals_are_those_of_lmfit(attitudes: Any) -> None:

@@ -7,11 +7,14 @@ from decimal import Decimal
 from typing import Any
 
 import mpmath
+import pytest
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.book.body_and_field import Body, Field, body_and_field
+from atlas.book.blocks.table import Table
+from atlas.book.body_and_field import Body, Field, body_and_field, chosen
 from atlas.book.digits import Number
+from atlas.book.load import load
 from atlas.book.tables import TABLES, compute
 from atlas.book.tables.table import Data, Request
 from atlas.places import folder
@@ -283,6 +286,19 @@ def test_the_cells_of_fits() -> None:
     assert len(rows) == 15
     assert all(found >= 97 and 63 <= within <= 73 for found, within, _ in rows)
     holds(compute("fits", Request((), {}, 2)), *rows)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [*("sizes", "radiation", "charges", "coats", "diamagnetism", "swings"), *("levitated", "lines", "beyond_larmor")],
+)
+def test_a_table_of_doubles_says_that_they_are_not_proven(name: str) -> None:
+    """A table of the atlas that is not made of balls has it in its notes."""
+    report = load(folder("reports") / "atlas.md")
+    blocks = [block for page in report.pages for block in page.blocks if isinstance(block, Table)]
+    (block,) = [block for block in blocks if block.table == name]
+    data = compute(name, Request(chosen(block, report.parameters), block.parameters, block.digits))
+    assert any("not proven" in note for note in data.notes)
 
 
 def test_no_table_is_left_out() -> None:

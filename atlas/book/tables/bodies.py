@@ -61,7 +61,7 @@ def sizes(asked: SizeParameters) -> Data:
         r"Larmor's frequency and its period; the angle $\delta$ between $\mathbf{m}$ and $\mathbf{B}$ for "
         f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$; and the temperature whose "
         "heat turns the ball with $b$.",
-        ("Two digits: the shape of a body changes the first.",),
+        ("Two digits of doubles, not proven: the shape of a body changes the first.",),
     )
 
 
@@ -93,7 +93,7 @@ def radiation(asked: SizeParameters) -> Data:
         r"cyclotron frequency $2b$; that of the rotation at the rate $b$, once by the moment $\mu\mathbf{m}/2$ that "
         rf"precesses across the field, once, with $I={RATIO:g}$, by the quadrupole of an axis that goes round a right "
         "angle off it.",
-        ("Two digits.", "Energy over power at the start, with the formulas of the text."),
+        ("Two digits of doubles, not proven.", "Energy over power at the start, with the formulas of the text."),
     )
 
 
@@ -143,7 +143,7 @@ def charges(request: Request) -> Data:
         ),
         tuple(rows),
         "The charges of the bodies, and the field of a point charge as large at the distance of the radius.",
-        ("Two digits: the field at the surface is of this order, and depends on the shape.",),
+        ("Two digits of doubles, not proven: the field at the surface is of this order, and depends on the shape.",),
     )
 
 
@@ -182,7 +182,7 @@ def diamagnetism(request: Request, asked: DiamagnetismParameters) -> Data:
         r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with "
         rf"a susceptibility $\chi_m$ of {Number(f'{asked.susceptibility:.1e}').tex()} and {asked.density:g} "
         "kg m$^{-3}$.",
-        (r"Two digits: $\chi_m$ is known no better, and $\Delta N$ is that of a thin wall.",),
+        (r"Two digits of doubles, not proven: $\chi_m$ is known no better, and $\Delta N$ is that of a thin wall.",),
     )
 
 
@@ -218,7 +218,7 @@ def coats(asked: CoatParameters) -> Data:
         r"Bodies whose charge is not spread like their mass, $b=eB/2m_0c$ with the whole charge: gyromagnetic factors "
         r"across and along the axis, and what stands in @theorem-every-top. For one charge-to-mass ratio throughout "
         r"both factors are 1, $\kappa=0$ and $A/b^2=I-1$.",
-        ("Three decimals; dimensions in the text.",),
+        ("Three decimals of doubles, not proven; dimensions in the text.",),
     )
 
 
@@ -255,7 +255,7 @@ def swings(request: Request, asked: DiamagnetismParameters) -> Data:
         r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "
         r"Larmor's period, the rate $\sqrt{\lvert A\rvert}$ of small swings of the axis and the period $T$ of its "
         rf"inclination, with the charge alone and with $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:]}.",
-        ("Three digits; the ball does not swing.",),
+        ("Three digits of doubles, not proven; the ball does not swing.",),
     )
 
 

@@ -219,11 +219,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     - "elliptic motion": the torus shrinks to a curve, see `EllipticMotion`;
     - "on the discriminant": other states without two periods; certified up to a time that the error states.
 
-    On a torus M, K and the attitude are quotients of theta functions of two variables. The first time takes a quarter
-    of a second, each further time two microseconds. `agreement` states whether the formulas are proved for this
-    motion, and `accuracy` bounds the rounding. Euler's top, a spin about an axis and an elliptic motion use Jacobi's
-    functions. Without a closed form every value is certified and rounded once, in tenths of a second. For certified
-    digits see `atlas.motions.torus.certified`.
+    On a torus M, K and the attitude are quotients of theta functions of two variables. The first time takes a second or
+    two, of a slender body ten or more, each further time two microseconds. `agreement` states whether the formulas are
+    proved for this motion. `accuracy` bounds the rounding: of Omega and K relative to the largest component of B' and
+    of the initial Omega, so that an Omega far below |B'| has fewer digits. Euler's top, a spin about an axis and an
+    elliptic motion use Jacobi's functions. Without a closed form every value is certified and rounded once, in tenths
+    of a second. For certified digits see `atlas.motions.torus.certified`.
 
     Charge is distributed like mass. The moment that the field induces in the body is neglected. For a micrometre of
     glass in some tesla the induced moment exceeds the retained square of the field by a factor 1e5.
@@ -304,7 +305,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @kept
     def accuracy(self) -> Any:
-        """Bound on the errors of entries of R, and of Omega and K relative to the largest rate, at any time.
+        """Bound on the errors of R, at any time, and of Omega and K relative to the largest rate, see the class.
 
         Notes
         -----
