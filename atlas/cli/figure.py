@@ -130,7 +130,7 @@ def command(
         raise click.UsageError("two of these recipes have the same name, so that their files would be the same.")
     kinds = dict.fromkeys(formats) or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
     parameters = dict(setting(text) for text in settings)
-    with bar("figures", every=10) as tell:
+    with bar("figures") as tell:
         figures = build_figures(
             wanted,
             tuple(kinds),

@@ -58,7 +58,7 @@ def command(
 
     status = 0
     for name in names or ("atlas",):
-        with bar(Path(name).stem, every=10) as tell:
+        with bar(Path(name).stem) as tell:
             built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
         for form, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
             if form in (formats or FORMATS):
@@ -111,7 +111,7 @@ def data(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     except AtlasError as error:
         parquet = False
         click.echo(f"atlas: CSV alone: {error}", err=True)
-    with bar(f"data of {Path(name).stem}", every=10) as tell:
+    with bar(f"data of {Path(name).stem}") as tell:
         place = build_data(name, out, tell, jobs=jobs, parquet=parquet, style=style)
     click.echo(place)
 
@@ -136,6 +136,6 @@ def tex(name: str, out: Path, style: str | None, jobs: int | None) -> None:
     """
     from atlas.book.building.composed import build_tex
 
-    with bar(f"{Path(name).stem} as LaTeX", every=10) as tell:
+    with bar(f"{Path(name).stem} as LaTeX") as tell:
         place = build_tex(name, out, tell, jobs=jobs, style=style)
     click.echo(place)
