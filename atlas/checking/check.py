@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import real
 from atlas.checking.conserved import Drift, Drifts
-from atlas.checking.grades import LINES, MAX_DIGITS, Column, Envelope, Errors, Grade, inverse_fits
+from atlas.checking.conventions import conventions_that_fit
+from atlas.checking.grades import LINES, MAX_DIGITS, Column, Envelope, Errors, Grade
 from atlas.checking.order import Convergence, convergence
 from atlas.checking.reference import OF_TOPS, reference
 from atlas.checking.trajectory import Trajectory, holes_left_out, of_arrays, opened, whole_rows
@@ -28,8 +29,8 @@ class Check:
     The columns have the names that they had in the input. ``step`` is the step of the integrator, if that is said,
     else the mean distance of the times; ``end`` is the last of them. ``errors`` holds for R, Omega and quaternion the
     largest error of each ``rows_a_point`` rows that follow one another, ``times`` the time of the first of them: so few
-    that a curve can be drawn through them. ``inverse`` says that the matrices or quaternions fail, and that those of
-    the inverse rotations would not. ``notes`` are sentences on columns and rows that were left out.
+    that a curve can be drawn through them. ``conventions`` are sentences on conventions in which columns that
+    fail would be right. ``notes`` are sentences on columns and rows that were left out.
     """
 
     file: str
@@ -43,7 +44,7 @@ class Check:
     rows_a_point: int
     times: tuple[float, ...]
     errors: Mapping[str, tuple[float, ...]]
-    inverse: bool
+    conventions: tuple[str, ...]
     step: float
     end: float
     notes: tuple[str, ...] = ()
@@ -58,7 +59,7 @@ class Check:
         lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
         if self.drifts:
             lines += ["what should not change", table(*self.drift_table(), left=True)]
-        lines += map(printable, self.notes)
+        lines += map(printable, (*self.conventions, *self.notes))
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -282,7 +283,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
     if errors:
         _within(threshold, errors.floor)
     grades = [Grade(name, threshold, errors) for name in graded if errors]
-    drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
+    drifts, envelope, rows, conventions = Drifts(known.deviations), Envelope(), 0, list[str]()
     first, last, holes = 0.0, 0.0, 0
     for read in trajectory.blocks:
         block, missing = whole_rows(read)
@@ -295,7 +296,8 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
             for grade in grades:
                 grade.add(block, differences[grade.name])
             envelope.add(block["t"], differences)
-            inverse |= not rows and inverse_fits(errors, block, differences, 10.0**-threshold)
+            if not rows and max(map(np.median, differences.values())) > 10.0**-threshold:
+                conventions += conventions_that_fit(block, errors, 10.0**-threshold)
         drifts.add(block)
         first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
         rows += len(block["t"])
@@ -318,7 +320,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
         rows_a_point=envelope.rows,
         times=tuple(envelope.times()),
         errors={group: tuple(values) for group, values in envelope.errors().items()},
-        inverse=inverse,
+        conventions=tuple(conventions),
         step=trajectory.parameters.get("step", (abs(last - first) / max(rows - 1, 1),))[0],
         end=last,
         notes=tuple(filter(None, notes)),

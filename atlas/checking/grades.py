@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -80,6 +80,16 @@ class Errors:
                 differences[name][i] = error
         return differences
 
+    def true(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return R (m, 3, 3) and Omega (m, 3) at a few times (m,), by balls where there is nothing faster."""
+        near = self._truth.within(t)
+        R, Omega, _ = self._truth.values(np.where(near, t, 0.0)) if near.any() else np.zeros((3, t.size, 9))
+        R, Omega = R.reshape(-1, 3, 3).astype(np.float64), Omega[:, :3].astype(np.float64)
+        for i in np.flatnonzero(~near):
+            R[i] = [[float(arb(x)) for x in row] for row in _precise(partial(self._motion.rotation, float(t[i])))]
+            Omega[i] = [float(arb(x)) for x in _precise(partial(self._motion.angular_velocity, float(t[i])))]
+        return R, Omega
+
     def _difference(self, name: str, values: FloatArray, true: Long) -> FloatArray:
         unit = self._length if name in OMEGA else np.longdouble(1)
         return np.asarray(np.minimum(np.abs(values - true) / unit, LARGEST), dtype=np.float64)
@@ -144,21 +154,6 @@ class Grade:
         worst = self._errors.certified(self._worst_row, 0)[self.name] if certain else self._errors.floor
         time = float(self._worst_row["t"][0])
         return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), time, self._fails_at)
-
-
-def inverse_fits(errors: Errors, block: Block, values: Block, limit: float) -> bool:
-    """Return whether most rotations of a block have errors beyond a limit, and their inverses have not."""
-    names = [name for name in block if name in (*MATRIX, *QUATERNION)]
-    taken = {name: f"R{name[2]}{name[1]}" if name in MATRIX else name for name in names}
-    if not names or not {*taken.values()} <= {*names} or _most(values, names) <= limit:
-        return False
-    turned = {name: -block[other] if name in QUATERNION[1:] else block[other] for name, other in taken.items()}
-    return _most(errors.of_block({"t": block["t"]} | turned), names) <= limit
-
-
-def _most(errors: Block, names: Sequence[str]) -> float:
-    """Return the error below which half of the rows are in all of some columns."""
-    return float(np.median(np.max([errors[name] for name in names], axis=0)))
 
 
 class Envelope:

@@ -174,20 +174,6 @@ def test_a_quaternion_of_either_sign_is_graded(write: Writer) -> None:
     assert drifts["R^T R"].worst > 1e-8
 
 
-def test_matrices_of_the_inverse_rotations_are_known_as_such(write: Writer) -> None:
-    """Transposed, from the laboratory into the body, they fail and would do; else nothing is said."""
-
-    def transposed(_: float, row: list[float]) -> list[float]:
-        return [row[3 * j + i] for i in range(3) for j in range(3)] + row[9:]
-
-    assert graded(write, transposed).inverse
-    assert not graded(write).inverse
-    assert not graded(write, lambda t, row: [x + 1e-3 for x in transposed(t, row)]).inverse
-    assert not check(write(SETTING + table(["t", "R12"], [[t, -true_row(t)[1]] for t in TIMES]))).inverse
-    turned = [[t, *(x * sign for x, sign in zip(quaternion(t).tolist(), (1, -1, -1, -1), strict=True))] for t in TIMES]
-    assert check(write(SETTING + table(["t", "w", "x", "y", "z"], turned))).inverse
-
-
 def test_parameters_come_from_options_or_from_the_file(write: Writer) -> None:
     """Options override the file; a body may be given by its two moments; units of separators do not matter."""
     rows = [[t, true_row(t)[2]] for t in TIMES]

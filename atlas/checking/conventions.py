@@ -1,0 +1,98 @@
+"""Other conventions in which a trajectory that fails would be right: each is tried on some rows, by one comparison."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.checking.grades import Errors
+from atlas.checking.headings import MATRIX, OMEGA, QUATERNION
+
+ROWS, LEAST = 24, 3
+"""Rows of the first block on which conventions are tried, about so many, and at least."""
+
+SCALES = {"": 1.0, "in degrees per unit of time": 180 / math.pi, "in turns per unit of time": 1 / (2 * math.pi)}
+"""Units of a rate, as sizes of one rad/time."""
+
+CHANGE = 0.01
+"""Change of R, or of Omega beside its size, below which rows do not tell one convention from another."""
+
+
+def conventions_that_fit(block: Mapping[str, FloatArray], errors: Errors, limit: float) -> list[str]:
+    """Return sentences on other conventions in which most rows have errors below a limit, where as given they have not.
+
+    Tried are transposed matrices, conjugate and reordered quaternions, attitudes turned by a constant rotation, and
+    rates in the laboratory or in other units.
+    """
+    rows = slice(None, None, max(1, len(block["t"]) // ROWS))
+    if len(block["t"]) < LEAST:
+        return []
+    R, Omega = errors.true(block["t"][rows])
+    x = {name: values[rows] for name, values in block.items()}
+    found: list[str] = []
+    if set(MATRIX) <= x.keys():
+        M = np.stack([x[name] for name in MATRIX], axis=-1).reshape(-1, 3, 3)
+        found += _of_attitudes(
+            {"R": M, "R, transposed (R takes the body to the laboratory),": M.swapaxes(1, 2)}, R, limit
+        )
+    if QUATERNION[0] in x:
+        found += _of_attitudes(dict(_of_quaternions(np.stack([x[name] for name in QUATERNION], axis=-1))), R, limit)
+    if set(OMEGA) <= x.keys():
+        found += _of_rates(np.stack([x[name] for name in OMEGA], axis=-1), R, Omega, limit)
+    return found
+
+
+def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
+    """Yield words and quaternions, scalar first, for both orders and both directions of quaternions (N, 4)."""
+    conjugate = np.array([1.0, -1.0, -1.0, -1.0])
+    orders = {"": 0, "with the scalar last": 1, "with the scalar first": -1}
+    for order, places in orders.items():
+        for inverse, factors in (("", 1.0), ("conjugate (it takes the body to the laboratory)", conjugate)):
+            yield ", ".join(filter(None, [order, inverse])), np.roll(q, places, axis=-1) * factors
+
+
+def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
+    """Yield words and matrices of the readings of quaternions, none where one is zero."""
+    if (np.linalg.norm(q, axis=-1) > 0).all():
+        for words, p in quaternion_readings(q):
+            yield (
+                f"the quaternion, {words}," if words else "the quaternion",
+                Rotation.from_quat(p, scalar_first=True).as_matrix(),
+            )
+
+
+def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: float) -> list[str]:
+    """Return a sentence on the first reading of matrices that is R, as given or turned; none if as given it is R."""
+    if not readings or _apart(next(iter(readings.values())), R) <= limit or _apart(R, R[0]) < CHANGE:
+        return []
+    for words, M in readings.items():
+        if _apart(M, R) <= limit:
+            return [f"{words} fits"]
+    for words, M in readings.items():
+        start = M[0] @ R[0].T
+        if _apart(start.T @ M, R) <= limit:
+            x, y, z, w = Rotation.from_matrix(start).as_quat(canonical=True)
+            start_of = f"--attitude {x:.9g} {y:.9g} {z:.9g} {w:.9g}"
+            return [f"{words} fits turned in the laboratory: give {start_of}, and the field along those axes"]
+        if _apart(M @ (M[0].T @ R[0]), R) <= limit:
+            return [f"{words} fits turned in the body: its axes are others than those of the moments of inertia"]
+    return []
+
+
+def _of_rates(found: FloatArray, R: FloatArray, Omega: FloatArray, limit: float) -> list[str]:
+    """Return a sentence on the first frame and unit in which rates are Omega."""
+    size = float(np.abs(Omega).max()) or 1.0
+    if _apart(found / size, Omega / size) <= limit:
+        return []
+    for frame, true in (("", Omega), ("R Omega, in the laboratory", np.matvec(R, Omega))):
+        for unit, scale in SCALES.items():
+            if _apart(found / (scale * size), true / size) <= limit:
+                return [f"Omega fits as {', '.join(filter(None, [frame, unit]))}"]
+    return []
+
+
+def _apart(x: FloatArray, y: FloatArray) -> float:
+    """Return the error below which half of the rows are."""
+    return float(np.median(np.abs(x - y).reshape(len(x), -1).max(-1)))

@@ -1,0 +1,72 @@
+"""Conventions are tried before physics is blamed: `check` and `fit` say in which a trajectory that fails is right."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.checking.check import Check, check_file
+
+MOTIONS = {
+    "general": atlas.motion(1.4, (0.4, -0.9, 1.2), (0.5, 0.3, -1.1)),
+    "elementary": atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7),
+}
+TIMES = np.linspace(0.0, 7.3, 40)
+TURN = Rotation.from_rotvec([0.4, -0.7, 1.1]).as_matrix()
+
+CONVENTIONS: dict[str, tuple[Callable[[Any], dict[str, Any]], str]] = {
+    "transposed": (lambda m: {"rotation": m.rotation(TIMES).swapaxes(1, 2)}, "R, transposed"),
+    "scalar first": (lambda m: {"quaternion": m.quaternion(TIMES, scalar_first=True)}, "with the scalar first"),
+    "scalar last": (lambda m: {"quaternion": m.quaternion(TIMES), "scalar_first": True}, "with the scalar last"),
+    "conjugate": (lambda m: {"quaternion": m.quaternion(TIMES) * [-1, -1, -1, 1]}, "the quaternion, conjugate"),
+    "conjugate, scalar first": (
+        lambda m: {"quaternion": m.quaternion(TIMES, scalar_first=True) * [1, -1, -1, -1]},
+        "with the scalar first, conjugate",
+    ),
+    "turned in the laboratory": (lambda m: {"rotation": TURN @ m.rotation(TIMES)}, "fits turned in the laboratory"),
+    "turned in the body": (lambda m: {"rotation": m.rotation(TIMES) @ TURN}, "fits turned in the body"),
+    "laboratory": (
+        lambda m: {"angular_velocity": m.angular_velocity_in_laboratory(TIMES)},
+        "R Omega, in the laboratory",
+    ),
+    "degrees": (lambda m: {"angular_velocity": np.rad2deg(m.angular_velocity(TIMES))}, "in degrees per unit of time"),
+    "turns": (
+        lambda m: {"angular_velocity": m.angular_velocity_in_laboratory(TIMES) / (2 * np.pi)},
+        "R Omega, in the laboratory, in turns",
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", MOTIONS)
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_a_convention_that_fits_is_said(name: str, kind: str) -> None:
+    """It is the only one, and is not said where the data are off by 1e-3 in it, nor where they are right as given."""
+    motion, (make, words) = MOTIONS[kind], CONVENTIONS[name]
+    data = make(motion)
+    (what,) = data.keys() - {"scalar_first"}
+    result = atlas.check(TIMES, **data, motion=motion)
+    assert isinstance(result, Check)
+    (said,) = result.conventions
+    assert words in said
+    assert said in str(result)
+    noise = 1e-3 * np.cos(np.arange(data[what].size)).reshape(data[what].shape)
+    off = atlas.check(TIMES, **data | {what: data[what] + noise}, motion=motion)
+    right = atlas.check(TIMES, **{what: getattr(motion, what)(TIMES)}, motion=motion)
+    assert not off.conventions
+    assert not right.conventions
+
+
+def test_the_attitude_that_is_named_makes_the_trajectory_right(tmp_path: Path) -> None:
+    """Graded again with the attitude and the field in that laboratory, all digits are there."""
+    frame = atlas.motion(1.4, TURN @ [0.4, -0.9, 1.2], (0.5, 0.3, -1.1), TURN).to_dataframe(TIMES)
+    frame.to_csv(tmp_path / "turned.csv", index=False)
+    known = {"inertia": (1.0, 1.0, 1.4), "omega": (0.5, 0.3, -1.1)}
+    first = check_file(tmp_path / "turned.csv", field=(0.4, -0.9, 1.2), **known)
+    attitude = [*map(float, first.conventions[0].partition("--attitude ")[2].partition(",")[0].split())]
+    again = check_file(tmp_path / "turned.csv", field=TURN @ [0.4, -0.9, 1.2], attitude=attitude, **known)
+    assert min(column.worst for column in first.columns) < 1
+    assert min(column.worst for column in again.columns) > 8
