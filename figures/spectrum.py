@@ -14,7 +14,7 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
 
 WIDTH, HEIGHT = 120.0, 110.0
-BESIDE = 0.02
+BESIDE = 0.1
 """Part of the width between names that are both written."""
 
 
@@ -35,15 +35,14 @@ def scene(
     axis, spin = motion.spectrum("axis", least), motion.spectrum("angular_velocity", least)
     rates = dict(zip((*axis.names, *spin.names), (*axis.rates, *spin.rates), strict=True))
     top = 1.2 * float(max(axis.frequencies.max(initial=0.0), spin.frequencies.max(initial=0.0))) or 1.0
-    along_field, along_axis = (r"along $\mathbf{B}$", r"across $\mathbf{B}$"), ("along the axis", "across it")
     symbols = {"nutation": "M", "precession": "p", "spin": "s"}
     told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
         caption=(
             rf"Lines of the motion of {tex_setting(ratio, field)} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "
-            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are the norms of complex vector "
-            r"amplitudes, of one of both signs of a frequency, beside the root of the mean square."
+            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it, in the same colours. Heights are norms of "
+            r"complex vector amplitudes, of one of both signs of a frequency, beside the root of the mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "
@@ -57,19 +56,17 @@ def scene(
             )
         ),
         panels=(
-            stems(r"(a) the body's axis, $(m,l)$ at $mM+lp$", axis, along_field, least, names, top, ""),
-            stems(r"(b) angular velocity in the body, $(m,j)$ at $mM+js$", spin, along_axis, least, names, top, unit),
+            stems(r"(a) the axis, $(m,l)$ at $mM+lp$", axis, least, names, top, ""),
+            stems(r"(b) $\boldsymbol{\Omega}$, $(m,j)$ at $mM+js$", spin, least, names, top, unit),
         ),
         size=(WIDTH, HEIGHT),
     )
 
 
-def stems(
-    heading: str, lines: Spectrum, kinds: tuple[str, str], least: float, names: int, top: float, unit: str
-) -> Plane:
+def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, unit: str) -> Plane:
     """Return a panel of lines; those that turn about the field, or about the body's axis, are of the second kind.
 
-    The frequencies go up to ``top``; without a ``unit`` the axis has no name.
+    The frequencies go up to ``top``; without a ``unit`` the axis has no name, and the kinds have.
     """
     size = np.sqrt(lines.power / lines.mean_square)
     positive = lines.frequencies >= 0
@@ -77,10 +74,10 @@ def stems(
     for i, name in enumerate(lines.names):
         numbers[:, int(name != "nutation")] = lines.combinations[positive, i]
     layers: list[Layer] = []
-    for turns, (role, kind) in enumerate(zip(("second", "main"), kinds, strict=True)):
+    for turns, (role, kind) in enumerate((("second", "along"), ("main", "across"))):
         chosen = np.flatnonzero((numbers[:, 1] != 0) == bool(turns))
         for i, n in enumerate(chosen):
-            layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i else kind))
+            layers.append(Curve(np.array([[f[n], least / 2], [f[n], size[n]]]), role, "" if i or unit else kind))
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
     written: list[int] = []
     for n in np.argsort(-size):
@@ -90,6 +87,6 @@ def stems(
         text = f"$({numbers[n, 0]},{{{numbers[n, 1]}}})$"
         layers.append(Label(np.array([f[n], size[n]]), text, "label", (0.0, 7.0)))
     return Plane(
-        tuple(layers), f"frequency (1/{unit})" if unit else "", "amplitude", (-0.1 * top, top), (least / 2, 3.0),
-        y_scale="log", legend=True, title=heading,
+        tuple(layers), f"frequency (1/{unit})" if unit else "", "amplitude", (-0.1 * top, top), (least / 2, 20.0),
+        y_scale="log", legend=not unit, title=heading,
     )  # fmt: skip

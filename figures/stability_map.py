@@ -36,7 +36,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     square = table.columns()["least_stability"].T
     root = np.copysign(np.sqrt(np.abs(square)), square)
     layers: list[Layer] = [
-        Image(x, y, root, r"rate of growth $-\sqrt{-\nu_n^2}/|B'_2|$,   frequency $\nu_n/|B'_2|$"),
+        Image(x, y, root, r"frequency, or $-$growth, over $|B'_2|$"),
         *(Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2),
         Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
         Label(np.array([0.21, 0.46 * EDGE]), "unstable"),

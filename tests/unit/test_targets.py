@@ -28,6 +28,7 @@ MILLIMETRE = 72.0 / 25.4
 @pytest.mark.parametrize(
     ("name", "target"),
     [("flight", target) for target in ("aps-double", "beamer", "poster")]
+    + [(name, "beamer") for name in ("spectrum", "stability_map")]
     + [(name, NARROWEST) for name in ("hyperbolas", "kinds_of_quadric", "two_turns")]
     + [pytest.param("flight", target, marks=pytest.mark.slow) for target in ("aps", "elsevier", "iop")],
 )
