@@ -128,3 +128,14 @@ def test_angular_velocity_in_the_laboratory_is_the_turned_one() -> None:
     assert np.abs(w - np.matvec(m.rotation(t), m.angular_velocity(t))).max() == 0
     along = w @ np.array([0.3, 0.7, 0.66])
     assert np.ptp(along) <= 16 * 2.0**-52 * abs(along).max()
+
+
+@pytest.mark.parametrize(
+    ("field", "omega", "zeros"),
+    [((1, 0), (0, 0.7, 0), [0, 2]), ((0, 1), (0, 0, 0.7), [0, 1]), ((0, 0), (0.3, 0, 0), [1, 2]),
+     ((0, 0), (0.3, 0.4, 0), [2]), ((0, 0), (0, 0.4, 0.3), []), ((1, 2), (0, 0, 0), [0, 1, 2])],
+)  # fmt: skip
+def test_what_is_zero_at_all_times_is_exactly_zero(field: Any, omega: Any, zeros: list[int]) -> None:
+    """A body that turns about one axis has the quaternion of that axis; where there is no zero, there is none."""
+    q = atlas.GeneralMotion(1.5, field, omega).quaternion(np.linspace(0.1, 60.0, 400))
+    assert np.flatnonzero((q == 0.0).all(0)).tolist() == zeros

@@ -75,7 +75,7 @@ class Nutating:
         return None if more is None else f"separatrix{more}"
 
     @property
-    def _axis(self) -> Sequence[fmpq]:
+    def turning_axis(self) -> Sequence[fmpq]:
         """Vector along the axis of precession, in the body at t = 0."""
         return self.field
 
@@ -211,7 +211,7 @@ class Nutating:
             return identity()
         if self.is_steady:
             k, phi = self.steady_rates()
-            return turns(t, (self._axis, k), (AXES[self.places[2]], phi))
+            return turns(t, (self.turning_axis, k), (AXES[self.places[2]], phi))
         if self.kind == "ball":
             M = [w + k for w, k in zip(self.omega, self.field, strict=True)]
             return turns(t, (self.field, self.precession), (M, length(*M)))

@@ -101,7 +101,7 @@ class GeneralMotion(Nutating):
     @by_precision
     def sphere(self) -> Sphere:
         """The sphere of K, or of a free body's momentum, at the precision of the moment."""
-        return sphere_of_field(self.quartic, self._axis)
+        return sphere_of_field(self.quartic, self.turning_axis)
 
     @by_precision
     def _velocity_sphere(self) -> Sphere:
@@ -114,7 +114,7 @@ class GeneralMotion(Nutating):
         return M1, M2, M3
 
     @cached_property
-    def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
+    def turning_axis(self) -> tuple[fmpq, fmpq, fmpq]:
         """Vector along the axis of precession, in the body at t = 0: the field, else the momentum, at rest e3."""
         if self.quartic.K2 != 0:
             K1, K2, K3 = self.field

@@ -170,6 +170,22 @@ class SingleGeneral(SingleMotion):
         turn = np.array([[-S * across, C * across, 0], [C * across, S * across, 0], [0, 0, -along]])
         return parts, VECTOR @ turn, across, along
 
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return q(t), shape (..., 4); components that are zero at all times are exactly zero."""
+        q = super().quaternion(t, out)
+        q[..., self._zeros] = 0.0
+        return q
+
+    @cached_property
+    def _zeros(self) -> list[int]:
+        """Components that are zero at all times in the product of two turns, by k about an axis and by phi about e3."""
+        if not self.exact.is_steady:
+            return []
+        n1, n2, n3 = self.exact.turning_axis
+        k, phi = self.exact.steady_rates()
+        terms = ((n1, n2 * phi), (n2, n1 * phi), (n3, phi))
+        return [i for i, (own, other) in enumerate(terms) if own * k == 0 and (other if i == 2 else other * k) == 0]
+
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
         parts, weights, across, along = self.velocity
