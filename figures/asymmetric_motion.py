@@ -46,8 +46,9 @@ def scene(
 
     drawn = SimpleNamespace(third_axis=third_axis, angular_velocity=CubicSpline(times, steps.Omega))
     moment, words = any_motion.start(omega)
+    inside = rf" in $\mathbf{{B}}'={tex_vector(field)}$" if any(field) else ""
     setting = (
-        rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$ from {moment}: {motion.kind}",
+        rf"A {'' if inside else 'free '}body with $I_i={tex_vector(inertia)}${inside} from {moment}: {motion.kind}",
         f"The motion of a body with the moments {plain_vector(inertia)} from {words}",
     )
     return any_motion.picture(

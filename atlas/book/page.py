@@ -21,7 +21,7 @@ from atlas.book.tables.table import Request
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import FAMILIES, Family
 
-MAX_NAME_LENGTH = 100
+MAX_NAME_LENGTH = 48
 """Characters of the name of a page; what is longer ends with a digest."""
 
 
@@ -141,7 +141,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         {"kind": "prose", "text": _reproduce(asked, made)},
         *([{"kind": "prose", "text": "\n- ".join(["## Left out\n", *left_out])}] if left_out else []),
     ]
-    case = f"{family.says[:1].upper()}{family.says[1:]}"
+    case = thing.says
     records = (("bodies", "body", asked.body), ("fields", "field", asked.field))
     return {
         "name": asked.name,
@@ -180,21 +180,22 @@ def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> 
 def _too_slow(motion: Any, time: str) -> Iterator[str]:
     """Yield what is too slow to be seen in a figure of some periods of nutation, or too small to be seen in others."""
     from atlas.pictures.any_motion import slow_turn
+    from atlas.pictures.captions import lasting
 
     unit = "s" if time in {"s", "1/s"} else time
     try:
         period, angle, rate = float(motion.period), float(motion.precession_per_period), float(motion.precession_rate)
     except (AttributeError, AtlasError):
         return
-    turn = f"a whole turn takes {2 * pi / abs(rate):.3g} {unit}" if rate else ""
+    turn = f"a whole turn takes {lasting(2 * pi / abs(rate), unit)}" if rate else ""
     if angle and slow_turn(motion, 5 * period):
         yield (
-            f"The nutation, of the period {period:.3g} {unit}, which is too small to be seen: the axis is followed for "
-            f"the precession, by {angle:.3g} rad in that time; {turn}."
+            f"The nutation, of the period {lasting(period, unit)}, which is too small to be seen: the axis is followed "
+            f"for the precession, by {angle:.3g} rad in that time; {turn}."
         )
     elif 0 < abs(angle) < MIN_PRECESSION:
         yield (
-            f"The precession about the field: in a period of nutation, {period:.3g} {unit}, the axis turns by "
+            f"The precession about the field: in a period of nutation, {lasting(period, unit)}, the axis turns by "
             f"{angle:.3g} rad, so that figures of some periods show none of it; {turn}."
         )
 

@@ -27,7 +27,7 @@ from atlas.cli.points import points
 from atlas.cli.present import bar
 from atlas.cli.report import status_of
 from atlas.cli.top import top_units
-from atlas.cli.typed import parts_of
+from atlas.cli.typed import Inclined, parts_of
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES, Family
@@ -229,13 +229,15 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
 def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     """Return those of the options by these names that were typed, each with what was."""
     context = click.get_current_context()
-    return {
-        param.opts[0].removeprefix("--"): _texts(options[param.name])
-        for param in context.command.params
-        if param.name in names
-        and options[param.name] is not None
-        and context.get_parameter_source(param.name) is click.core.ParameterSource.COMMANDLINE
-    }
+    typed: dict[str, tuple[str, ...]] = {}
+    for param in context.command.params:
+        value = options[param.name] if param.name in names else None
+        if value is None or context.get_parameter_source(param.name) is not click.core.ParameterSource.COMMANDLINE:
+            continue
+        option = param.opts[0].removeprefix("--")
+        parts = value.parts if isinstance(value, Inclined) else (value,)
+        typed |= dict(zip((option, "angle"), map(_texts, parts), strict=False))
+    return typed
 
 
 def _called(options: dict[str, Any]) -> str:
@@ -276,8 +278,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     """Return the field as a report file has it: as B where its axes are those of the report, else as B'."""
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
-        shown = ", ".join(_texts(options["field"] or (B2, B3)))
-        return {"title": f"field ({shown})", "prime": [float(B2), float(B3)]}
+        return {"title": f"field {_shown(options['field'] or (B2, B3))}", "prime": [float(B2), float(B3)]}
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]
     field = (
         {}
@@ -286,11 +287,18 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     )
     unit = {"SI": "T", "Gaussian": "G"}[system]
     return {
-        "title": f"field of ({float(x):g}, {float(y):g}) {unit}",
+        "title": f"field of {_shown(options['magnetic'], unit)}",
         "system": system,
         "B": [0.0, *_plain((x, y))],
         **field,
     }
+
+
+def _shown(field: Any, unit: str = "") -> str:
+    """Return a field in words: its strength and angle as they were typed, or its components."""
+    if isinstance(field, Inclined):
+        return " at ".join(x.text for x in field.parts)
+    return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"
 
 
 def make(wanted: Any, out: Path, jobs: int | None) -> int:

@@ -11,7 +11,7 @@ from atlas.arithmetic.inputs import FloatArray, positive
 from atlas.errors import AtlasError, DomainError
 from atlas.pictures import axis_trace
 from atlas.pictures.bodies import body_of
-from atlas.pictures.captions import plain_vector, quotient, spelt, tex_vector
+from atlas.pictures.captions import lasting, plain_vector, quotient, spelt, tex_vector
 from atlas.pictures.layers import Arrow, Curve, Label, Layer, Plane, Scene, Space
 from atlas.pictures.quadric_panel import O, tolerance
 from atlas.pictures.sample import MAX_POINTS, curve, quarter_pixel
@@ -116,13 +116,14 @@ def picture(
     length = min(length, MAX_AXIS_TURNS / rate) if rate else length
     short = min(length, MAX_OMEGA_TURNS / rate) if rate else length
     counted = f"over {spelt(float(f'{length / unit_of_time:.3g}'))} of the {word}"
-    span = counted if word and not steady else f"up to the time {float(f'{length:.3g}'):g}"
+    span = counted if word and not steady else f"over {lasting(length, unit)}"
     axis, lasts, count = motion.third_axis, length, length * rate
     if not steady and (turn := slow_turn(motion, length)):
         axis, lasts, count = precessing(motion, upright.vector), turn, 1.0
         span = (
-            f"over one turn of the precession, the time {turn:.3g}, without the nutation, of the period {period:.3g}, "
-            "and the spin, which are too small and too fast to be seen with it,"
+            f"over one turn of the precession, {lasting(turn, unit)}, without the nutation, of the period "
+            f"{lasting(period, unit)}, "
+            "and the spin, which are too small and too fast to be seen with it"
         )
     panels = (
         axis_trace.sphere(

@@ -70,14 +70,22 @@ def body_role(ratio: Any) -> str:
 
 
 def tex_setting(ratio: Any, field: Sequence[float], *, first: str = "a") -> str:
-    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3).
+    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3), free where it is zero.
 
     ``first`` is its first word: 'A' where a sentence begins with it.
     """
-    vector = tex_vector((0.0, *field))
-    return rf"{first} {body_name(ratio)} with $I={tex(quotient(ratio))}$ in the field $\mathbf{{B}}'={vector}$"
+    body = f"{body_name(ratio)} with $I={tex(quotient(ratio))}$"
+    if not any(field):
+        return f"{first} free {body}"
+    return rf"{first} {body} in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$"
 
 
 def plain_setting(ratio: Any, field: Sequence[float]) -> str:
     """Return "a loop with I = 2 in the field B' = (0, 1, 2)", for an alternative text."""
-    return f"a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field B' = {plain_vector((0.0, *field))}"
+    body = f"{body_name(ratio)} with I = {plain(quotient(ratio))}"
+    return f"a {body} in the field B' = {plain_vector((0.0, *field))}" if any(field) else f"a free {body}"
+
+
+def lasting(time: float, unit: str) -> str:
+    """Return a time with its unit, in words: '2.21 s', or '2.21 units of time' where that has no name."""
+    return f"{time:.3g} {'units of time' if unit == 'time' else unit}"

@@ -93,7 +93,7 @@ TIES = (
     of_curve("Hyperbola.special", "(71) (72)", special),
     of_curve("Hyperbola.asymptotes", "(67)", asymptotes),
     of_curve("Hyperbola.stability", "theorem-stability", stability, [*POINTS, *BAND]),
-    of_curve("Hyperbola.least_stability", "theorem-stability", least, FOLDED, floors=("kernel",)),
+    of_curve("Hyperbola.least_stability", "theorem-stability", least, FOLDED),
     of_curve("Hyperbola.unstable_band", "theorem-band", band, BAND),
     Tie(
         "Hyperbola.sample",

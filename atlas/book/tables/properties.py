@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from math import isfinite
 from typing import Any
 
 from atlas.book.body_and_field import DIMENSIONS, BodyAndField
@@ -70,6 +69,14 @@ class Thing:
             raise unknown("parameter", next(iter(rest)), [p.name for p in family.parameters], f"of {name!r}")
         return cls(family, given, tuple(floats), tuple(exact), units, bool(described))
 
+    @property
+    def says(self) -> str:
+        """What the object is, in plain words that begin a sentence; a body without a field is free."""
+        says = self.family.says
+        if not any(self.given.get("field", (1.0,))):
+            says = says.replace("charged ", "free ")
+        return says[:1].upper() + says[1:]
+
     def kernels(self) -> Any:
         """Return the object of kernels."""
         return self.family.kernels()(*self.floats)
@@ -115,11 +122,11 @@ def properties(request: Request, thing: Thing) -> Data:
             names.setdefault(reason, []).append(name)
     reasons = [f"{', '.join(of)}: {reason}." for reason, of in names.items()]
     rows = [(*row[:5], "") if row[2] is NONE else row for row in rows]
-    says, heading = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
+    heading = "what is given, and what follows" if rows else "what follows"
     return Data(
         heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
         tuple(rows),
-        f"{says[:1].upper()}{says[1:]}: {heading}.",
+        f"{lettered(thing.says)}: {heading}.",
         ("Given numbers are rounded to doubles, then exact.", *reasons),
     )  # fmt: skip
 
@@ -190,9 +197,6 @@ def _printed(thing: Thing, q: Quantity, text: Any, place: int | None, digits: in
     """Return a value as it is printed, and how sure it is."""
     from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED
 
-    if isinstance(text, float):
-        number = Number(plain(text), proven=False)
-        return (number, "float, not certified") if isfinite(text) else (NONE, "beyond the largest float")
     if text == NOT_CERTIFIED:
         value = q.value(thing.kernels())
         value = value if place is None else value[place]

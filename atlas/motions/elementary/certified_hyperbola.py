@@ -66,6 +66,12 @@ class Hyperbola:
         return bool(squared > 0 or (squared == 0 and self.B3 == 0))
 
     @property
+    def least_stability(self) -> Real:
+        """Infimum of `stability` on the curve (67), for B2 != 0."""
+        check_asymptotes(self.B2, self.B3)
+        return hyperbola.least_stability(*self._constants)
+
+    @property
     def unstable_band(self) -> tuple[Real, Real] | None:
         """The unstable interval of ((omega2 + B2)/B2)^2, theorem-band, or None where the whole family is stable.
 

@@ -137,7 +137,10 @@ HYPERBOLA = Family(
             "unstable_band", "((omega2 + B2)/B2)^2 where the motion is unstable", symbol="y", text=" to ".join,
             tabled=False,
         ),
-        Quantity("least_stability", "least of the squared frequencies of small nutations", "1/time^2", printed=False),
+        Quantity(
+            "least_stability", "least of the squared frequencies of small nutations", "1/time^2", certified=True,
+            printed=False,
+        ),
     ),
     promises={
         "omega3 of the hyperbola": 4, "stability": 4, "k of the hyperbola": 4, "phi of the hyperbola": 4,
