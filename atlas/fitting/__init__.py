@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from atlas.errors import AtlasError
+from atlas.fitting.conventions import lead_to, others
 from atlas.fitting.data import of_arrays, of_file
 from atlas.fitting.free import freely
 from atlas.fitting.models import model_of
@@ -161,7 +163,12 @@ def fit(
         tried = tried if steady else of_ratio_one(problem, tried)
     elif model.name == "asymmetric":
         tried, steady = freely(problem, tried)
-    return Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
+    found = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
+    if not _good(problem, tried[0][1]):
+        more = others(problem, lambda read: parameters_of(model, read, params, fix), quaternions=quaternion is not None)
+        fits = (words for words, other in more if any(_good(other, x) for x in lead_to(other)))
+        found.warnings = tuple(islice(fits, 1)) or found.warnings
+    return found
 
 
 def fit_file(file: Path, family: str = "general", *, kind: str | None = None, sigma: Any = None, **options: Any) -> Fit:

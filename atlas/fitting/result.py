@@ -368,7 +368,8 @@ def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, fre
     out = []
     data, wider = problem.data, problem.model.wider
     other = "the family is not that of the motion ("
-    other += f"family {' or '.join(wider)} is wider; drag, a second field)" if wider else "drag, a second field)"
+    other += f"family {' or '.join(wider)} is wider; " * bool(wider) + "drag, a second field"
+    other += "; rates that are not along the axes of the body)" if data.kind == "angular_velocity" else ")"
     off = float(np.median(np.linalg.norm(problem.residuals(x).reshape(data.t.size, -1) * data.sigma, axis=1)))
     surprising = data.known and abs(redchi - 1) > SURPRISE * np.sqrt(2 / free)
     if off > FOLLOWED * data.spread and (surprising or not data.known):

@@ -182,15 +182,20 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
     """
     if set(problem.names) <= problem.given.keys():
         yield 0.0, problem, problem.inside(problem.given), problem.data.t.size
-    for k, share in enumerate(PARTS):
-        # what turns fast by little, as in a strong field, is not seen in larger turns
-        small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
-        rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
-        largest = FIELD * (4.0 if rate > problem.rate else 1.0)
-        centre = 0.0 if problem.pinned else centre_of(problem.data, rate, share)
-        there = problem.shifted(centre, rate)
-        for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, largest, last=k == len(PARTS) - 1):
-            yield centre, there, x, count
+    for k in range(len(PARTS)):
+        yield from tries_about(problem, k)
+
+
+def tries_about(problem: Problem, k: int) -> Iterator[tuple[float, Problem, FloatArray, int]]:
+    """Yield what `tries` does about the time of one of PARTS, the k-th."""
+    # what turns fast by little, as in a strong field, is not seen in larger turns
+    small = float(np.clip(NOISE * np.median(problem.data.sigma), TURN / 4, TURN)) if problem.data.known else TURN
+    rate = problem.rate if k == 0 else max(problem.rate, rate_of(problem.data, small))
+    largest = FIELD * (4.0 if rate > problem.rate else 1.0)
+    centre = 0.0 if problem.pinned else centre_of(problem.data, rate, PARTS[k])
+    there = problem.shifted(centre, rate)
+    for x, count in sought(there, STARTS[problem.data.kind] * 3**k, k, largest, last=k == len(PARTS) - 1):
+        yield centre, there, x, count
 
 
 def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bool) -> Iterator[tuple[FloatArray, int]]:

@@ -64,9 +64,29 @@ def test_the_attitude_that_is_named_makes_the_trajectory_right(tmp_path: Path) -
     """Graded again with the attitude and the field in that laboratory, all digits are there."""
     frame = atlas.motion(1.4, TURN @ [0.4, -0.9, 1.2], (0.5, 0.3, -1.1), TURN).to_dataframe(TIMES)
     frame.to_csv(tmp_path / "turned.csv", index=False)
-    known = {"inertia": (1.0, 1.0, 1.4), "omega": (0.5, 0.3, -1.1)}
+    known: dict[str, Any] = {"inertia": (1.0, 1.0, 1.4), "omega": (0.5, 0.3, -1.1)}
     first = check_file(tmp_path / "turned.csv", field=(0.4, -0.9, 1.2), **known)
     attitude = [*map(float, first.conventions[0].partition("--attitude ")[2].partition(",")[0].split())]
     again = check_file(tmp_path / "turned.csv", field=TURN @ [0.4, -0.9, 1.2], attitude=attitude, **known)
     assert min(column.worst for column in first.columns) < 1
     assert min(column.worst for column in again.columns) > 8
+
+
+def followed(t: Any, family: str = "general", **data: Any) -> tuple[str, ...]:
+    """Return the warnings of a fit."""
+    return atlas.fit(t, family, sigma=0.01, **data).warnings
+
+
+@pytest.mark.slow
+def test_a_fit_says_in_which_convention_the_data_are_followed() -> None:
+    """Quaternions with the scalar at the other end, transposed matrices, a top whose direction is held."""
+    rng, t = np.random.default_rng(1), np.linspace(0, 12, 80)
+    noise = Rotation.from_rotvec(rng.normal(0, 1e-2, (80, 3))).as_matrix()
+    R = noise @ MOTIONS["general"].rotation(t)
+    (words,) = followed(t, rotation=R.swapaxes(1, 2))
+    assert "matrices that are transposed" in words
+    (words,) = followed(t, quaternion=Rotation.from_matrix(R).as_quat(), scalar_first=True)
+    assert "quaternions with the scalar last" in words
+    top = atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), (0.1, 0.2, 5.0), 3.0)
+    (words,) = followed(t / 4, "top", rotation=noise @ top.rotation(t / 4))
+    assert "held at (0, 0, 1)" in words

@@ -1,0 +1,60 @@
+"""Other conventions in which data that no motion of the family follows would be those of one."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from atlas.arithmetic.inputs import FloatArray
+from atlas.checking.conventions import quaternion_readings
+from atlas.errors import AtlasError
+from atlas.fitting.data import Data
+from atlas.fitting.models import DIRECTION, Values
+from atlas.fitting.parameters import Parameters
+from atlas.fitting.problem import Problem
+from atlas.fitting.search import grown, rate_of, tries_about
+
+HELD = (
+    "The direction of the field is held at (0, 0, 1), and the data are followed where it is free: give "
+    'params={"n1": {"vary": True}, "n2": {"vary": True}}, or data along axes whose third is the field.'
+)
+
+
+def others(
+    problem: Problem, parameters: Callable[[Data], tuple[Parameters, Values]], *, quaternions: bool
+) -> Iterator[tuple[str, Problem]]:
+    """Yield sentences and problems: the direction of a top's field free, then the data read in other conventions.
+
+    `parameters` gives those of the fit for other data; `quaternions` says that the data are no matrices.
+    """
+    data = problem.data
+    held = problem.model.name == "top" and not any(problem.params[name].free for name in DIRECTION)
+    if held and data.kind in ("rotation", "axis"):
+        freed = problem.params.changed(**{name: {"vary": True} for name in DIRECTION[:2]})
+        yield HELD, Problem(problem.model, data, freed, problem.loss, problem.rate, problem.given)
+    for words, R in _readings(data.values, quaternions=quaternions) if data.kind == "rotation" else ():
+        read = replace(data, values=R)
+        free, given = parameters(read)
+        sentence = f"The data are followed where they are read otherwise: {words}."
+        yield sentence, Problem(problem.model, read, free, problem.loss, rate_of(read), given)
+
+
+def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatArray]]:
+    """Yield words and rotations for what matrices or quaternions may be, but for what they were taken for."""
+    if not quaternions:
+        yield "as matrices that are transposed, for R takes the body to the laboratory", R.swapaxes(1, 2)
+        return
+    for words, q in quaternion_readings(Rotation.from_matrix(R).as_quat(scalar_first=True)):
+        if words:
+            yield f"as quaternions {words}", Rotation.from_quat(q, scalar_first=True).as_matrix()
+
+
+def lead_to(problem: Problem) -> Iterator[FloatArray]:
+    """Yield what the first starts lead to, if anything."""
+    for centre, there, start, count in tries_about(problem, 0):
+        try:
+            x = grown(there, start, count)
+            yield problem.inside(there.carried(x, -centre)) if centre else x
+        except (AtlasError, np.linalg.LinAlgError):
+            continue
