@@ -88,7 +88,9 @@ class SymmetricBody:
                 raise DomainError(f"I2 must be positive, not {across}: {says}.")
             if along < 0:
                 raise DomainError(f"I3 must not be negative, but is {along}.")
-            raise DomainError(f"No body has I2 = {across}, I3 = {along}: I3 is at most 2 I2, {NO_SUCH_BODY}.")
+            raise DomainError(
+                f"No body has I2 = {across}, I3 = {along}: I3 is at most 2 I2 = {2 * across}, {NO_SUCH_BODY}."
+            )
         object.__setattr__(self, "I2", plain(I2))
         object.__setattr__(self, "I3", plain(I3))
         object.__setattr__(self, "axes", matrix(self.axes, "The axes"))

@@ -74,7 +74,8 @@ def inertia_tensor(inertia: Any) -> FloatArray:
     if I[2] - I[1] > I[0] + ROUNDING * I[2]:
         raise DomainError(
             f"No body has the principal moments {I}: the largest is at most the sum of the others, since 2 g1 = I2 + "
-            f"I3 - I1 is a sum of 2 m x^2, but {I[2]:.6g} > {I[1]:.6g} + {I[0]:.6g}."
+            f"I3 - I1 is a sum of 2 m x^2, but {I[2]:.6g} exceeds {I[1]:.6g} + {I[0]:.6g} by {I[2] - I[1] - I[0]:.2g}; "
+            f"{I[1] + I[0]:.15g} would do."
         )
     return tensor
 

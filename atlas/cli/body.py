@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
+from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
 from atlas.cli.options import FILE, given, numbers, stack
 from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
 from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured
@@ -42,7 +43,7 @@ def points_option(axes: str) -> Callable[[F], F]:
 
 
 shape_options: Callable[[F], F] = stack(
-    numbers("ratio", "I = I3/I2, in (0, 2]."),
+    numbers("ratio", "I = I3/I2, in (0, 2].", callback=nearest_moments),
     click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
     numbers("radius", "Radius of the shape."),
     numbers("height", "Height of a cylinder or cylindrical shell."),
@@ -52,7 +53,7 @@ shape_options: Callable[[F], F] = stack(
     numbers("density", "Density of a solid shape, for --mass."),
 )
 body_options: Callable[[F], F] = stack(
-    numbers("inertia", "The two moments of inertia instead of I.", "I2 I3"),
+    numbers("inertia", "The two moments of inertia instead of I.", "I2 I3", callback=nearest_moments),
     shape_options,
     points_option(""),
 )
@@ -82,7 +83,7 @@ field_options: Callable[[F], F] = stack(
     numbers("angle", "Angle between field and axis: --magnetic or --field is one number then."),
 )
 any_body_options: Callable[[F], F] = stack(
-    numbers("inertia", "Principal moments of inertia.", "I1 I2 I3"),
+    numbers("inertia", "Principal moments of inertia.", "I1 I2 I3", callback=nearest_moments),
     points_option("; x, y, z are principal axes"),
     shape_options,
     field_options_of("B1 B2 B3", " along the principal axes at t = 0"),
@@ -92,6 +93,7 @@ tensor_option: Callable[[F], F] = numbers(
     "tensor",
     "Inertia tensor in any axes of the body; I12 is -sum m x y, as it stands in the matrix.",
     "I11 I22 I33 I12 I13 I23",
+    callback=nearest_tensor,
 )
 curve_option: Callable[[F], F] = click.option(
     "--curve", is_flag=True, help="The spectral curve of a motion on a torus, its branch points, periods and so on."
@@ -100,6 +102,7 @@ attitude_option: Callable[[F], F] = numbers(
     "attitude",
     "R(0) as a quaternion, its scalar last; the field is then along the axes of the laboratory.",
     "X Y Z W",
+    callback=unit_quaternion,
 )
 start_option: Callable[[F], F] = numbers("omega", "Angular velocity at t = 0, of any motion.", "W1 W2 W3")
 spin_option: Callable[[F], F] = numbers("spin", "Initial angular velocity about e3 alone.")

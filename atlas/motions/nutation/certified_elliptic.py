@@ -313,7 +313,10 @@ def check_moments(moments: tuple[fmpq, ...]) -> None:
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")
     if max(moments) * (2 - ROUNDING) > sum(moments):
-        raise DomainError(f"No body has the moments of inertia {shown}: the largest is at most the sum of the others.")
+        most = nearest(sum(moments) - max(moments))
+        raise DomainError(
+            f"No body has the moments of inertia {shown}: the largest is at most the sum of the others, {most}."
+        )
 
 
 def square_of_v(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:

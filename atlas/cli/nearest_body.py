@@ -1,0 +1,106 @@
+"""What was typed of a body that none has, by less than a unit of its last digits: the nearest body, with a line."""
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import click
+import numpy as np
+
+from atlas.cli.typed import Typed
+from atlas.measured import split
+
+SINGLE = 3e-7
+"""Part of the largest number up to which digits beyond single precision are no digits."""
+
+LARGEST = 0.02
+"""Part of the largest moment beyond which it is not a matter of digits that there is no body."""
+
+LENGTH, ROUNDED = 1e-3, 1e-6
+"""By how much a quaternion's length may differ from 1, and from where on it is said."""
+
+
+def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:
+    """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio, moved to those of a plane body if they are next to it.
+
+    Each moves in proportion to the unit of its last digit, by less than that.
+    """
+    if value is None:
+        return None
+    typed = value if isinstance(value, tuple) else (value,)
+    sizes = [_exact(x) for x in typed]
+    if min(sizes) <= 0:
+        return value
+    factors = [1 if x < max(sizes) else -1 for x in sizes] if len(typed) == 3 else [2, -1][-len(typed) :]
+    beyond = -sum(c * x for c, x in zip(factors, sizes, strict=True)) - (2 if len(typed) == 1 else 0)
+    units = [max(_unit(x), Fraction(SINGLE) * max(sizes)) for x in typed]
+    reach = sum(abs(c) * u for c, u in zip(factors, units, strict=True))
+    if not 0 < beyond < min(reach, Fraction(LARGEST) * max(sizes)):
+        return value
+    shift = beyond / reach
+    moved = [x + (u if c > 0 else -u) * shift for c, x, u in zip(factors, sizes, units, strict=True)]
+    doubles = [float(x) for x in moved]
+    last = factors.index(-1)
+    limit = sum(Fraction(x) * c for x, c in zip(doubles, factors, strict=True) if c > 0) or Fraction(2)
+    while Fraction(doubles[last]) > limit:
+        doubles[last] = math.nextafter(doubles[last], 0.0)
+    new = tuple(_moved(x, d, f) for x, d, f in zip(typed, doubles, moved, strict=True))
+    _tell(param, typed, new, "moments of no body", "the plane body next to them" if len(typed) > 1 else "the largest")
+    return new if isinstance(value, tuple) else new[0]
+
+
+def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
+    """Return a typed tensor I11 I22 I33 I12 I13 I23, moved to that of a plane body if it is next to it."""
+    if value is None:
+        return None
+    a, b, c, d, e, f = map(float, value)
+    tensor = np.array([[a, d, e], [d, b, f], [e, f, c]])
+    spread, axes = np.linalg.eigh(np.trace(tensor) / 2 * np.eye(3) - tensor)
+    beyond = -spread[0] * (1 + 1e-9)
+    change = beyond * (np.eye(3) - np.outer(axes[:, 0], axes[:, 0]))
+    moves = [change[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    size = float(np.abs(tensor).max())
+    units = [max(float(_unit(x)), SINGLE * size) for x in value]
+    near = all(abs(move) < unit for move, unit in zip(moves, units, strict=True))
+    if not (1e-14 * size < beyond < LARGEST * size and near):
+        return value
+    new = tuple(_moved(x, float(x) + move, None) for x, move in zip(value, moves, strict=True))
+    _tell(param, value, new, "the tensor of no body", "the plane body next to it")
+    return new
+
+
+def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:
+    """Return a typed quaternion, divided by its length if that differs from 1 in its last digits."""
+    if value is None or not ROUNDED < abs((length := math.hypot(*value)) - 1) < LENGTH:
+        return value
+    new = tuple(_moved(x, float(x) / length, None) for x in value)
+    _tell(param, value, new, f"a quaternion of the length {length:.6g}", "divided by it")
+    return new
+
+
+def _exact(x: Typed) -> Fraction:
+    """Return what was typed in SI, exactly; the double where it has pi in it."""
+    return Fraction(float(x)) if x.unit and x.exact is None else x.exactly()
+
+
+def _unit(x: Typed) -> Fraction:
+    """Return the unit of the last digit that was typed, in SI; 0 of what is no decimal."""
+    text = (split(x.text) or (x.text, ""))[0].lower()
+    digits, _, exponent = text.partition("e")
+    if x.sigma or not digits.lstrip("+-").replace(".", "", 1).isdecimal() or not float(digits):
+        return Fraction(0)
+    unit = Fraction(10) ** (int(exponent or 0) - len(digits.partition(".")[2]))
+    return unit * _exact(x) / Fraction(text)
+
+
+def _moved(x: Typed, value: float, exact: Fraction | None) -> Typed:
+    """Return a typed number with another value."""
+    exact = Fraction(value) if exact is None else exact
+    return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
+
+
+def _tell(param: click.Parameter, typed: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
+    """Say what is taken in the place of what was typed."""
+    was, taken = " ".join(x.text for x in typed), " ".join(f"{float(x):.10g}" for x in new)
+    click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {taken}", err=True)
