@@ -127,9 +127,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
     figures = list(figures_of(asked, left_out))
     left_out += _too_slow(made, asked.time)
-    beside = [
-        other for other in FAMILIES.values() if other is not family and other.name != "free" and _holds(family, other)
-    ]
+    beside = [other for other in FAMILIES.values() if other is not family and _holds(family, other)]
     blocks = [
         _table(asked, "properties", family.name, asked.values),
         *figures[:1],
@@ -157,7 +155,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
 def _holds(family: Family, other: Family) -> bool:
     """Whether an object of a family has one of another: what that is given is among what it is given."""
     names = {p.name for p in family.parameters}
-    return "ratio" in names and {p.name for p in other.parameters} <= names
+    return {"ratio", "field"} <= {p.name for p in other.parameters} <= names
 
 
 def _calls(asked: Asked, family: Family) -> dict[str, str]:
@@ -231,7 +229,7 @@ def _case(asked: Asked) -> Any:
 
 def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the table of the nearest closed motions, if there are any."""
-    if asked.family.name == "elementary" or any(q.name == "precession_per_period" for q in asked.family.quantities):
+    if {"phi", "precession_per_period"} & {q.name for q in asked.family.quantities}:
         block = _table(asked, "closed", asked.family.name, asked.values)
         try:
             compute("closed", Request([_case(asked)], block["parameters"], asked.digits))
@@ -263,7 +261,7 @@ def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
     if not asked.body:
         return
     B2, B3 = _case(asked).components
-    if name == "elementary":
+    if "omega2" in values:
         w2 = values["omega2"]
         free = {"omega3": None} if "omega3" in values else {}
         other = {
@@ -274,7 +272,7 @@ def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
         for words, omega2 in other.items():
             if B2 and omega2 not in {w2, -B2}:
                 yield words, asked.changed(name, omega2=omega2, **free)
-    if name == "general":
+    if "omega" in values:
         w1, w2, w3 = values["omega"]
         pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
         yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", asked.changed(name, omega=pair, spin=None)
@@ -282,7 +280,7 @@ def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
             same = asked.changed("elementary", omega2=w2, omega=None, spin=None)
             yield r"the motion without nutation with this $\omega_2$", same
     yield from _of_other_bodies(asked)
-    if name != "quadric":
+    if asked.family.sampled:
         yield (
             "all motions of this body in this field",
             asked.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),

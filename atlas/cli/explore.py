@@ -13,6 +13,9 @@ from atlas.cli.options import examples
 from atlas.cli.words import Words
 from atlas.motions.register import FAMILIES
 
+FIRST = "general"
+"""Family whose sliders are shown where nothing is asked for."""
+
 
 @click.command(
     "explore",
@@ -24,7 +27,7 @@ from atlas.motions.register import FAMILIES
         "atlas explore --inertia 0.8 1 1.3 --field 0.2 1 0.6 --spin 2",
     ),
 )
-@click.argument("name", default="general")
+@click.argument("name", default="")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="The port; a free one when left out.")
 @click.option("--no-browser", is_flag=True, help="Print the address only.")
 @click.pass_context
@@ -45,8 +48,8 @@ def command(context: click.Context, name: str, port: int, no_browser: bool) -> N
     settle_matplotlib()
     place = ""
     if name.startswith("-") or context.args:
-        name, place = started([*([name] if name != "general" else []), *context.args])
-    subject_or_file(name)
+        name, place = started([*([name] if name else []), *context.args])
+    subject_or_file(name := name or FIRST)
     # every user of the machine can read a browser's arguments: it is given a file that only this one can read
     with Explorer(name, port, place) as server, TemporaryDirectory(prefix="atlas-") as folder:
         try:
@@ -75,7 +78,7 @@ def started(args: list[str]) -> tuple[str, str]:
     with made("motion").make_context("explore", args) as context:
         options = context.params
     check_speeds(options)
-    if family.name == "asymmetric" and (motion := motion_in_given_axes(options)):
+    if family.in_given_axes and (motion := motion_in_given_axes(options)):
         principal = in_principal_axes(motion)
         click.echo(principal.note, err=True, nl=bool(principal.note))
         family, values = principal.family, principal.values

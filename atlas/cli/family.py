@@ -48,11 +48,6 @@ UNKNOWN = (
     "symmetry of the motion."
 )
 
-OTHERWISE = {
-    "general": ("omega",), "asymmetric": ("omega",), "top": ("inertia", "direction", "omega"), "particle": ("mu",),
-}  # fmt: skip
-"""Parameters that other options may stand for, by family: --spin, --heavy or --magnetic, --mass and --charge."""
-
 CHARGE = ("mass", "charge")
 """Options that may stand for the charge-to-mass ratio of a point charge."""
 
@@ -63,9 +58,6 @@ OF_BODY: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
 }
 """What kernels and balls take of body and field, from options of their own."""
 
-SENSITIVE = ("general", "elementary", "free", "ball", "top")
-"""Families whose derivatives in the inputs take milliseconds."""
-
 ROUNDING = 1e-12
 """Turn in radians by rounding of the inputs above which the command line says so."""
 
@@ -73,10 +65,6 @@ SHORT = 6.0
 """Phase below which an exponential of the largest rate does not take rounding to 1e-12."""
 
 OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
-THIRD = dict.fromkeys(("free", "elementary", "general"), ", the last that of symmetry")
-THIRD |= {"ball": ", the last along the field at t = 0"}
-"""What is known of the last of the axes of a motion's class."""
-
 UNITS = {
     "natural": {},
     "gaussian": {"1/time": "rad/s", "length/time": "cm/s", "length": "cm"},
@@ -246,7 +234,7 @@ def _shown_otherwise(
     if uncertain(options):
         _with_sigma(family, described, options, parameters, times)
         return True
-    if family.name != "asymmetric":
+    if not family.in_given_axes:
         return False
     along_own = body.given_tensor(options) is None and options["attitude"] is None
     if along_own and (options["digits"] is not None or options["decimal"]):
@@ -284,7 +272,7 @@ def _with_sigma(
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
 
     def answered(values: dict[str, Any]) -> dict[str, Any]:
-        motion = motion_in_given_axes(values) if family.name == "asymmetric" else None
+        motion = motion_in_given_axes(values) if family.in_given_axes else None
         answering = family if motion is None else FAMILIES[motion.family]
         motion = _kernel(answering, values) if motion is None else motion
         answers = {"family": answering.name} if described.name == "motion" else {}
@@ -309,12 +297,11 @@ def _with_sigma(
 
 def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     """Return the parameters as they were given."""
-    names = [p.name for p in family.parameters]
-    if family.name == "top" and given_otherwise(options):
-        return parameters_of_top(names, options)
+    if family.takes("coupling") and given_otherwise(options):
+        return parameters_of_top([p.name for p in family.parameters], options)
     parameters = body.body_parameters(options) if in_field(family) else {}
     parameters |= given(options, [*(p.name for p in family.parameters if p.option), "spin"])
-    if "c" in names:
+    if family.takes("c"):
         parameters |= given(options, CHARGE) | {"units": body.system_of(options)}
     return parameters
 
@@ -362,11 +349,12 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
     three moments; not for a motion that was fitted, which is rounded.
     """
     family, arguments, axes = FAMILIES[motion.family], dict(motion.own.arguments), motion.axes
-    if motion.family == "general" and (fitted or not float([0.0, *arguments["field"]][-3])):
-        arguments, axes = _in_plane(arguments, axes)
+    if family.in_plane and (fitted or not float([0.0, *arguments["field"]][-3])):
+        arguments, turn = family.in_plane(arguments)
+        axes = axes if turn is None else turn @ axes
     parts = [x for value in arguments.values() for x in parts_of(value)]
     typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in parts)
-    if motion.family == "free" or not (fitted or typed or motion.family == "elliptic"):
+    if not (family.command and (fitted or typed)):
         return along_principal_axes(motion, unit)
     return _principal(family, arguments, axes, unit)
 
@@ -404,19 +392,6 @@ def axes_text(axes: Any) -> str:
     return ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)
 
 
-def _in_plane(arguments: dict[str, Any], axes: Any) -> tuple[dict[str, Any], Any]:
-    """Return the arguments of a general motion in axes in which the field is (0, B2, B3), rounded, and these axes."""
-    import numpy as np
-
-    K1, K2, K3 = [0.0, *map(float, arguments["field"])][-3:]
-    if not K1:
-        return arguments | {"field": arguments["field"][-2:]}, axes
-    size = hypot(K1, K2)
-    turn = np.array([[K2 / size, -K1 / size, 0.0], [K1 / size, K2 / size, 0.0], [0.0, 0.0, 1.0]])
-    omega = turn @ [float(x) for x in arguments["omega"]]
-    return arguments | {"field": (size, K3), "omega": tuple(omega)}, turn @ axes
-
-
 def _in_doubles(
     motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float], worth: str
 ) -> None:
@@ -441,9 +416,9 @@ def _in_doubles(
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
         printout = _printout(family, described, texts, options, worth, _in_hertz(family, texts, options))
-        axes, third = axes_text(motion.axes), THIRD.get(motion.family, "")
+        axes = axes_text(motion.axes)
         if axes != OWN_AXES:
-            says = f"Quantities are along the axes {axes} of the body{third}; columns along the axes given."
+            says = f"Quantities are along the axes {axes} of the body{family.last_axis}; columns along the axes given."
             printout = replace(printout, notes=chain([says], printout.notes))
         printout = replace(printout, notes=chain(printout.notes, _of_rounding(family, options, times, motion)))
         show(printout)
@@ -452,7 +427,7 @@ def _in_doubles(
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
     """Return what rounding of the inputs to floats can turn the body by until the farthest time, where it is much."""
-    if not times or family.name not in SENSITIVE:
+    if not times or not family.is_sensitive:
         return {}
     with suppress(AtlasError):  # where there are no derivatives there is no bound
         error = float(motion.input_error(max(map(float, times), key=abs)))
@@ -469,7 +444,7 @@ def _is_short(options: dict[str, Any], times: Sequence[float]) -> bool:
 
 def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float], motion: Any = None) -> Iterator[str]:
     """Yield the sentence under a table that says what rounding of the inputs does, where they are rounded."""
-    rounded = options["digits"] is None and not options["decimal"] and family.name in SENSITIVE
+    rounded = options["digits"] is None and not options["decimal"] and family.is_sensitive
     if not rounded or _is_short(options, times):
         return
     for error in _input_error(family, motion or _kernel(family, options), times).values():
@@ -548,20 +523,19 @@ def _show_lines(family: Family, options: dict[str, Any], motion: Any = None) -> 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:
     """Return the options that say which object of a family it is."""
-    names, ways = [p.name for p in family.parameters], family.name == "top"
     return [
-        *([body.body_options] if "ratio" in names else []),
+        *([body.body_options] if family.takes("ratio") else []),
         *([body.field_options] if in_plane(family) else []),
         *([body.any_body_options] if of_any_body(family) else []),
         *(
-            _option(p, needed=p.needed and p.name not in OTHERWISE.get(family.name, ()))
+            _option(p, needed=p.needed and p.name not in family.instead)
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
-        *([body.spin_option] if "omega" in OTHERWISE.get(family.name, ()) else []),
-        *([body.tensor_option, body.attitude_option, body.curve_option] if family.name == "asymmetric" else []),
-        *([top_options] if ways else []),
-        *([charge_options, units_option] if "c" in names else []),
+        *([body.spin_option] if "omega" in family.instead else []),
+        *([body.tensor_option, body.attitude_option, body.curve_option] if family.in_given_axes else []),
+        *([top_options] if family.takes("coupling") else []),
+        *([charge_options, units_option] if family.takes("c") else []),
     ]
 
 
@@ -577,7 +551,7 @@ def of_any_body(family: Family) -> bool:
 
 def in_field(family: Family) -> bool:
     """Whether the field of a family may be given as B with a charge-to-mass ratio, by the options made for that."""
-    return of_any_body(family) or any(p.name == "ratio" for p in family.parameters)
+    return of_any_body(family) or family.takes("ratio")
 
 
 def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
@@ -591,7 +565,7 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
 
 def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
     """Yield the parameters, as kernels or as balls take them."""
-    if family.name == "top":
+    if family.takes("coupling"):
         if given_otherwise(options):
             top = chosen_top(options)
             yield from (top.arguments[p.name] for p in family.parameters)
@@ -715,9 +689,9 @@ def _printout(
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
     """Return what units are called, where they are known."""
-    if family.name == "top":
+    if family.takes("coupling"):
         return top_units(options)
-    if any(p.name == "c" for p in family.parameters):
+    if family.takes("c"):
         return UNITS[body.system_of(options)]
     return body.units_of(options)
 

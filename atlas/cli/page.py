@@ -58,12 +58,7 @@ def command_of(family: Family, name: str) -> click.Command:
     return command(stack(*object_options(family), *more)(run))
 
 
-COMMANDS = {
-    name: command_of(one, name)
-    for one in FAMILIES.values()
-    if one.command
-    for name in [one.command.name if one.command.summary else one.name]
-}
+COMMANDS = {name: command_of(one, name) for one in FAMILIES.values() if one.command for name in [one.page]}
 """By the name of the command; the families that are no command of their own have no name here, only options."""
 
 
@@ -95,7 +90,7 @@ def of_fit(file: Path, **options: Any) -> int:
 def motion_of(made: Any) -> Any:
     """Return what a page of a motion is asked for, in the axes of its class."""
     own = in_principal_axes(made, fitted=True)
-    with COMMANDS[in_group(own.family.name)].make_context(own.family.name, own.options) as context:
+    with COMMANDS[own.family.page].make_context(own.family.name, own.options) as context:
         return asked(own.family, context.params)
 
 
@@ -114,28 +109,23 @@ class ByOptions(click.Group):
         words = Words(args)
         if not words.names & {*ctx.help_option_names}:
             if args[:1] == ["motion"]:
-                args = [in_group(family_of(words)), *args[1:]]
+                args = [FAMILIES[family_of(words)].page, *args[1:]]
             elif args and args[0].startswith("--"):
                 args = ["fit" if "--fit" in words.names else best(words), *args]
-            if args[:1] == ["asymmetric"]:
-                args = in_own_axes(args[1:], ctx) or args
+            if args and args[0] in FAMILIES and FAMILIES[args[0]].in_given_axes:
+                args = in_own_axes(args, ctx) or args
         return super().parse_args(ctx, args)
-
-
-def in_group(family: str) -> str:
-    """Return the command of a family in this group."""
-    return "motion" if family == "elementary" else family
 
 
 def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
     """Return the arguments of a motion in given axes as those along the own axes of its class; none if the same."""
-    with COMMANDS["asymmetric"].make_context("asymmetric", list(args), parent) as context:
+    with COMMANDS[args[0]].make_context(args[0], args[1:], parent) as context:
         options = context.params
         motion = motion_in_given_axes(options)
         if motion is None:
             return []
         principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
-        if principal.family.name == "asymmetric" and not (principal.note or options["tensor"] or options["attitude"]):
+        if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
             return []
         own = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
         rest = [
@@ -145,7 +135,7 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
             for word in (option, str(options[name]))
         ]
     click.echo(principal.note, err=True, nl=bool(principal.note))
-    return [in_group(principal.family.name), *principal.options, *rest, "--note", principal.note]
+    return [principal.family.page, *principal.options, *rest, "--note", principal.note]
 
 
 def best(words: Words) -> str:
@@ -213,7 +203,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
         if p.option and options_asked[p.name] is not None
     }
     values |= {"c": options_asked["c"]} if "c" in options_asked else {}
-    records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}
+    records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.takes("coupling") else {}
     if "c" in options_asked and (units := body.system_of(options)) != "natural":
         records = {"time": "s", "units": units}
     if in_field(family):

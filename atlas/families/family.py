@@ -157,7 +157,11 @@ class Family:
     `source` is the class with its module, where "{}" stands for "kernel" or "certified". `promises` holds the largest
     errors, in ulps, by the names of a stress run: of quantities and of what else is checked. Tables make so many
     motions `at_once`. `figures` are recipes that draw one, from parameters by the same names. `typed` is what asks for
-    one at the command line, before its parameters, where the family has no `command` of its own.
+    one at the command line, before its parameters, where the family has no `command` of its own. Of `instead` other
+    options may stand for a parameter. `last_axis` says what is known of the last of the class's axes. With
+    `is_sensitive` derivatives in the inputs take milliseconds; with `in_given_axes` commands take any axes of the body
+    and an attitude. `axis_rate` is the rate at which the third axis goes round, where it does not nutate. `in_plane`
+    makes of arguments those in axes in which the field has two components, and the turn to these axes, if any.
     """
 
     name: str
@@ -171,6 +175,21 @@ class Family:
     at_once: int = 50_000
     figures: tuple[str, ...] = ()
     typed: tuple[str, ...] = ()
+    instead: tuple[str, ...] = ()
+    last_axis: str = ""
+    is_sensitive: bool = False
+    in_given_axes: bool = False
+    axis_rate: str = ""
+    in_plane: Callable[[dict[str, Any]], tuple[dict[str, Any], Any]] | None = None
+
+    def takes(self, name: str) -> bool:
+        """Return whether the family has a parameter of this name."""
+        return any(p.name == name for p in self.parameters)
+
+    @property
+    def page(self) -> str:
+        """Name of the command of its page: its own name where several families share one command."""
+        return self.command.name if self.command and self.command.summary else self.name
 
     @property
     def words(self) -> tuple[str, ...]:

@@ -5,6 +5,9 @@ from typing import Any
 
 from atlas.families.family import RATE, TIME, Parameter, Quantity, Sampled
 
+OF_SYMMETRY = ", the last that of symmetry"
+"""The last axis of the class of a symmetric body."""
+
 RATIO = Parameter("ratio", "I = I3/I2, in (0, 2].", "", (1.5,), (0.05, 2.0), option=False)
 FIELD = Parameter(
     "field", "Components of B' = mu B/(2c).", RATE, (1.0, 2.0), (-3.0, 3.0), columns=("B2", "B3"), option=False

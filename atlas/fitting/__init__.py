@@ -158,10 +158,10 @@ def fit(
         problem = Problem(model, replace(data, sigma=data.sigma * noise), free, loss, problem.rate, given_values)
         tried = [(problem.chi_square(x), x) for _, x in tried]
     steady = doubt = ""
-    if model.name == "general":
+    if model.is_any_motion and "ratio" in model.names:
         tried, steady, doubt = settled(problem, tried, good=_good(problem, tried[0][1]))
         tried = tried if steady else of_ratio_one(problem, tried)
-    elif model.name == "asymmetric":
+    elif model.is_any_motion and "I1" in model.names:
         tried, steady = freely(problem, tried)
     found = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
     if not _good(problem, tried[0][1]):

@@ -20,6 +20,7 @@ from atlas.fitting.models import (
     IN_BODY,
     OMEGA,
     B,
+    Model,
     Values,
     attitude,
     direction_of,
@@ -183,15 +184,15 @@ def _turned(
     moments = np.array([values.get("I1", 1.0), 1.0, values.get("I3", values.get("ratio", 1.0))])
     turned = moments @ abs(right)
     turned = turned / turned[1]
-    if ("I1" not in model.names and (turned != moments).any()) or (model.name == "top" and not right[2, 2]):
+    if ("I1" not in model.names and (turned != moments).any()) or (model.has_direction and not right[2, 2]):
         return
-    for sign in (1.0, -1.0) if model.name == "top" else (1.0,):
+    for sign in (1.0, -1.0) if model.has_direction else (1.0,):
         new = dict(values) | dict(zip(B, (S @ vector(values, B)).tolist(), strict=True))
         if "I1" in model.names:
             new |= {"I1": float(turned[0]), "I3": float(turned[2])}
         if "z" in model.names:
             new["z"] = values["z"] / float((moments @ abs(right))[1]) ** 2
-        if model.name == "top":
+        if model.has_direction:
             new |= {name: sign * values[name] for name in ("k2", "k3")}
             new["linear"] = sign * float(right[2, 2]) * values["linear"]
             new |= dict(zip(DIRECTION, (sign * S @ vector(values, DIRECTION)).tolist(), strict=True))
@@ -226,16 +227,17 @@ def wider_families(
     found = []
     values = problem.values(x)
     for family in problem.model.wider:
-        if problem.tied or (family == "top" and problem.data.kind == "field_in_body"):
+        model = model_of(family)
+        if problem.tied or (model.has_direction and problem.data.kind == "field_in_body"):
             continue  # of a top the direction is seen, not the field
         try:
-            other, start = _within(problem, values, family)
+            other, start = _within(problem, values, model)
             best, _ = minimum(other, start, steady=False)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no such motion beside it
         full, free = other.values(best), other.data.t.size * other.width - len(other.names)
         redchi = other.chi_square(best) / free / scale**2
-        if family == "top":
+        if model.has_direction:
             full |= dict(zip(B, (full["k2"] * direction_of(full)).tolist(), strict=True)) | {"ratio": full["I3"]}
         if abs(redchi - 1) < BIASED * np.sqrt(2 / free) and biased(parameters, full):
             fall = (problem.chi_square(x) - other.chi_square(best)) / scale**2
@@ -253,11 +255,11 @@ def biased(parameters: Parameters, values: Values) -> dict[str, float]:
     return {name: size for name, size in off.items() if abs(size) > BIASED}
 
 
-def _within(problem: Problem, values: Values, family: str) -> tuple[Problem, FloatArray]:
+def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, FloatArray]:
     """Return the problem of a wider family, and the start at which this has the same motion."""
-    model, own = model_of(family), problem.params
+    own = problem.params
     inside: dict[str, Any] = {"ratio": 1.0, "I1": 1.0, "I3": values.get("ratio", 1.0), **values}
-    if family == "top":
+    if model.has_direction:
         b = float(np.linalg.norm(vector(values, B)))
         inside |= {"k2": b, "k3": inside["I3"] * b, "linear": 0.0, "quadratic": 0.0}
         n = vector(values, B) / (b or 1.0)

@@ -111,13 +111,13 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
     moments[:, 0], moments[:, 2] = parameters.get("I1", 1.0), parameters.get("I3", parameters.get("ratio", 1.0))
     coupling, potential, field, omega = moments, np.zeros((size, 2)), several(B), several(OMEGA)
     K = np.vecmat(field, A)
-    if model.name == "top":
+    if model.has_direction:
         coupling, potential = several(("k2", "k2", "k3")), several(("linear", "quadratic"))
         field = several(DIRECTION)
         field = field / np.linalg.norm(field, axis=-1, keepdims=True)
-    elif model.name == "elementary":
+    elif "omega2" in parameters:
         omega = _on_hyperbola(moments[:, 2], K.T, parameters["omega2"]).T
-    elif model.name == "elliptic":
+    elif "z" in parameters:
         z, D = parameters["z"][:, None], moments.prod(-1, keepdims=True)
         v = parameters["branch"][:, None] * np.sqrt((z + D / moments).prod(-1, keepdims=True))
         omega = -(1 + v / (z * moments + D)) * K
@@ -141,6 +141,16 @@ class Model:
     """Whether an integration is faster than the closed form, over the times of a usual measurement."""
     wider: tuple[str, ...] = ()
     """Families that have all its motions and more."""
+
+    @property
+    def has_direction(self) -> bool:
+        """Whether the forces come from a direction n, of which only the direction is seen, not from a field B."""
+        return set(DIRECTION) <= set(self.names)
+
+    @property
+    def is_any_motion(self) -> bool:
+        """Whether the motions are all those of a body in a field."""
+        return {*B, *OMEGA} <= set(self.names)
 
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
         """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
@@ -221,13 +231,13 @@ def model_of(family: Any) -> Model:
 
 def field_of(model: Model, p: Values) -> FloatArray:
     """Return what `field_in_body` shows of a motion, in the laboratory."""
-    return direction_of(p) if model.name == "top" else vector(p, B)
+    return direction_of(p) if model.has_direction else vector(p, B)
 
 
 def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) -> dict[str, float]:
     """Return parameters with R and Omega as they are at another time, as data of a kind see them."""
     field = vector(p, B)
-    if model.name == "top" and kind in IN_BODY:
+    if model.has_direction and kind in IN_BODY:
         R = upright(R.T @ direction_of(p)).T
     elif kind in IN_BODY:
         field, R = R.T @ field, np.eye(3)
@@ -241,9 +251,7 @@ def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) 
         **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec()),
     }
     return (
-        parameters | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])}
-        if model.name == "elementary"
-        else parameters
+        parameters | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])} if "omega2" in model.names else parameters
     )
 
 
@@ -267,5 +275,5 @@ def units_of(model: Model, rate: float) -> dict[str, float]:
 def unseen(model: Model, kind: str) -> dict[str, float]:
     """Return the parameters of the attitude that these data do not see, with the values that they are given."""
     if kind in IN_BODY:
-        return {"a3": 0.0} if model.name == "top" else dict.fromkeys(ATTITUDE, 0.0)
+        return {"a3": 0.0} if model.has_direction else dict.fromkeys(ATTITUDE, 0.0)
     return {"a3": 0.0} if kind == "axis" and "I1" not in model.names else {}

@@ -126,7 +126,7 @@ def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str,
         omega = across + np.outer(rng.permuted(np.linspace(-1, 1, count)) ** 3 * 6 * rate, K / np.linalg.norm(K))
     else:
         R = Rotation.random(count, random_state=seed).as_matrix()
-    if problem.model.name == "top" and data.kind in IN_BODY:
+    if problem.model.has_direction and data.kind in IN_BODY:
         R = np.array([upright(n / np.linalg.norm(n)).T for n in field])
     elif problem.gauge == {} and data.kind == "axis":
         R = R @ Rotation.from_rotvec(np.outer(rng.uniform(-np.pi, np.pi, count), [0, 0, 1])).as_matrix()
@@ -136,7 +136,7 @@ def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str,
     parameters = {"ratio": rng.uniform(0.3, 1.8, count), "I1": I1, "I3": I3}
     for names, x in ((B, field), (OMEGA, omega), (ATTITUDE, a)):
         parameters |= dict(zip(names, x.T, strict=True))
-    if problem.model.name == "top":
+    if problem.model.has_direction:
         parameters["I3"] = parameters["ratio"]
         parameters |= dict(zip(("k2", "k3"), rng.normal(size=(2, count)) * size.T / 2, strict=True))
         parameters |= dict(zip(("linear", "quadratic"), rng.normal(size=(2, count)) * size.T**2, strict=True))

@@ -34,7 +34,7 @@ class Seen:
         scale: float,
     ) -> None:
         self.problem, self.x = problem, x
-        field = float(np.linalg.norm(motion.field_in_body(0.0))) * (problem.model.name != "top")
+        field = float(np.linalg.norm(motion.field_in_body(0.0))) * (not problem.model.has_direction)
         rate = max(problem.rate, float(np.linalg.norm(motion.angular_velocity(0.0))))  # it may start from rest
         units = units_of(problem.model, field + rate)
         self.units = np.array([units[name] for name in problem.names])

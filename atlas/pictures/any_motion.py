@@ -9,6 +9,7 @@ import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray, positive
 from atlas.errors import AtlasError, DomainError
+from atlas.motions.register import FAMILIES
 from atlas.pictures import axis_trace
 from atlas.pictures.bodies import body_of
 from atlas.pictures.captions import lasting, plain_vector, quotient, spelt, tex_vector
@@ -206,8 +207,9 @@ def period(motion: Any) -> float:
 
 def axis_period(motion: Any) -> float:
     """Return the time after which the axis of one motion is back but for a turn, 0 where there is none."""
-    if motion.family == "free":
-        return float(2 * pi / motion.k) if motion.k else 0.0
+    if name := FAMILIES[motion.family].axis_rate:
+        rate = getattr(motion, name)
+        return float(2 * pi / rate) if rate else 0.0
     return _number(motion, "period")
 
 

@@ -1,5 +1,6 @@
 """ARCHITECTURE.md speaks of files and names that are there, and no folder hides a public name."""
 
+import ast
 import pkgutil
 import re
 import subprocess
@@ -10,6 +11,7 @@ import pytest
 from contracts import imported_by_string
 
 import atlas
+from atlas.motions.register import FAMILIES
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
@@ -54,3 +56,29 @@ def test_a_public_function_is_one_whatever_is_imported_first(first: str) -> None
 def test_an_import_written_as_a_string_is_seen() -> None:
     """The contract against circles counts these: in full, and in front of a brace."""
     assert set(imported_by_string("atlas.trial.proofs.run")) == {"atlas.trial.proofs"}
+
+
+def names_compared(code: str) -> list[str]:
+    """Return the comparisons of a module with the name of a family, but those of a motion's kind or case."""
+    found = []
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.Compare):
+            sides = (node.left, *node.comparators)
+            words = {x.value for side in sides for x in ast.walk(side) if isinstance(x, ast.Constant)}
+            if words & set(FAMILIES) and not any(ast.unparse(side).endswith(("kind", "case")) for side in sides):
+                found.append(ast.unparse(node))
+    return found
+
+
+def test_no_name_of_a_family_is_tested_outside_its_folder() -> None:
+    """What a place needs to know of a family is said by its line in the register."""
+    assert names_compared("motion.family == 'top'")
+    assert names_compared("args[:1] == ['asymmetric']")
+    assert names_compared("family.name not in ('general', 'free')")
+    assert not names_compared("motion.kind == 'ball'")
+    found = {
+        path.relative_to(ROOT).as_posix(): names
+        for path in sorted((ROOT / "atlas").rglob("*.py"))
+        if (names := names_compared(path.read_text("utf-8")))
+    }
+    assert found == {}

@@ -8,7 +8,6 @@ from atlas.book.schema import StrictStruct
 from atlas.book.tables.properties import Thing
 from atlas.book.tables.table import RATE, Data, Request, certified, column, heads, quantity
 from atlas.errors import AtlasError, DomainError
-from atlas.motions.register import FAMILIES
 
 MAX_FRACTIONS, MAX_DENOMINATOR = 6, 10_000
 """As many fractions as are shown, and the largest denominator."""
@@ -23,7 +22,7 @@ def closed(request: Request, thing: Thing) -> Data:
     """
     from flint import arb, fmpq
 
-    elementary = thing.family is FAMILIES["elementary"]
+    elementary = thing.family.takes("omega2")
     exact = thing.balls()
     if elementary and exact.k == 0:
         raise DomainError("With k = 0 there is no precession, and phi/k has no value.")

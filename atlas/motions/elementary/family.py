@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
-from atlas.families.parameters import FIELD, OMEGA, RATIO, in_brackets, integrals, rotation
+from atlas.families.parameters import FIELD, OF_SYMMETRY, OMEGA, RATIO, in_brackets, integrals, rotation
 
 OMEGA3, PRECESSION, PROPER = (
     "third component of Omega, constant", "frequency of precession about B", "frequency of proper rotation",
@@ -102,6 +102,8 @@ FAMILY = Family(
         "case",
     ),
     figures=("motion_sphere", "motion", "rolling_cones", "hyperbola", "quadric", "stability"),
+    last_axis=OF_SYMMETRY,
+    is_sensitive=True,
 )  # fmt: skip
 
 FREE = Family(
@@ -124,6 +126,9 @@ FREE = Family(
     {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},
     figures=("free_motion",),
     typed=("motion", "--field", "0", "0"),
+    last_axis=OF_SYMMETRY,
+    is_sensitive=True,
+    axis_rate="k",
 )
 
 HYPERBOLA = Family(
@@ -185,4 +190,6 @@ BALL = Family(
         "charged ball",
     ),
     figures=("ball_motion", "ball"),
+    last_axis=", the last along the field at t = 0",
+    is_sensitive=True,
 )  # fmt: skip

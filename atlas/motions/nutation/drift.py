@@ -172,14 +172,15 @@ def drift(
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:
     """Return a body, its energy, M3 and p, and nu at t = 0."""
     own = getattr(motion, "own", motion)
-    if getattr(own, "shape", None) != () or own.family not in ("general", "elementary", "top"):
-        three = getattr(own, "family", "") in ("asymmetric", "elliptic")
+    given = set(getattr(own, "arguments", ()))
+    if getattr(own, "shape", None) != () or not (given > {"ratio", "field"} or "coupling" in given):
+        three = {"inertia", "field"} <= given
         why = ": a body with three moments has two phases to average over" if three else ""
         raise AtlasError(
             f"A drift is that of one GeneralMotion, ElementaryMotion or TopMotion, not of {type(own).__name__}{why}."
         )
     Omega, b = own.angular_velocity(0.0), own.field_in_body(0.0)
-    if own.family == "top":
+    if "coupling" in given:
         (I2, I3), (k2, k3) = own.inertia, own.coupling
         body = Body(I2, I3, k2, k3, own.linear, own.quadratic)
     else:

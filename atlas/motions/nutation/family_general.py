@@ -1,11 +1,27 @@
 """The motion of a charged symmetric body from any initial angular velocity, in elliptic functions."""
 
+from math import hypot
+from typing import Any
+
 from atlas.families.family import RATE, Command, Family, Quantity, Sampled
-from atlas.families.parameters import ELLIPTIC, FIELD, OMEGA, RATIO, integrals, nutation, rotation
+from atlas.families.parameters import ELLIPTIC, FIELD, OF_SYMMETRY, OMEGA, RATIO, integrals, nutation, rotation
 
 
 def _complex(x: str, y: str) -> str:
     return x if y == "0" else f"{x} {'-' if y.startswith('-') else '+'} {y.lstrip('-')} i"
+
+
+def _in_plane(arguments: dict[str, Any]) -> tuple[dict[str, Any], Any]:
+    """Return the arguments in axes in which the field is (0, B2, B3), rounded, and the turn to these axes, if any."""
+    import numpy as np
+
+    K1, K2, K3 = [0.0, *map(float, arguments["field"])][-3:]
+    if not K1:
+        return arguments | {"field": arguments["field"][-2:]}, None
+    size = hypot(K1, K2)
+    turn = np.array([[K2 / size, -K1 / size, 0.0], [K1 / size, K2 / size, 0.0], [0.0, 0.0, 1.0]])
+    omega = turn @ [float(x) for x in arguments["omega"]]
+    return arguments | {"field": (size, K3), "omega": tuple(omega)}, turn
 
 
 FAMILY = Family(
@@ -53,4 +69,8 @@ FAMILY = Family(
     ),
     at_once=8192,
     figures=("general_motion", "larmor_pair", "pseudo_oscillator", "spectrum", "quadric"),
+    instead=("omega",),
+    last_axis=OF_SYMMETRY,
+    is_sensitive=True,
+    in_plane=_in_plane,
 )  # fmt: skip

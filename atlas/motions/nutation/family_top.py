@@ -86,4 +86,6 @@ FAMILY = Family(
     ),
     at_once=8192,
     figures=("top_motion",),
+    instead=("inertia", "direction", "omega"),
+    is_sensitive=True,
 )  # fmt: skip

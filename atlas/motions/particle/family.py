@@ -73,4 +73,5 @@ FAMILY = Family(
         "point charge in constant fields",
     ),
     figures=("particle_motion",),
+    instead=("mu",),
 )

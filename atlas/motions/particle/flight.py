@@ -163,7 +163,7 @@ class Flight(Shown):
 def _field_of(motion: Any) -> FloatArray | None:
     """Return the field B' in the laboratory in which a motion turns, shape (..., 3); None where it does not tell it."""
     if getattr(motion, "is_placed", False):
-        return None if motion.family == "top" else motion.given[1]
+        return None if "direction" in motion.own.arguments else motion.given[1]
     field = getattr(motion, "field", None)
     if field is None:
         return None

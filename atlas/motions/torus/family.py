@@ -60,4 +60,6 @@ FAMILY = Family(
     ),
     at_once=1,
     figures=("asymmetric_motion", "torus_of_flows"),
+    instead=("omega",),
+    in_given_axes=True,
 )  # fmt: skip
