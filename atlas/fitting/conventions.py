@@ -29,7 +29,7 @@ def others(
     `parameters` gives those of the fit for other data; `quaternions` says that the data are no matrices.
     """
     data = problem.data
-    held = problem.model.name == "top" and not any(problem.params[name].free for name in DIRECTION)
+    held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
     if held and data.kind in ("rotation", "axis"):
         freed = problem.params.changed(**{name: {"vary": True} for name in DIRECTION[:2]})
         yield HELD, Problem(problem.model, data, freed, problem.loss, problem.rate, problem.given)
