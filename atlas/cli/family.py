@@ -28,6 +28,7 @@ from atlas.cli.present import (
     samples,
     show,
 )
+from atlas.cli.table import out_option, write_table
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.cli.typed import exactly, measured, parts_of
 from atlas.cli.uncertain import mapped, spread, uncertain
@@ -154,6 +155,7 @@ def _command_of(family: Family, described: Described) -> click.Command:
         *object_options(family),
         *([times_options] if family.sampled else []),
         *([spectrum_options] if has_lines else []),
+        *([out_option] if family.sampled else []),
         output_options,
     ]
 
@@ -206,6 +208,15 @@ def _command_of(family: Family, described: Described) -> click.Command:
     return click.command(described.name, cls=Command, carries=True, **texts)(stack(*decorators)(run))
 
 
+def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
+    """Write what the motion has at its times, and show where."""
+    if options["digits"] is not None or options["decimal"] or options["as_json"] or uncertain(options):
+        raise click.UsageError("--out is a table in doubles: it goes without --digits, --decimal, --json and ±.")
+    motion = motion_in_given_axes(options) if family.name == "asymmetric" else None
+    write_table(motion or _kernel(family, options), times, options["out"], _units(family, options))
+    click.echo(str(options["out"]))
+
+
 def _later(
     balls: Callable[[Sequence[float], Family], dict[str, Any]],
     family: Family,
@@ -224,10 +235,13 @@ def _later(
 def _shown_otherwise(
     family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
 ) -> bool:
-    """Print what stands in no list of quantities, or no twin has: a curve, uncertain numbers, a motion in given axes.
+    """Show what stands in no list of quantities, or no twin has: a file, a curve, uncertain numbers, given axes.
 
     Return whether it is such.
     """
+    if options.get("out") is not None:
+        _write_table(family, options, times)
+        return True
     if options.get("curve"):
         _show_curve(family, options, parameters)
         return True

@@ -33,9 +33,9 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
     if min(sizes) <= 0:
         return value
     factors = [1 if x < max(sizes) else -1 for x in sizes] if len(typed) == 3 else [2, -1][-len(typed) :]
-    beyond = -sum(c * x for c, x in zip(factors, sizes, strict=True)) - (2 if len(typed) == 1 else 0)
+    beyond = -sum((c * x for c, x in zip(factors, sizes, strict=True)), Fraction()) - (2 if len(typed) == 1 else 0)
     units = [max(_unit(x), Fraction(SINGLE) * max(sizes)) for x in typed]
-    reach = sum(abs(c) * u for c, u in zip(factors, units, strict=True))
+    reach = sum((abs(c) * u for c, u in zip(factors, units, strict=True)), Fraction())
     if not 0 < beyond < min(reach, Fraction(LARGEST) * max(sizes)):
         return value
     shift = beyond / reach

@@ -23,7 +23,7 @@ def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
     if swept is None:
         raise AtlasError(f"The register has no table of a {type(shown).__name__}.")
     quantities = [quantities] if isinstance(quantities, str) else quantities
-    columns = dict(_quantities(shown, swept, quantities) if times is None else _times(shown, swept, times, quantities))
+    columns = dict(_quantities(shown, swept, quantities) if times is None else columns_at(shown, times, quantities))
     data_frame = of_sweeps("pandas", "A data frame").DataFrame(columns)
     data_frame.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
     return data_frame
@@ -48,8 +48,9 @@ def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iter
         yield name, np.broadcast_to(np.nan if value is None else value, shape).ravel()
 
 
-def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
-    """Go through what one object has at each time."""
+def columns_at(shown: Shown, times: Any, names: Sequence[str] | None = None) -> Iterator[tuple[str, Any]]:
+    """Yield names and columns of what one object has at each time, all there are or those with these names."""
+    swept = FAMILIES[shown.family]
     if getattr(shown, "shape", ()):
         raise AtlasError(f"Rows by time are of one {type(shown).__name__}: make one with numbers in place of arrays.")
     known = {name: s for s in swept.family.sampled for name in s.columns}

@@ -1,0 +1,62 @@
+"""``atlas motion --out``: what a motion has at its times as a CSV, NPZ or Parquet file, with its conventions."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.options import Place
+from atlas.cli.typed import parts_of
+
+CONVENTIONS = (
+    "R takes the body to the laboratory, and so does the quaternion, whose scalar is qw",
+    "Omega, K and b are along the axes of the body, w and m along those of the laboratory, as these were given",
+)
+"""What the columns are."""
+
+out_option: Callable[[Any], Any] = click.option(
+    "--out",
+    type=Place(dir_okay=False, path_type=Path),
+    help="Write what the motion has at its times to a table, .csv, .npz or .parquet, in the axes given.",
+)
+
+
+def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[str, str]) -> None:
+    """Write a table of one motion; a CSV file has its conventions and parameters above, which `atlas check` reads.
+
+    `units` are other names of units. Raises click.UsageError without times, AtlasError for another ending.
+    """
+    from atlas.files import write
+    from atlas.notebook.frames import columns_at
+    from atlas.sweeps.families import FAMILIES
+    from atlas.sweeps.tables import PARTS, check_format
+
+    check_format(out)
+    if not times:
+        raise click.UsageError("--out writes what the motion has at --times or on a --grid: give one of them.")
+    columns, known = dict(columns_at(motion, list(map(float, times)))), FAMILIES[motion.family].units | {"t": "time"}
+    content = PARTS[out.suffix[1:]](columns)
+    if out.suffix == ".csv":
+        named = {name: units.get(known.get(name, ""), known.get(name, "")) for name in columns}
+        heading = ",".join(f"{name} [{unit}]" if unit else name for name, unit in named.items())
+        lines = [
+            *CONVENTIONS * ("R11" in columns),
+            *(f"{name} = {' '.join(texts)}" for name, texts in parameters_of(motion).items()),
+        ]
+        content = "".join(f"# {line}\n" for line in lines).encode() + f"{heading}\n".encode() + content
+    write(out, content)
+
+
+def parameters_of(motion: Any) -> dict[str, list[str]]:
+    """Return what a motion is made of as the lines of a trajectory name it, each number in its shortest digits."""
+    if getattr(motion, "is_placed", False):
+        J, field, _, omega = motion.given
+        moments = [J[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+        parts = {"inertia": moments, "field": field, "omega": omega, "attitude": motion.quaternion(0.0)}
+    else:
+        parts = {name: parts_of(value) for name, value in motion.arguments.items() if value is not None}
+        body = motion.arguments.get("ratio")
+        if hasattr(body, "I2"):
+            parts = {"inertia": [body.I2, body.I3]} | {name: x for name, x in parts.items() if name != "ratio"}
+    return {name: [repr(float(x)) for x in values] for name, values in parts.items()}

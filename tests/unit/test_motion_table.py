@@ -1,0 +1,57 @@
+"""`atlas motion --out`: tables in the axes given, with their conventions, which `atlas check` reads again."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.checking.check import check_file
+from atlas.cli.app import atlas as program
+
+TIMES = ["--times", "0", "0.7", "3.1", "12"]
+COMMANDS = {
+    "tensor": "motion --tensor 2 1.5 1 0.1 0 0.2 --field 0.3 0 1 --spin 3 --attitude 0.6 0 0 0.8",
+    "elementary": "motion --ratio 1.5 --field 1 2 --omega2 0.7",
+    "general": "motion --inertia 2 3 --field 1 2 --omega 0.1 0.2 0.7",
+    "top": "top --inertia 1 0.5 --direction 0.6 0.8 --linear 3 --omega 0.1 0.2 5",
+    "hertz": "motion --ratio 1.5 --field 0.1Hz 0.2Hz --omega 3rpm 1rpm 20rpm",
+}
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_table_is_graded_by_itself(tmp_path: Path, name: str) -> None:
+    """Its head has the motion: without an option all its columns have their digits."""
+    out = tmp_path / "att.csv"
+    outcome = CliRunner().invoke(program, [*COMMANDS[name].split(), *TIMES, "--out", str(out)])
+    assert outcome.output == f"{out}\n"
+    assert "whose scalar is qw" in out.read_text()
+    result = check_file(out)
+    assert {"R11", "qw", "Omega1"} <= {column.name for column in result.columns}
+    assert min(column.worst for column in result.columns) > 13
+
+
+def test_attitudes_of_a_tensor_are_in_the_axes_given(tmp_path: Path) -> None:
+    """They are those of atlas.motion, and of SciPy's Rotation at the start."""
+    out = tmp_path / "att.npz"
+    CliRunner().invoke(program, [*COMMANDS["tensor"].split(), *TIMES, "--out", str(out)])
+    start = Rotation.from_quat([0.6, 0, 0, 0.8]).as_matrix()
+    motion = atlas.motion([[2, 0.1, 0], [0.1, 1.5, 0.2], [0, 0.2, 1]], (0.3, 0.0, 1.0), (0.0, 0.0, 3.0), start)
+    with np.load(out) as columns:
+        R = np.column_stack([columns[f"R{i}{j}"] for i in "123" for j in "123"]).reshape(-1, 3, 3)
+        assert np.allclose(R, motion.rotation(columns["t"]), rtol=0, atol=1e-13)
+    assert np.allclose(R[0], start, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [((), "gives? it|give one of them"), (("--times", "1", "--digits", "9"), "a table in doubles")],
+)
+def test_a_table_that_cannot_be_is_refused(tmp_path: Path, more: tuple[str, ...], words: str) -> None:
+    """Without times, and with proven digits."""
+    outcome = CliRunner().invoke(program, [*COMMANDS["general"].split(), *more, "--out", str(tmp_path / "att.csv")])
+    assert re.search(words, str(outcome.exception) + outcome.output)
+    assert not (tmp_path / "att.csv").exists()
