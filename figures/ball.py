@@ -47,10 +47,10 @@ def scene(
             layers.append(Arrow(tips[0], tips[1], "precession", r"$\mathbf{m}(t)$"))
     m2, m3 = momentum
     return Scene(
-        caption=rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
+        caption=r"The tip of $\mathbf{m}(t)$ goes round $\mathbf{B}$ on the circle, and the ball turns about "
+        rf"$\hat{{\mathbf{{k}}}}$: laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
         rf"$\mathbf{{m}}(0)=(0, {tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and "
-        r"$\mathbf{m}(0)$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. The tip of $\mathbf{m}(t)$ goes "
-        r"round $\mathbf{B}$ on the circle, and the ball turns about $\hat{\mathbf{k}}$. Lengths are not to scale.",
+        r"$\mathbf{m}(0)$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. Lengths are not to scale.",
         alt=f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point "
         f"up, the angular momentum (0, {plain(m2)}, {plain(m3)}) in the plane e2, e3 precesses round B on a horizontal "
         "circle.",

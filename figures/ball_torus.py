@@ -55,8 +55,9 @@ def scene(
     shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         caption=(
-            r"Left, a ball's attitude on the torus of its two angles, $\alpha t$ the long way round and $\gamma t$ the "
-            r"short way, dashed behind it where there are few turns; right, the way of its point $\mathbf{R}_1$. From "
+            r"A ball's attitude runs round the torus of its two angles (left), $\alpha t$ the long way and "
+            r"$\gamma t$ the short way, dashed behind it where there are few turns; right, the way of its point "
+            r"$\mathbf{R}_1$. From "
             rf"above, $\gamma/\alpha$ is {shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(

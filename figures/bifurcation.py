@@ -41,10 +41,11 @@ def scene(
     there = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
     return Scene(
         caption=(
-            rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
-            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the "
+            r"Motions exist in the shaded region of $H$ and $F$, and change their kind at lines and marks: "
+            r"elliptic motions of the "
             f"{'two ovals' if any(momentum) else 'bounded oval'}, unstable ones dashed, "
-            "and stable (dots) and other spins (crosses) about an axis. Motions exist in the shaded region."
+            rf"and stable (dots) and other spins (crosses) about an axis. $I_i={tex_vector(inertia)}$, $b={tex(b)}$, "
+            r"momenta $p=(\mathbf{M},\mathbf{K})/b$ along the field."
             + (" For $p=0$ its lower edge is straight, of plane pendulums." if 0.0 in momentum else "")
             + (" Open circle: rest." if "rest" in there else "")
         ),

@@ -39,8 +39,9 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     view = {"azimuth": azimuth, "elevation": elevation}
     return Scene(
         caption=(
-            r"Seven bodies on the scale of $I=I_3/I_2$, in true proportions: the needle has $I=0.02$, the rod 0.2. "
-            r"Above each is the surface (51) of its initial data for $\mathbf{B}'$ along "
+            r"A body longer than a ball has a tube for its surface of initial data, a flatter one two bowls. "
+            r"The scale of $I=I_3/I_2$: the needle has $I=0.02$, the rod 0.2. "
+            r"Above each is the surface (51) for $\mathbf{B}'$ along "
             rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Disk and loop have one $I$ and one "
             r"surface."
         ),

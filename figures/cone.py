@@ -19,9 +19,9 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=f"Cone of initial angular velocities with constant $\\Omega_3$ for {tex_setting(1.0, field)}; "
-        rf"for a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself. The plane of $\mathbf{{e}}_2$ and "
-        r"$\mathbf{e}_3$ cuts it in two straight lines (heavy), of which one goes through the origin.",
+        caption=r"The plane of $\mathbf{e}_2$ and $\mathbf{e}_3$ cuts the cone in two straight lines (heavy), of which "
+        rf"one goes through the origin: initial angular velocities with constant $\Omega_3$ for "
+        rf"{tex_setting(1.0, field)}. For a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself.",
         alt=f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two "
         "straight lines, one of which passes through the origin.",
         named={"heavy": "hyperbola"},

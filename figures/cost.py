@@ -20,7 +20,8 @@ def scene(*, columns: int = 1) -> Scene:
     record = benchmark.read()
     return Scene(
         caption=(
-            "(a) Time for one rotation matrix of the elementary motion among $N$, on one core. (b) The same over "
+            "Many matrices take less time each. (a) For one of the elementary motion among "
+            "$N$, on one core. (b) The same over "
             "the time in which one core fills that memory with a constant, on one core and on two, with open dots. "
             f"{benchmark.measured(record)}"
         ),

@@ -59,6 +59,7 @@ def scene(
     panels = (*spheres, plane("abcd"[len(tops)], tops, unit))
     return Scene(
         caption=(
+            r"Momentum and energy decide whether a top's axis waves or loops. "
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) in the plane of "
             r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin, "

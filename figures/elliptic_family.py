@@ -46,10 +46,11 @@ def scene(
     )
     return Scene(
         caption=(
+            r"Where $I_1$ leaves $I_2=1$ the hyperbola parts into two ovals. "
             r"Initial angular velocities of the elliptic motions in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for bodies with $I_2=1$, $I_3={tex(ratio)}$: the "
-            r"unbounded oval and the bounded one, unstable motions dashed. Dotted: the hyperbola (67) of $I_1=1$. "
-            r"There the ovals meet, in it and in the line $\omega_3=-B'_3$, and part again the other way."
+            r"unbounded oval and the bounded one, unstable motions dashed. Dotted: the hyperbola (67) of $I_1=1$, in "
+            r"which, and in the line $\omega_3=-B'_3$, the ovals meet, to part again the other way."
         ),
         alt=(
             f"Panels for I1 = {listed([plain(I1) for I1 in first])} in the plane of omega 2 and omega 3, in the field "

@@ -45,7 +45,7 @@ def scene(
     spins = " or ".join(words for role, words in kinds.items() if role in there)
     return Scene(
         caption=(
-            r"Energies $2H$ and momenta $p$ that motions can have (shaded), and the critical ones: steady precessions "
+            r"Motions exist in the shaded region of energies $2H$ and momenta $p$; critical are steady precessions "
             r"with their rate $w$ in Larmor's frame, "
             + rest
             + (f", and spins along the field or the vertical, {spins}." if spins else ".")

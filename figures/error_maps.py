@@ -25,7 +25,8 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
     empty = " A cell without colour has a phase beyond $2^{50}$." if np.isnan(measured).any() else ""
     return Scene(
         caption=(
-            r"Largest error in any entry of $R(t)$ by (84) in double precision, as anyone would write it, for "
+            r"Written as it stands, (84) loses digits where the map is bright. Largest error in any entry of $R(t)$ in "
+            r"double precision for "
             rf"{tex_setting(ratio, field)}: (a) over $\omega_2$, (b) over $I$ at $\omega_2={tex(omega2)}$. At the same "
             rf"times the atlas errs by at most ${tex(float(f'{worst:.1e}'))}$.{empty}"
         ),

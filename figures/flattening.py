@@ -51,6 +51,7 @@ def scene(
     columns = min(COLUMNS, len(panels))
     return Scene(
         caption=(
+            r"Three different moments do not repeat a nutation. "
             rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ above them, all launched "
             rf"with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ (1/{unit}), $\mathbf{{B}}$ upright, up to $t={tex(stop)}$. "

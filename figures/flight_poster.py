@@ -77,10 +77,10 @@ def scene(
     layers += fields(B, np.asarray(E, dtype=float), centres, size, (azimuth, elevation))
     return Scene(
         caption=(
+            r"In flight the body's axis goes round $\mathbf{B}$ at a constant angle and a rate of its own. "
             rf"The flight of {tex_setting(ratio, field)}, $\mu={tex(mu)}$, $c={tex(c)}$, through "
             rf"$\mathbf{{E}}={tex_vector(E)}$, launched with the velocity ${tex_vector(velocity)}$ and "
-            rf"$\omega_2={tex(omega2)}$, at {count} equal steps of time. The body's axis goes round $\mathbf{{B}}$ at "
-            r"a constant angle and a rate of its own."
+            rf"$\omega_2={tex(omega2)}$, at {count} equal steps of time."
         ),
         alt=(
             f"{count} drawings of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)} along a helix that "

@@ -60,8 +60,8 @@ def scene(
     )
     return Scene(
         caption=(
-            rf"Frequencies of the elementary motions of {tex_setting(ratio, field)}. (a) The precession "
-            rf"$k=\omega_2/\hat B_2$ about the field and {proper}"
+            rf"The precession $k=\omega_2/\hat B_2$ is proportional to $\omega_2$ in elementary "
+            rf"motions of {tex_setting(ratio, field)}. (a) With {proper}"
         ),
         alt=(
             f"Two panels over omega 2 for {plain_setting(ratio, field)}: the frequency of precession k, a straight "

@@ -31,9 +31,10 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
     shown = listed([f"the {benchmark.case_title(case)}" for case in cases])
     return Scene(
         caption=(
-            f"Largest error up to a time $T$, for {shown}. The largest of the atlas is "
-            f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Of an integrator each dot is the best tolerance "
-            f"that came through in time. {benchmark.measured(record)}"
+            "Errors of integrators grow, those of closed forms do not. "
+            f"Largest error up to $T$ for {shown}; the atlas's largest is "
+            f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Dots: the best tolerance "
+            f"that came through. {benchmark.measured(record)}"
         ),
         alt=(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, time to the "

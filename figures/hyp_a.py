@@ -24,8 +24,8 @@ def scene(
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
-        f"{tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
+        caption="A bowl through the origin is the upper sheet of initial angular velocities with "
+        f"constant $\\Omega_3$ for {tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
         alt=f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the "
         "origin O, from which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it "
         "at −B'.",

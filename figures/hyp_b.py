@@ -24,9 +24,9 @@ def scene(
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=f"Hyperboloid of initial angular velocities with constant $\\Omega_3$ for {tex_setting(ratio, field)}: "
-        r"one tube about its inclined canonical axis, on which both branches of the hyperbola $\omega_1=0$ (heavy "
-        r"lines) run along opposite sides.",
+        caption=r"On one tube about its inclined canonical axis both branches of the hyperbola $\omega_1=0$ (heavy "
+        r"lines) run along opposite sides: hyperboloid of initial angular velocities with constant $\Omega_3$ for "
+        f"{tex_setting(ratio, field)}.",
         alt=f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
         "−B'; both branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
         named={"heavy": "hyperbola"},

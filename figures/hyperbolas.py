@@ -33,10 +33,11 @@ def scene(
     pole = r"asymptote $\omega_2=-B'_2$, a line of the ball" if ball else "dotted asymptote"
     return Scene(
         caption=(
-            r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), in the "
+            r"All curves go through rest and $-2\mathbf{B}'$. "
+            r"Initial angular velocities $(0,\omega_2,\omega_3)$ without nutation, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
-                rf"All share the centre $-\mathbf{{B}}'$ and the {pole}; the thin dashed ones run along "
+                rf"They share $-\mathbf{{B}}'$ and the {pole}; the thin dashed run along "
                 r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."

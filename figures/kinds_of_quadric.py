@@ -75,8 +75,8 @@ def scene(
         panels.append(Plane(tuple(layers), r"$I=I_3/I_2$", y_label, (0.0, 2.0), (0.0, RIGHT), title=name))
     return Scene(
         caption=(
-            r"Every quadric (51) once, up to its size: over $I$ and the angle $\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ "
-            r"to $\mathbf{e}_2$. The body alone decides on the kind. At the lower edge it is a pair of planes, "
+            r"The body alone decides on the kind. Every quadric (51) once, up to its size: over $I$ and the angle "
+            r"$\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ to $\mathbf{e}_2$. At the lower edge it is a pair of planes, "
             r"at the upper one a line. Levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$: "
             + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])
             + "."

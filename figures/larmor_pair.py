@@ -57,11 +57,11 @@ def scene(
     frames = (("(a) laboratory", in_laboratory), (r"(b) Larmor's frame", in_larmor_frame))
     return Scene(
         caption=(
+            r"In Larmor's frame (b) the light line goes on where the heavy one came from. "
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$ (heavy) and "
             rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {spelt(nutations)} of the nutation from "
-            r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory. (b) Larmor's frame: the light line goes on "
-            "where the heavy one came from."
+            r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory."
         ),
         alt=(
             f"Two unit spheres with traces of the body's axis for {plain_setting(ratio, field)}. In the laboratory the "

@@ -28,8 +28,8 @@ def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, ele
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
-        rf"$\omega_3=-2B'_3$ that they touch at $O$ and at $-2\mathbf{{B}}'$.",
+        caption=r"Both bowls of a loop rest on planes, $\omega_3=0$ and $\omega_3=-2B'_3$, which they touch at $O$ and "
+        rf"at $-2\mathbf{{B}}'$: the hyperboloid for {tex_setting(2.0, field)}.",
         alt=f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
         "plane at the origin, the lower hangs from another one at −2B'.",
     )

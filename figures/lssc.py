@@ -54,9 +54,9 @@ def scene(
     if field[1]:
         layers.append(Label(third, r"$B'_3$", offset=(-5.0, 0.0)))
     return Scene(
-        caption=f"Laboratory system for {tex_setting(ratio, field)}: $\\mathbf{{e}}_3$ is the third inertia axis "
-        r"$\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the field, lies in the plane of $\mathbf{e}_2$ and "
-        r"$\mathbf{e}_3$. The cylindrical shell drawn has this ratio of its moments.",
+        caption=r"At the start $\mathbf{e}_3$ is the body's axis $\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the "
+        r"field, lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$: laboratory system for "
+        rf"{tex_setting(ratio, field)}. The cylindrical shell drawn has this ratio of its moments.",
         alt=f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "
         f"{plain_setting(ratio, field)}; the field leans from e3 towards e2.",
         panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),

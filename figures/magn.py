@@ -67,9 +67,10 @@ def scene(
     drift = rf" and drifts along $[\mathbf{{E}}, \mathbf{{B}}]$, {side} the axis $x$" if E[0] else ""
     vector = tex_vector((0.0, *E))
     return Scene(
-        caption=rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and "
+        caption=rf"The path of a particle begins at the origin{drift}. "
+        rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and "
         rf"$\mathbf{{B}}=(0, 0, {tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in "
-        rf"the plane of $y$ and $z$. The path begins at the origin{drift}. The arrows of the fields are not to scale.",
+        rf"the plane of $y$ and $z$. The arrows of the fields are not to scale.",
         alt=f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, "
         f"E = {plain_vector((0.0, *E))} in the plane of y and z{' with its two components' if all(E) else ''}, and the "
         f"spiral path of a particle{f' that drifts {side} x' if E[0] else ''}.",

@@ -45,10 +45,11 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     error = max(loop.step for loop in loops)
     return Scene(
         caption=(
-            rf"Above: least energies (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round unstable "
-            rf"spins (crosses); $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the periods of one nutation, "
-            "by their turns. Round the loop each moves (lines) to the place of another: the lattice comes back, and "
-            rf"$\mathbf{{g}}_3$ (heavy line) does not. Largest step {error:.2g} of a turn."
+            r"Carried round an unstable spin, a lattice of periods comes back, and not each period. "
+            rf"Above: least energies (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round "
+            rf"crosses; $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the periods, "
+            "by their turns, and their way round the loop (lines), "
+            rf"$\mathbf{{g}}_3$ heavy. Largest step {error:.2g} of a turn."
         ),
         alt=(
             "Three diagrams with a loop round one or two isolated critical values, and three lattices of points, in "

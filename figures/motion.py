@@ -42,14 +42,15 @@ def scene(
     free = not any(motion.field)
     axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"
     along = "" if free else r"; dashed: its projection on the field"
-    turning = rf"The body at the start, and the way of its axis round {axis} in {SPOKES} steps."
+    turning = rf"The body at the start; its axis in {SPOKES} steps."
+    seen = rf"The body's axis goes evenly round {axis}." if motion.k else "The body's axis does not move."
     return Scene(
         caption=(
-            rf"The elementary motion of {tex_setting(ratio, field)} from "
+            rf"{seen} {tex_setting(ratio, field, first='A')} from "
             rf"$\boldsymbol{{\omega}}=(0,\omega_2,\omega_3)$ with $\omega_2={tex(motion.omega2)}$, "
             rf"$\omega_3{tex_equals(motion.omega3)}$: {motion.case}, $k{tex_equals(motion.k)}$, "
             rf"$\phi{tex_equals(motion.phi)}$. "
-            rf"(a) {turning if motion.k else 'The body, whose third axis does not move.'} "
+            rf"(a) {turning if motion.k else 'The body.'} "
             r"(b) The angular velocity in the body. "
             rf"(c) $\mathbf{{m}}/I_2$ in the laboratory, (88){along}."
         ),

@@ -59,8 +59,8 @@ def scene(
     )
     return Scene(
         caption=(
-            r"The amplitude of the nutation over the initial angular velocity $(0,\omega_2,\omega_3)$, "
-            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$: zero on the hyperbola (white) alone. Open dot: rest; "
+            r"On the hyperbola (white) alone there is no nutation. Its amplitude over the initial angular velocity "
+            rf"$(0,\omega_2,\omega_3)$, $\mathbf{{B}}'={tex_vector((0.0, *field))}$. Open dot: rest; "
             r"diamond: $-2\mathbf{B}'$. In the wedges with a dotted edge the axis draws loops, elsewhere, and all "
             "along the hyperbola, waves. For a long solenoid the map jumps at the separatrices."
         ),

@@ -38,9 +38,9 @@ def scene(
     )  # fmt: skip
     return Scene(
         caption=(
-            rf"The third axis of {tex_setting(ratio, field)} with $\omega_3={tex(omega3)}$ over {plain(nutations)} "
-            r"periods of the nutation, $\mathbf{B}$ upright. At the start (dot) it moves along the parallel with "
-            r"$\omega_2$: at rest there it draws cusps, moved one way it waves, the other way it loops."
+            r"At rest at the start (dot) the third axis draws cusps, moved one way it waves, the other way it loops: "
+            rf"there it moves along the parallel with $\omega_2$. {tex_setting(ratio, field, first='A')}, with "
+            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} periods of the nutation, $\mathbf{{B}}$ upright."
         ),
         alt=(
             f"Unit spheres with the trace of the body's axis for {plain_setting(ratio, field)}, omega 3 = "

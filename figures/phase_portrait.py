@@ -61,9 +61,9 @@ def scene(
     )
     return Scene(
         caption=(
+            r"Round a stable motion (dot) $\Omega_3$ swings on closed lines. "
             rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the momenta "
-            rf"of the elementary one $\omega_2={tex(omega2)}$: each line is one energy. Dots are equilibria, the "
-            rf"elementary motions. {eight}All other lines are nutations."
+            rf"of the elementary one $\omega_2={tex(omega2)}$, a line for each energy. {eight}"
         ),
         alt=(
             f"Closed curves in the plane of Omega 3 and its rate, for {plain_setting(ratio, field)} with the momenta "

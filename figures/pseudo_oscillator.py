@@ -64,8 +64,9 @@ def scene(
     start = np.array([oscillator.omega3 - zero, (oscillator.omega1 * oscillator.B2) ** 2])
     return Scene(
         caption=(
-            rf"The third component $\Omega_3$ of the angular velocity of {tex_setting(ratio, field)}, from "
-            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ of the first integral "
+            r"$\Omega_3$ moves where $Q$ is not negative, as in a potential. "
+            rf"{tex_setting(ratio, field, first='A')} from "
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic "
             r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47) and the "
             r"level of the motion. Dot: the start; the shaded "
             rf"interval is allowed. (c) $\Omega_3(t)$. {still if rest else period}"

@@ -52,10 +52,11 @@ def scene(
     )
     return Scene(
         caption=(
-            rf"Points of the quadric (51) of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$. "
+            r"Off the hyperbola $\Omega_3$ departs at once. "
+            rf"{tex_setting(ratio, field, first='A')}, starts with $\omega_2={tex(omega2)}$. "
             rf"(a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "
             r"dashed: the rate at $t=0$. "
-            f"(b) The largest departure from the start, with dots for the motions of (a); {law}"
+            f"(b) The largest departure, with dots for the motions of (a); {law}"
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)}: the change of Omega 3 over time from starts with omega 1 "

@@ -57,8 +57,9 @@ def scene(
     band = " Vermilion: the unstable motions." if unstable else ""
     return Scene(
         caption=(
-            rf"The surface (51) for {tex_setting(ratio, field)}, tinted by the rate $\lvert\omega_1B'_2\rvert$ at "
-            rf"which $\Omega_3$ departs there. From the heavy line, the hyperbola, it does not depart.{band} "
+            r"The paler the surface, the more slowly $\Omega_3$ departs, and from the heavy line, the hyperbola, "
+            rf"not at all.{band} The surface (51) for {tex_setting(ratio, field)}, tinted by the rate "
+            r"$\lvert\omega_1B'_2\rvert$. "
             r"Arrows at the bodies: $\boldsymbol{\omega}$."
         ),
         alt=(

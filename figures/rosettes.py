@@ -48,10 +48,11 @@ def scene(
     spoken = listed([f"{p}/{q}" for p, q in fractions])
     return Scene(
         caption=(
-            r"Seen along $\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
-            rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "
+            rf"With $\phi/k$ equal to {named} the body is back after "
             rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, with the "
-            rf"golden mean never; drawn: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$."
+            rf"golden mean never; drawn: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$. Seen along "
+            r"$\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
+            rf"{tex_setting(ratio, field)}."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "

@@ -44,7 +44,8 @@ def scene(
     motions, last = excursions(ratio, field, omega2), decay / growth
     return Scene(
         caption=(
-            rf"One excursion from an unstable precession and back, $\omega_2={tex(omega2)}$ of "
+            r"The axis leaves the circle of an unstable precession, makes one excursion, and comes back. "
+            rf"$\omega_2={tex(omega2)}$ of "
             rf"{tex_setting(ratio, field)}. (a) The trace of the axis in one of the two, $\mathbf{{B}}$ "
             r"upright; dashed: the circle of the precession. (b) $\Omega_3$ of both, with "
             rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$."

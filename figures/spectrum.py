@@ -39,10 +39,11 @@ def scene(
     told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
         caption=(
-            rf"Lines of the motion of {tex_setting(ratio, field)} from "
+            r"All lines lie at whole combinations of few frequencies. "
+            rf"{tex_setting(ratio, field, first='A')} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "
-            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it, in the same colours. Heights are norms of "
-            r"complex vector amplitudes, of one of both signs of a frequency, beside the root of the mean square."
+            r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are norms of "
+            r"complex amplitudes, for one sign of a frequency, beside the root mean square."
         ),
         alt=(
             "Two panels of vertical lines over frequency, on a logarithmic scale, for "

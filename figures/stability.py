@@ -48,14 +48,14 @@ def scene(
     near = tau <= FAR
     return Scene(
         caption=(
-            f"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
-            r"squared, $\nu_n^2=-Q''(\omega_3)/2$, theorem-quartic, along the hyperbola (67). "
-            + (
-                f"The motion is unstable on the shaded bands {where}, inside which it is negative. "
+            (
+                f"Unstable are the motions on the shaded bands {where}, inside which the square is negative. "
                 if bands
-                else "It is positive. "
+                else "The square of the frequency of nutation is positive on the whole curve. "
             )
-            + r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "
+            + r"(a) The nutation frequency squared, $\nu_n^2=-Q''(\omega_3)/2$, theorem-quartic, along the hyperbola "
+            rf"(67) of {tex_setting(ratio, field)}. "
+            r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "
             r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; "
             + ("upright and dotted: the field of (a). " if near else rf"the field of (a) has $\tau={tex(tau)}$. ")
             + (r"Shaded: unstable." if long else r"For $I\ge1$ all motions of the hyperbola are stable.")

@@ -45,10 +45,10 @@ def scene(
     )  # fmt: skip
     return Scene(
         caption=(
+            r"Whatever turns it, the axis of a top nutates by one formula. "
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega={tex_vector(omega)}$, "
             rf"over {spelt(nutations)} of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
-            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start. All four are one "
-            r"formula."
+            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start."
         ),
         alt=(
             f"Four unit spheres with traces of a body's axis, I = {plain(ratio)}: waves or loops between two parallels "

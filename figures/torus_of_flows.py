@@ -53,9 +53,10 @@ def scene(
     )
     return Scene(
         caption=(
-            rf"The motion of a body with $I_i={tex_vector(inertia)}$ from $\boldsymbol{{\omega}}={tex_vector(omega)}$ "
-            rf"in $\mathbf{{B}}'={tex_vector(field)}$ up to $t={tex(stop)}$ (thin line), in (a) on its torus, the "
-            rf"angles those of its two periods, in (b) as the way of $\mathbf{{K}}$ in the body. From the start, "
+            r"The motion (thin line) winds round a torus. "
+            rf"A body with $I_i={tex_vector(inertia)}$ from $\boldsymbol{{\omega}}={tex_vector(omega)}$ "
+            rf"in $\mathbf{{B}}'={tex_vector(field)}$ up to $t={tex(stop)}$: (a) by the angles of its two periods, "
+            rf"(b) as the way of $\mathbf{{K}}$ in the body. From the start, "
             rf"$T_H={tex(round(first[0], 4))}$ along the motion (teal) and $T_F={tex(round(first[1], 4))}$ along "
             "the other flow (plum) lead back."
         ),

@@ -68,11 +68,12 @@ def scene(
     )
     return Scene(
         caption=(
+            r"The particle turns round a guiding centre, which drifts along the dashed line. "
             rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
             rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "
-            r"along $[\mathbf{E},\mathbf{B}]$. The guiding centre drifts along the dashed line with "
-            rf"$v{tex_equals(v)}$; the particle turns round it with $\omega{tex_equals(omega)}$ on a circle of radius "
-            r"$a$. Large dot: start; small dots: whole turns."
+            r"along $[\mathbf{E},\mathbf{B}]$. The drift is "
+            rf"$v{tex_equals(v)}$, the rate of the turn $\omega{tex_equals(omega)}$, the radius of its circle $a$. "
+            r"Large dot: start; small dots: whole turns."
         ),
         alt=(
             f"The path of a charged particle across the fields E = {plain_vector(E)} and B = {plain_vector(B)}: "

@@ -47,11 +47,10 @@ def scene(
     over_time, over_turns = (0.01 * reach * b / abs(largest), reach * b / abs(smallest)), (0.0, reach)
     return Scene(
         caption=(
-            r"A body at rest that is pushed turns over: a small push makes it later (a), but not less far (b), where "
-            r"against the push times the time the curves of small pushes are one. Drawn is how far the field in the "
-            rf"body is from where it was, for $I_i={tex_vector(inertia)}$ at rest in "
-            rf"$\mathbf{{B}}'={tex_vector(field)}$, $b=\lvert\mathbf{{B}}'\rvert$, pushed about $\mathbf{{e}}_2$ with "
-            rf"the angular velocities $s$. With ${tex(smallest)}$ it reaches ${tex(round(farthest, 2))}$."
+            r"A body at rest turns over after any push: a small one makes it later (a), but not less far (b), where "
+            r"the curves of small pushes are one. How far the field in the body is from where it was, for "
+            rf"$I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$, $b=\lvert\mathbf{{B}}'\rvert$, "
+            rf"pushed about $\mathbf{{e}}_2$ with $s$. With ${tex(smallest)}$ it reaches ${tex(round(farthest, 2))}$."
         ),
         alt=(
             f"Curves of a distance for pushes {', '.join(map(plain, pushes))}, in two panels: against the time, where "

@@ -36,9 +36,9 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Tops with two wells (shaded) and with one, each a point $(a,A)$, at the momenta $p$ and $M_3$. On a thin "
-            r"line the axis can rest at the cosine $\nu_0$ that the line bears: with two wells on three such lines. "
-            r"The border is their envelope, where $\nu_0$ is a triple root."
+            r"Tops in the shaded region have two wells, all others one: each point $(a,A)$ is a top, at the momenta "
+            r"$p$ and $M_3$. On a thin line the axis can rest at the cosine $\nu_0$ that the line bears: with two "
+            r"wells on three such lines. The border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(
             f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve "

@@ -22,9 +22,10 @@ def scene(
     record = benchmark.read()
     return Scene(
         caption=(
+            "Integrators (lines) pay time for digits, closed forms (marks) do not. "
             f"Largest error up to $t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
-            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. A line is an integrator, one "
-            "dot a tolerance from $10^{-3}$ to $10^{-14}$; a mark is a closed form. "
+            f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. One dot is a "
+            "tolerance from $10^{-3}$ to $10^{-14}$. "
             f"{benchmark.measured(record)}"
         ),
         alt=(

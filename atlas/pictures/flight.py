@@ -70,8 +70,9 @@ def picture(
     drawn = paths(flight, axes, view, stop)
     return Scene(
         caption=(
-            rf"The flight of a point $\mathbf{{x}}_N={tex_vector(point)}$ of {setting[0]}; the centre of mass "
-            rf"circles with $2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. "
+            rf"A point $\mathbf{{x}}_N={tex_vector(point)}$ of a body winds round the path of its centre of mass: "
+            rf"{setting[0]}; that circles with "
+            rf"$2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. "
             r"(b) Seen along $\mathbf{B}$. Thin lines join centre and point at equal steps of time."
         ),
         alt=(

@@ -40,6 +40,20 @@ def pixels(figure: Figure) -> np.ndarray:
     return np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
 
 
+SAYING = re.compile(
+    r"\b(is|are|means|has|have|goes|go|keeps?|runs?|winds?|leaves?|comes?|departs?|moves?|turns?|rolls|swings|grows?|cuts|pay|"
+    r"touches|parts|draws|decides?|begins|loses|exist|form|take|differ|lead|lie|nutates|do(es)? not|wind|stays?|rest)\b"
+)
+
+
+@pytest.mark.parametrize("name", recipes.names())
+def test_a_caption_says_first_what_is_to_be_seen(name: str) -> None:
+    """Its first sentence has a verb, and so tells something; it isn't the bare name of what is drawn."""
+    caption = recipes.load(name).scene().caption
+    first = re.sub(r"\$[^$]*\$", "F", caption).partition(". ")[0]
+    assert SAYING.search(first), first
+
+
 @pytest.mark.parametrize(("name", "parameters"), CASES[: len(recipes.names())], ids=lambda value: str(value)[:40])
 def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str, Any]) -> None:
     """Fewer than 60 words, a formula being one; what the reader may type stands in the line of the files."""
