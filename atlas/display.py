@@ -2,13 +2,19 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from atlas.arithmetic.annotations import RealArrayLike, StyleLike
 from atlas.arithmetic.inputs import kept
 from atlas.errors import AtlasError
 from atlas.viewers import notebook
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
 
 MAX_SHOWN_NUMBERS, MAX_COUNTED_OBJECTS = 9, 4096
 """Numbers of an array that are written out; objects whose kinds are counted."""
@@ -56,11 +62,11 @@ class Shown:
         figure: str | None = None,
         *,
         panel: int | None = None,
-        ax: Any = None,
-        style: Any = None,
+        ax: "Axes | None" = None,
+        style: StyleLike = None,
         target: str | None = None,
-        **parameters: Any,
-    ) -> Any:
+        **parameters: object,
+    ) -> "Figure":
         """Matplotlib figure of the object, by a recipe in figures/.
 
         Parameters
@@ -88,9 +94,12 @@ class Shown:
         AtlasError
             If no such picture of the object exists.
         """
-        return notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
+        drawn: Figure = notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
+        return drawn
 
-    def to_dataframe(self, times: Any = None, *, quantities: Sequence[str] | None = None) -> Any:
+    def to_dataframe(
+        self, times: RealArrayLike | None = None, *, quantities: Sequence[str] | None = None
+    ) -> "DataFrame":
         """Table of the object as a `pandas.DataFrame`: one row per object, or one row per time.
 
         Parameters
@@ -110,7 +119,8 @@ class Shown:
         AtlasError
             Without pandas, and for an unknown quantity.
         """
-        return notebook("frames").frame(self, times, quantities)
+        table: DataFrame = notebook("frames").frame(self, times, quantities)
+        return table
 
 
 def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:

@@ -11,7 +11,7 @@ product, 15 u^2 for a quotient and 25/8 u^2 for a square root; the bounds below 
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache, partial
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from flint import fmpq
@@ -195,6 +195,14 @@ def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
     return DoubleDouble(x.hi * sign, x.low * sign, x.rel)
 
 
+@overload
+def over(
+    formula: Formula, *inputs: Any, unit: slice = ..., degree: int = 1, alone: Formula | None = None
+) -> float | FloatArray: ...
+@overload
+def over(
+    formula: Formula, *inputs: Any, unit: slice = ..., degree: Sequence[int], alone: Formula | None = None
+) -> Any: ...
 def over(
     formula: Formula,
     *inputs: Any,

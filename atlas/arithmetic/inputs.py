@@ -149,9 +149,10 @@ def _listed(parts: Sequence[Any]) -> bool:
     return all(isinstance(part, list | tuple) for part in parts)
 
 
-def finite(values: Any, name: str) -> Any:
+def finite(values: Value, name: str) -> Value:
     """Return what was computed, a number or an array, or several; DomainError where one is too large for a float."""
-    if not all(np.isfinite(value).all() for value in (values if isinstance(values, tuple) else (values,))):
+    numbers: Any = values if isinstance(values, tuple) else (values,)
+    if not all(np.isfinite(value).all() for value in numbers):
         raise DomainError(f"{name} is too large for a float: choose larger units.")
     return values
 
@@ -192,12 +193,13 @@ def as_given(array: Any) -> Any:
     return array if isinstance(array, Given) else plain(array)
 
 
-def turn_time(rate: Any) -> Any:
+def turn_time(rate: Any) -> float | FloatArray:
     """Return the time 2 pi/|rate| of one turn; infinite where nothing turns. DomainError beyond all floats."""
     with np.errstate(divide="ignore", over="ignore"):
         times = np.divide(2 * np.pi, np.abs(rate))
     finite(np.where(np.equal(rate, 0), 0.0, times), "The period")
-    return plain(times)
+    period: float | FloatArray = plain(times)
+    return period
 
 
 def scaled(v: FloatArray) -> tuple[FloatArray, Any]:

@@ -1,11 +1,12 @@
 """Symmetric bodies: the moments of inertia I1 = I2 and I3, and the mass matrix (8) behind them."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 
+from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import INERTIA, LENGTH, MASS
 from atlas.arithmetic.inputs import FloatArray, common_shape, matrix, plain, real
 from atlas.bodies import formula_shapes as formulas
@@ -73,13 +74,12 @@ class SymmetricBody:
     1.5
     """
 
-    I2: Any
-    I3: Any
-    axes: FloatArray = field(default_factory=lambda: np.eye(3), compare=False, repr=False)
+    I2: FloatOrArray
+    I3: FloatOrArray
+    axes: FloatArray
 
-    def __post_init__(self) -> None:
-        """Check that such bodies exist."""
-        I2, I3 = real(self.I2, "I2", INERTIA), real(self.I3, "I3", INERTIA)
+    def __init__(self, I2: RealArrayLike, I3: RealArrayLike, axes: RealArrayLike | None = None) -> None:
+        I2, I3 = real(I2, "I2", INERTIA), real(I3, "I3", INERTIA)
         common_shape(I2.shape, I3.shape)
         I2, I3 = np.broadcast_arrays(I2, I3)
         for across, along in np.stack([I2, I3], -1).reshape(-1, 2)[((I2 <= 0) | (I3 < 0) | (I3 > 2 * I2)).ravel()][:1]:
@@ -93,7 +93,7 @@ class SymmetricBody:
             )
         object.__setattr__(self, "I2", plain(I2))
         object.__setattr__(self, "I3", plain(I3))
-        object.__setattr__(self, "axes", matrix(self.axes, "The axes"))
+        object.__setattr__(self, "axes", matrix(np.eye(3) if axes is None else axes, "The axes"))
 
     def __eq__(self, other: object) -> bool:
         """Whether all moments are the same."""
@@ -112,22 +112,22 @@ class SymmetricBody:
         return html
 
     @property
-    def ratio(self) -> Any:
+    def ratio(self) -> FloatOrArray:
         """Ratio I = I3/I2, (33), rounded to a float; kernels use the exact I2 and I3."""
         return self.I3 / self.I2
 
     @property
-    def inertia(self) -> tuple[Any, Any, Any]:
+    def inertia(self) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
         """Diagonal (I2, I2, I3) of the inertia tensor, (33)."""
         return self.I2, self.I2, self.I3
 
     @property
-    def mass_matrix(self) -> tuple[Any, Any, Any]:
+    def mass_matrix(self) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
         """Diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix (8)."""
         return self.I3 / 2, self.I3 / 2, self.I2 - self.I3 / 2
 
     @classmethod
-    def ring(cls, mass: Any, radius: Any) -> Self:
+    def ring(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
         """Thin ring (a loop): I3 = m R^2 = 2 I2.
 
         Parameters
@@ -152,7 +152,7 @@ class SymmetricBody:
         return cls(*_of_shape("ring", mass, radius))
 
     @classmethod
-    def disk(cls, mass: Any, radius: Any) -> Self:
+    def disk(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
         """Thin disk: I3 = m R^2/2 = 2 I2.
 
         Parameters
@@ -177,7 +177,7 @@ class SymmetricBody:
         return cls(*_of_shape("disk", mass, radius))
 
     @classmethod
-    def cylindrical_shell(cls, mass: Any, radius: Any, height: Any) -> Self:
+    def cylindrical_shell(cls, mass: RealArrayLike, radius: RealArrayLike, height: RealArrayLike) -> Self:
         """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6).
 
         Parameters
@@ -204,7 +204,7 @@ class SymmetricBody:
         return cls(*_of_shape("cylindrical_shell", mass, radius, height))
 
     @classmethod
-    def solid_cylinder(cls, mass: Any, radius: Any, height: Any) -> Self:
+    def solid_cylinder(cls, mass: RealArrayLike, radius: RealArrayLike, height: RealArrayLike) -> Self:
         """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3).
 
         Parameters
@@ -231,7 +231,7 @@ class SymmetricBody:
         return cls(*_of_shape("solid_cylinder", mass, radius, height))
 
     @classmethod
-    def thin_rod(cls, mass: Any, length: Any) -> Self:
+    def thin_rod(cls, mass: RealArrayLike, length: RealArrayLike) -> Self:
         """Rod without thickness: I2 = m l^2/12, I3 = 0; motions refuse the rod.
 
         Parameters
@@ -256,7 +256,7 @@ class SymmetricBody:
         return cls(*_of_shape("thin_rod", mass, length))
 
     @classmethod
-    def sphere(cls, mass: Any, radius: Any) -> Self:
+    def sphere(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
         """Solid ball: I2 = I3 = 2 m R^2/5.
 
         Parameters
@@ -281,7 +281,7 @@ class SymmetricBody:
         return cls(*_of_shape("sphere", mass, radius))
 
     @classmethod
-    def spherical_shell(cls, mass: Any, radius: Any) -> Self:
+    def spherical_shell(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
         """Hollow sphere: I2 = I3 = 2 m R^2/3.
 
         Parameters
@@ -306,7 +306,7 @@ class SymmetricBody:
         return cls(*_of_shape("spherical_shell", mass, radius))
 
     @classmethod
-    def spheroid(cls, mass: Any, equatorial: Any, polar: Any) -> Self:
+    def spheroid(cls, mass: RealArrayLike, equatorial: RealArrayLike, polar: RealArrayLike) -> Self:
         """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5.
 
         Parameters
@@ -333,7 +333,7 @@ class SymmetricBody:
         return cls(*_of_shape("spheroid", mass, equatorial, polar))
 
     @classmethod
-    def from_point_masses(cls, masses: Any, positions: Any, *, tolerance: float = 1e-9) -> Self:
+    def from_point_masses(cls, masses: RealArrayLike, positions: RealArrayLike, *, tolerance: float = 1e-9) -> Self:
         """Body of point masses with the mass matrix (8), by `from_mass_matrix`.
 
         Parameters
@@ -360,7 +360,7 @@ class SymmetricBody:
         return cls.from_mass_matrix(mass_matrix_of_points(masses, positions), tolerance=tolerance)
 
     @classmethod
-    def from_mass_matrix(cls, mass_matrix: Any, *, tolerance: float = 1e-9) -> Self:
+    def from_mass_matrix(cls, mass_matrix: RealArrayLike, *, tolerance: float = 1e-9) -> Self:
         """Body of a mass matrix (8): I2 = g1 + g3 and I3 = 2 g1, with principal values g1 = g2 and g3.
 
         Parameters

@@ -1,10 +1,11 @@
 """Second moments of a charge distribution that is symmetric about the body's axis, apart from those of its mass."""
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
+from atlas.arithmetic.annotations import RealArrayLike, ShapeName
 from atlas.arithmetic.dimensions import CHARGE, LENGTH
 from atlas.arithmetic.inputs import number, real, vectors
 from atlas.bodies.body import SHAPES, from_shape
@@ -55,7 +56,7 @@ class ChargeMoments:
         return ChargeMoments(self.J2 + other.J2, self.J3 + other.J3)
 
     @classmethod
-    def shape(cls, name: str, charge: float, **dimensions: Any) -> Self:
+    def shape(cls, name: ShapeName, charge: float, **dimensions: RealArrayLike) -> Self:
         """Moments of a charge spread uniformly over a shape of `SymmetricBody`.
 
         Parameters
@@ -87,12 +88,12 @@ class ChargeMoments:
             )
             raise AtlasError(f"The moments of a charged {name} take {sizes}, not {given_sizes or 'nothing'}.")
         charge = number(charge, "The charge", CHARGE)
-        whole = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
+        body = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
         sign = float(np.sign(charge))
-        return cls(sign * whole.I2, sign * whole.I3)
+        return cls(sign * float(body.I2), sign * float(body.I3))
 
     @classmethod
-    def points(cls, charges: Any, positions: Any, *, held: bool = False) -> Self:
+    def points(cls, charges: RealArrayLike, positions: RealArrayLike, *, held: bool = False) -> Self:
         """Moments of point charges about the body's axis e3.
 
         Parameters

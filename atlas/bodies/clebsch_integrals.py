@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas.arithmetic.annotations import BodyLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, common_shape, plain, vectors
 from atlas.bodies import formula_integrals as formulas
@@ -22,19 +23,19 @@ class Clebsch:
     differ; a symmetric body conserves M3 too, and F follows from it, theorem-clebsch-symmetric.
     """
 
-    H: Any
+    H: FloatOrArray
     """H = (M, J^-1 M)/2 + (K, J K)/2, theorem-lie-poisson, in the unit of inertia/time^2."""
-    F: Any
+    F: FloatOrArray
     """Clebsch's F = M^2 - det J (K, J^-1 K), theorem-clebsch, in (unit of inertia/time)^2."""
-    MK: Any
+    MK: FloatOrArray
     """The Casimir (M, K), |B'| times the canonical momentum along B, in the unit of inertia/time^2."""
-    K2: Any
+    K2: FloatOrArray
     """The Casimir K^2 = B'^2, (37), in 1/time^2."""
-    energy: Any
+    energy: FloatOrArray
     """Kinetic energy (Omega, J Omega)/2 = H - (M, K), theorem-kinetic-energy, in the unit of inertia/time^2."""
 
 
-def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
+def clebsch(inertia: BodyLike, Omega: RealArrayLike, K: RealArrayLike) -> Clebsch:
     """Integrals H, F, (M, K), K^2 and kinetic energy of a state, theorem-clebsch.
 
     Parameters

@@ -7,6 +7,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.dimensions import NO_FIELDS, RATE, SI_FIELDS
 from atlas.arithmetic.given import as_float_or_fraction
 from atlas.arithmetic.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
@@ -70,7 +71,9 @@ class Field:
     exact: tuple[float | Fraction, ...] = attribute(init=False)
     """The components of B' without rounding, as motions take them: floats, or fractions where they are no floats."""
 
-    def __init__(self, B: Any, E: Any = (0.0, 0.0, 0.0), mu: Any = 1.0, c: Any = 1.0) -> None:
+    def __init__(
+        self, B: RealArrayLike, E: RealArrayLike = (0.0, 0.0, 0.0), mu: RealArrayLike = 1.0, c: RealArrayLike = 1.0
+    ) -> None:
         object.__setattr__(self, "c", positive(c, "c"))
         unit = SI_FIELDS if self.c == 1 else NO_FIELDS
         object.__setattr__(self, "B", vector(B, "B", unit["B"]))
@@ -85,7 +88,7 @@ class Field:
         return f"{text}  # B' = {self.prime.tolist()}"
 
     @classmethod
-    def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+    def si(cls, B: RealArrayLike, E: RealArrayLike = (0.0, 0.0, 0.0), *, mu: float) -> Self:
         """Fields in SI: B in T, E in V/m, mu in C/kg; B' of (32) in rad/s.
 
         Parameters
@@ -117,7 +120,7 @@ class Field:
         return field
 
     @classmethod
-    def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+    def gaussian(cls, B: RealArrayLike, E: RealArrayLike = (0.0, 0.0, 0.0), *, mu: float) -> Self:
         """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' of (32) in rad/s.
 
         Parameters
@@ -172,7 +175,7 @@ class Field:
         _ = self.pair
         return self.exact[1:]
 
-    def frame(self, axis: Any) -> "LaboratoryFrame":
+    def frame(self, axis: RealArrayLike) -> "LaboratoryFrame":
         """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.
 
         Parameters
@@ -233,7 +236,7 @@ class LaboratoryFrame:
     matrix: FloatArray = attribute(init=False)
     """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
 
-    def __init__(self, axis: Any, B: Any) -> None:
+    def __init__(self, axis: RealArrayLike, B: RealArrayLike) -> None:
         """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
         axis, B = vector(axis, "The axis"), vector(B, "B", RATE)
         n, b = exact(*axis), exact(*B)
@@ -263,7 +266,7 @@ class LaboratoryFrame:
         text = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
         return f"{text}  # {self.alignment}, (B2, B3) = {self.field}"
 
-    def to_laboratory(self, v: Any) -> FloatArray:
+    def to_laboratory(self, v: RealArrayLike) -> FloatArray:
         """Laboratory components of vectors in the user's frame, (32).
 
         Parameters
@@ -283,7 +286,7 @@ class LaboratoryFrame:
         """
         return vectors(v, "v") @ self.matrix.T
 
-    def to_user(self, v: Any) -> FloatArray:
+    def to_user(self, v: RealArrayLike) -> FloatArray:
         """User's components of vectors in the laboratory, (32).
 
         Parameters
@@ -303,7 +306,7 @@ class LaboratoryFrame:
         """
         return vectors(v, "v") @ self.matrix
 
-    def rotation_to_user(self, R: Any) -> FloatArray:
+    def rotation_to_user(self, R: RealArrayLike) -> FloatArray:
         """Rotations that act on the user's components as R acts on those of the laboratory.
 
         Parameters

@@ -4,11 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, Literal, Required, TypedDict, Unpack, overload
+from typing import Any, Literal, Required, TypeAlias, TypedDict, Unpack, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.inputs import real
 from atlas.checking.conserved import Drift, Drifts
 from atlas.checking.conventions import conventions_that_fit
@@ -18,8 +19,12 @@ from atlas.checking.reference import OF_TOPS, reference
 from atlas.checking.trajectory import Trajectory, holes_left_out, of_arrays, opened, whole_rows
 from atlas.checking.truth import truth_of
 from atlas.errors import AtlasError
+from atlas.motions.any_body import AnyMotion
+from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.pictures import Curve, Plane, Scene
 from atlas.trial.ledger.plain import html_table, printable, table
+
+CheckedMotion: TypeAlias = AnyMotion | TopMotion
 
 
 @dataclass(frozen=True)
@@ -129,36 +134,36 @@ SINGULAR = {"rotations": "rotation", "quaternions": "quaternion", "angular_veloc
 
 
 class _Options(TypedDict, total=False):
-    motion: Required[Any]
-    quaternion: Any
-    angular_velocity: Any
-    rotations: Any
-    quaternions: Any
-    angular_velocities: Any
+    motion: Required[CheckedMotion]
+    quaternion: RealArrayLike | None
+    angular_velocity: RealArrayLike | None
+    rotations: RealArrayLike | None
+    quaternions: RealArrayLike | None
+    angular_velocities: RealArrayLike | None
     scalar_first: bool
-    step: Any
+    step: RealArrayLike | None
     threshold: float
     nan_policy: Literal["omit", "raise"]
 
 
 @overload
-def check(
-    t: Sequence[NDArray[Any] | Sequence[float]], rotation: Any = None, **how: Unpack[_Options]
+def check(  # type: ignore[overload-overlap]
+    t: Sequence[NDArray[Any] | Sequence[float]], rotation: RealArrayLike | None = None, **how: Unpack[_Options]
 ) -> Convergence: ...
 @overload
-def check(t: Any, rotation: Any = None, **how: Unpack[_Options]) -> Check: ...
+def check(t: RealArrayLike, rotation: RealArrayLike | None = None, **how: Unpack[_Options]) -> Check: ...
 def check(
-    t: Any,
-    rotation: Any = None,
+    t: RealArrayLike,
+    rotation: RealArrayLike | None = None,
     *,
-    motion: Any,
-    quaternion: Any = None,
-    angular_velocity: Any = None,
+    motion: CheckedMotion,
+    quaternion: RealArrayLike | None = None,
+    angular_velocity: RealArrayLike | None = None,
     scalar_first: bool = False,
-    step: Any = None,
+    step: RealArrayLike | None = None,
     threshold: float = 6.0,
     nan_policy: Literal["omit", "raise"] = "omit",
-    **plural: Any,
+    **plural: RealArrayLike | None,
 ) -> Check | Convergence:
     """Errors and correct digits of a trajectory computed elsewhere, against a certified motion.
 
@@ -216,7 +221,7 @@ def check(
             raise AtlasError(f"{singular} and {name} are the same data: give one of them.")
         columns[singular] = values
     if isinstance(t, list | tuple) and t and np.ndim(t[0]):
-        runs = columns | {"step": step}
+        runs: dict[str, Any] = columns | {"step": step}
         for name, values in runs.items():
             if values is not None and (not hasattr(values, "__len__") or len(values) != len(t)):
                 raise AtlasError(f"For {len(t)} runs {name} must be a list of {len(t)}, one for each.")

@@ -3,10 +3,11 @@
 import warnings
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, RealArrayLike
 from atlas.arithmetic.dimensions import RATE, TIME
 from atlas.arithmetic.inputs import FloatArray, positive, real, vector
 from atlas.bodies.clebsch_integrals import Clebsch, body_tensor, clebsch
@@ -15,7 +16,8 @@ from atlas.errors import AtlasError, DomainError
 from atlas.motions.euler_poisson import field_in_body, hat
 
 SMALLEST_RTOL = 100 * float(np.finfo(float).eps)
-METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
+Method: TypeAlias = Literal["DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA"]
+"""Integrators of `scipy.integrate.solve_ivp`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,12 +67,12 @@ class Simulation:
 
 
 def simulate(
-    inertia: Any,
-    field: Any,
-    omega: Any,
-    times: Any,
+    inertia: BodyLike,
+    field: FieldLike,
+    omega: RealArrayLike,
+    times: RealArrayLike,
     *,
-    method: str = "DOP853",
+    method: Method = "DOP853",
     rtol: float = 1e-10,
     atol: float = 1e-12,
 ) -> Simulation:
@@ -117,8 +119,8 @@ def simulate(
 
     moments, B, start, t = body_tensor(inertia), _field(field), vector(omega, "omega", RATE), _times(times)
     tensor = moments / np.abs(moments).max()
-    if method not in METHODS:
-        raise AtlasError(f"The method must be one of {', '.join(METHODS)}, not {method!r}.")
+    if method not in get_args(Method):
+        raise AtlasError(f"The method must be one of {', '.join(get_args(Method))}, not {method!r}.")
     rtol, atol = positive(rtol, "rtol"), positive(atol, "atol")
     if rtol < SMALLEST_RTOL:
         raise DomainError(f"rtol must be at least {SMALLEST_RTOL:.3g}, 100 eps, not {rtol:g}: SciPy goes no lower.")

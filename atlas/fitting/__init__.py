@@ -4,10 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from atlas.arithmetic.annotations import RealArrayLike
+from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.fitting.conventions import lead_to, others
 from atlas.fitting.data import of_arrays, of_file
@@ -19,9 +21,16 @@ from atlas.fitting.problem import Problem, lag
 from atlas.fitting.result import FOLLOWED, Fit
 from atlas.fitting.search import grown, rate_of, tries
 
+if TYPE_CHECKING:
+    import lmfit
+
 __all__ = ["Fit", "fit", "fit_file"]
 
-LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+FittedFamily: TypeAlias = Literal["general", "elementary", "ball", "free", "top", "elliptic", "asymmetric"]
+"""Families of motions that can be fitted."""
+
+Loss: TypeAlias = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
+"""Loss functions of `scipy.optimize.least_squares`."""
 
 SURE = 4.0
 """Standard deviations of chi square, or of a correlation of residuals, within which a motion is the one."""
@@ -40,19 +49,19 @@ GUESS = 0.02
 
 
 def fit(
-    t: Any,
-    family: str = "general",
+    t: RealArrayLike,
+    family: FittedFamily = "general",
     *,
-    sigma: Any = None,
-    rotation: Any = None,
-    quaternion: Any = None,
-    axis: Any = None,
-    angular_velocity: Any = None,
-    field_in_body: Any = None,
-    signal: tuple[Any, Callable[..., Any]] | None = None,
-    params: Any = None,
+    sigma: RealArrayLike | None = None,
+    rotation: RealArrayLike | None = None,
+    quaternion: RealArrayLike | None = None,
+    axis: RealArrayLike | None = None,
+    angular_velocity: RealArrayLike | None = None,
+    field_in_body: RealArrayLike | None = None,
+    signal: tuple[RealArrayLike, Callable[[FloatArray], RealArrayLike]] | None = None,
+    params: "Mapping[str, float | Mapping[str, Any]] | lmfit.Parameters | None" = None,
     fix: Mapping[str, float] | None = None,
-    loss: str = "linear",
+    loss: Loss = "linear",
     epoch: float = 0.0,
     scalar_first: bool = False,
     nan_policy: Literal["omit", "raise"] = "omit",
@@ -143,8 +152,8 @@ def fit(
         "field_in_body": field_in_body, "signal": signal,
     }  # fmt: skip
     data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first, nan_policy=nan_policy)
-    if loss not in LOSSES:
-        raise AtlasError(f"The loss is one of {', '.join(LOSSES)}, not {loss!r}.")
+    if loss not in get_args(Loss):
+        raise AtlasError(f"The loss is one of {', '.join(get_args(Loss))}, not {loss!r}.")
     if loss != "linear" and not data.known:
         data = replace(data, sigma=data.sigma * GUESS * data.spread)
     free, given_values = parameters_of(model, data, params, fix)
@@ -171,7 +180,14 @@ def fit(
     return found
 
 
-def fit_file(file: Path, family: str = "general", *, kind: str | None = None, sigma: Any = None, **options: Any) -> Fit:
+def fit_file(
+    file: Path,
+    family: FittedFamily = "general",
+    *,
+    kind: str | None = None,
+    sigma: RealArrayLike | None = None,
+    **options: Any,
+) -> Fit:
     """Fit what a CSV file holds, see `of_file`; `sigma` goes before that at its head, `options` are those of `fit`."""
     table = of_file(file, kind)
     found = fit(table.t, family, sigma=table.sigma if sigma is None else sigma, **table.data, **options)

@@ -2,10 +2,11 @@
 
 import re
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike, StyleLike
 from atlas.arithmetic.inputs import FloatArray, positive, real
 from atlas.errors import AtlasError
 from atlas.fitting.alternatives import Alternative, equal_solutions, other_minima, warnings_of, wider_families
@@ -15,9 +16,18 @@ from atlas.fitting.parameters import Parameters
 from atlas.fitting.problem import Problem, lag, minimum
 from atlas.fitting.seen import Seen, gauge
 from atlas.lazy import cached_property
+from atlas.motions.any_body import AnyMotion
+from atlas.motions.nutation.kernel_elliptic import EllipticMotion
+from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.pictures import Curve, Layer, Plane, Points, Scene
 from atlas.trial.ledger.plain import html_table, table
 from atlas.viewers import notebook
+
+if TYPE_CHECKING:
+    import lmfit
+    from matplotlib.figure import Figure
+
+FittedMotion: TypeAlias = AnyMotion | TopMotion | EllipticMotion
 
 RENAMED = {"doubts": "warnings", "rivals": "alternatives"}
 """Attributes of a fit by their former names."""
@@ -94,9 +104,9 @@ class Fit:
     covariance: FloatArray
     residuals: FloatArray
     t: FloatArray
-    sigma: Any
+    sigma: FloatOrArray
     redchi: float
-    motion: Any
+    motion: FittedMotion
     undetermined: tuple[str, ...]
     warnings: tuple[str, ...]
     alternatives: tuple[Alternative, ...]
@@ -153,9 +163,10 @@ class Fit:
         return f"<Fit: {self._title}>"
 
     @cached_property
-    def params(self) -> Any:
+    def params(self) -> "lmfit.Parameters":
         """The parameters as `lmfit.Parameters`, with ``stderr`` and ``correl``."""
-        return self.parameters.to_lmfit()
+        parameters: lmfit.Parameters = self.parameters.to_lmfit()
+        return parameters
 
     @property
     def nfree(self) -> int:
@@ -166,7 +177,7 @@ class Fit:
     def _x(self) -> FloatArray:
         return np.array([self.parameters[name].value for name in self.names])
 
-    def predict(self, t: Any, of: str = "") -> Prediction:
+    def predict(self, t: RealArrayLike, of: str = "") -> Prediction:
         """Return what is to be expected at times of any shape, with its standard errors.
 
         `of` is "rotation", "axis", "angular_velocity", "field_in_body" or, where one was fitted, "signal": what was
@@ -280,7 +291,9 @@ class Fit:
     @property
     def noise(self) -> str:
         """The standard error of a measurement, in words."""
-        return f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{self.sigma.min():.3g} to {self.sigma.max():.3g}"
+        return (
+            f"{self.sigma:.3g}" if np.ndim(self.sigma) == 0 else f"{np.min(self.sigma):.3g} to {np.max(self.sigma):.3g}"
+        )
 
     @property
     def known(self) -> bool:
@@ -358,9 +371,10 @@ class Fit:
         values = self.problem.data.of(self.motion, t - self.epoch)
         return values[:, :, 2] if values.ndim == 3 else values
 
-    def plot(self, style: Any = None) -> Any:
+    def plot(self, style: StyleLike = None) -> "Figure":
         """Return the data, the curve, and the residuals in standard errors, as a `matplotlib.figure.Figure`."""
-        return notebook("pictures").to_figure(self.scene(), style)
+        drawn: Figure = notebook("pictures").to_figure(self.scene(), style)
+        return drawn
 
 
 def _warnings(problem: Problem, x: FloatArray, r: FloatArray, redchi: float, free: int) -> list[str]:

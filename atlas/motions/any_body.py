@@ -1,18 +1,23 @@
 """The motion of any body from any start, by the class that fits it, in the axes that were given."""
 
-from typing import Any
+from typing import Any, TypeAlias
 
+from atlas.arithmetic.annotations import AttitudeLike, BodyLike, FieldLike, RealArrayLike
 from atlas.motions.elementary.kernel import ElementaryMotion, FreeMotion
 from atlas.motions.elementary.kernel_ball import BallMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.start import argument, start_of
 from atlas.motions.torus.kernel import AsymmetricMotion
 
+AnyMotion: TypeAlias = AsymmetricMotion | FreeMotion | ElementaryMotion | BallMotion | GeneralMotion
+
 FAMILIES: tuple[Any, ...] = (AsymmetricMotion, FreeMotion, ElementaryMotion, BallMotion, GeneralMotion)
 """Classes in the order in which they are tried; the last one takes any start of a symmetric body."""
 
 
-def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Any:
+def motion(
+    inertia: BodyLike, field: FieldLike, omega: RealArrayLike, attitude: AttitudeLike | None = None
+) -> AnyMotion:
     """Motion of a charged body of any shape from any start, by the class that fits, eqs. (12), (16).
 
     Parameters
@@ -60,4 +65,5 @@ def motion(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Any:
     B, w = argument(field, start.B), argument(omega, start.w)
     arguments = {"inertia": inertia, "field": B, "omega": w, "attitude": attitude}
     own, axes = next(found for family in FAMILIES if (found := family._from_start(start)))  # noqa: SLF001
-    return start.place(own, axes, motion, arguments, "motion")
+    placed: AnyMotion = start.place(own, axes, motion, arguments, "motion")
+    return placed

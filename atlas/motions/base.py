@@ -1,15 +1,17 @@
 """What all motions share: one plan for one motion and for an array of them, which broadcasts with the times."""
 
 import reprlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import prod
 from numbers import Integral
-from typing import Any, Generic, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar
 from weakref import proxy
 
 import numpy as np
+from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import AttitudeLike, BodyLike, FieldLike, NameOrArray, RealArrayLike, StyleLike
 from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.given import element
 from atlas.arithmetic.grid import fill_grid
@@ -20,8 +22,13 @@ from atlas.arithmetic.rotation_rows import DoubleRotationRows, Group
 from atlas.display import Shown, made
 from atlas.errors import AtlasError
 from atlas.lazy import cached_property
+from atlas.motions.actions import Actions, actions
 from atlas.motions.frames import Placement
+from atlas.motions.spectrum import Spectrum, SpectrumOf, Wheels, function_of, spectrum
 from atlas.viewers import notebook
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
 
 OTHERS = {
     "omega2": "atlas.ElementaryMotion(ratio, field, omega2), the paper's family",
@@ -31,6 +38,8 @@ OTHERS = {
 }
 """What takes an argument that a class of motions does not."""
 
+
+Value = TypeVar("Value")
 
 Single = TypeVar("Single")
 """One motion made by itself: it has the functions of time of its class, which take times and an array to fill."""
@@ -94,7 +103,7 @@ class Motion(Shown, Generic[Single]):
         index = tuple(map(int, np.unravel_index(i, self.shape))) if self.shape else ()
         return [element(x, index) for x in self._inputs]
 
-    def _of_each(self, value: Callable[[Single], Any]) -> Any:
+    def _of_each(self, value: Callable[[Single], Value]) -> Value | NDArray[Any]:
         """Return a value of each motion made by itself: plain for one motion, else an array."""
         if not self.shape:
             return value(self._single())
@@ -142,7 +151,7 @@ class Motion(Shown, Generic[Single]):
         """Let it be copied, and sent to another process, as the call that makes it."""
         return super().__reduce__() if self._placement is None else (made, (self._placement.make, dict(self.arguments)))
 
-    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+    def rotation(self, t: RealArrayLike, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrix R(t), eqs. (84), (85), whose columns are the body's axes in the laboratory.
 
         Parameters
@@ -174,7 +183,7 @@ class Motion(Shown, Generic[Single]):
         R, p = self._evaluate(lambda single, t, out: single.rotation(t, out), t, (3, 3), out), self._placement
         return R if p is None else p.started(p.matrices(R), p.attitude, 2, t)
 
-    def column(self, j: int, t: Any) -> FloatArray:
+    def column(self, j: Literal[1, 2, 3], t: RealArrayLike) -> FloatArray:
         """Column R_j(t) of the rotation matrix (84): one axis of the body in the laboratory.
 
         Parameters
@@ -200,7 +209,7 @@ class Motion(Shown, Generic[Single]):
             return self._evaluate(lambda single, t, out: single.column(j, t, out), t, (3,))
         return np.ascontiguousarray(self.rotation(t)[..., j - 1])
 
-    def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
+    def quaternion(self, t: RealArrayLike, *, scalar_first: bool = False) -> FloatArray:
         """Unit quaternion (x, y, z, w) of R(t): the Cayley-Klein parameters of the rotation.
 
         Parameters
@@ -230,7 +239,7 @@ class Motion(Shown, Generic[Single]):
             quaternions = self._placement.quaternions(quaternions, t)
         return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega(t) along the axes of the body.
 
         Parameters
@@ -264,7 +273,7 @@ class Motion(Shown, Generic[Single]):
             np.copyto(m, self._momentum_of(factors, 0.0, name), where=free[..., None])
         return m
 
-    def angular_velocity_in_laboratory(self, t: Any) -> FloatArray:
+    def angular_velocity_in_laboratory(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity R(t) Omega(t) in the laboratory.
 
         Parameters
@@ -286,7 +295,12 @@ class Motion(Shown, Generic[Single]):
 
     @classmethod
     def in_laboratory(
-        cls, body: Any, field: Any, attitude: Any, angular_velocity: Any = None, **parameters: Any
+        cls,
+        body: BodyLike,
+        field: FieldLike,
+        attitude: AttitudeLike,
+        angular_velocity: RealArrayLike | None = None,
+        **parameters: RealArrayLike,
     ) -> Self:
         """Motion of this class from any attitude, in a field of any direction, as `atlas.motion` gives it.
 
@@ -338,7 +352,7 @@ class Motion(Shown, Generic[Single]):
 
         return body_of(inertia)
 
-    def third_axis(self, t: Any) -> FloatArray:
+    def third_axis(self, t: RealArrayLike) -> FloatArray:
         """Third inertia axis R_3(t) in the laboratory, the third column of (84).
 
         Parameters
@@ -358,7 +372,7 @@ class Motion(Shown, Generic[Single]):
         """
         return self.column(3, t)
 
-    def sensitivity(self, t: Any, names: Any, of: str = "rotation") -> FloatArray:
+    def sensitivity(self, t: RealArrayLike, names: str | Sequence[str], of: str = "rotation") -> FloatArray:
         """Derivatives of the motion with respect to its inputs: rotation vectors v with dR/dp = [v]x R.
 
         Parameters
@@ -400,7 +414,7 @@ class Motion(Shown, Generic[Single]):
 
         return derivatives(self, t, names, of)
 
-    def input_error(self, t: Any) -> FloatArray:
+    def input_error(self, t: RealArrayLike) -> FloatArray:
         """Bound, to first order, on the rotation error at t that rounding the inputs to floats causes.
 
         Parameters
@@ -434,7 +448,7 @@ class Motion(Shown, Generic[Single]):
 
         return of_rounding(self, t)
 
-    def spectrum(self, of: str = "rotation", least: float = 1e-6) -> Any:
+    def spectrum(self, of: SpectrumOf = "rotation", least: float = 1e-6) -> Spectrum:
         """Spectral lines of a function of time: the terms amplitude exp(i frequency t) of its Fourier sum.
 
         Parameters
@@ -468,12 +482,10 @@ class Motion(Shown, Generic[Single]):
         >>> lines.names, lines.combinations.tolist()
         (('precession',), [[-1], [0], [1]])
         """
-        from atlas.motions.spectrum import spectrum
-
         return spectrum(self, of, least)
 
     @property
-    def actions(self) -> Any:
+    def actions(self) -> Actions:
         """Action variables of one motion with their rates: d energy = rates d values.
 
         Returns
@@ -502,8 +514,6 @@ class Motion(Shown, Generic[Single]):
         >>> found.names, found.values.round(6)
         (('nutation', 'precession', 'spin'), array([0.038207, 3.711873, 3.3     ]))
         """
-        from atlas.motions.actions import actions
-
         return actions(self)
 
     def _inputs_of(self, i: int) -> Any:
@@ -514,11 +524,13 @@ class Motion(Shown, Generic[Single]):
         """Return moments, coupling, and the potential's linear and quadratic part, of one motion along its axes."""
         return self._inputs_of(0).parts
 
-    def _wheels(self) -> Any:
+    def _wheels(self) -> Wheels:
         """Return one motion as turns and a function of phases, see `atlas.motions.spectrum.Wheels`."""
         raise NotImplementedError
 
-    def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
+    def animate(
+        self, times: RealArrayLike | None = None, *, fps: float = 20.0, style: StyleLike = None
+    ) -> "FuncAnimation":
         """Matplotlib animation of the body, its axis with a trace, and the field.
 
         Parameters
@@ -541,9 +553,12 @@ class Motion(Shown, Generic[Single]):
             For an array of motions, and for times that `rotation` refuses.
         """
         moments = None if times is None else real(times, "The time", TIME).ravel()
-        return notebook("pictures").animate(self, moments, number(fps, "fps"), style)
+        moving: FuncAnimation = notebook("pictures").animate(self, moments, number(fps, "fps"), style)
+        return moving
 
-    def trace(self, periods: float = 1.0, *, stop: float | None = None, tolerance: float = 1e-4) -> Any:
+    def trace(
+        self, periods: float = 1.0, *, stop: float | None = None, tolerance: float = 1e-4
+    ) -> tuple[FloatArray, FloatArray]:
         """Curve of the third axis R_3(t) of one motion on the unit sphere.
 
         Parameters
@@ -567,7 +582,8 @@ class Motion(Shown, Generic[Single]):
         AtlasError
             Without a finite period, for an array of motions, and for times that `rotation` refuses.
         """
-        return notebook("frames").trace(self, periods, stop, tolerance)
+        curve: tuple[FloatArray, FloatArray] = notebook("frames").trace(self, periods, stop, tolerance)
+        return curve
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices R(t), eq. (85), on the uniform grid t = start + i step.
@@ -653,7 +669,7 @@ class DoubleTurn(Motion[Rotation]):
     _kind: str
 
     @property
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Type of the motion: a string, or an array of strings."""
         return np.full(self.shape, self._kind) if self.shape else self._kind
 
@@ -684,10 +700,8 @@ class DoubleTurn(Motion[Rotation]):
         """Fill the matrices of one motion on a grid."""
         fill_grid(single, start, step, out)
 
-    def _wheels(self) -> Any:
+    def _wheels(self) -> Wheels:
         """Return one motion as two turns."""
-        from atlas.motions.spectrum import Wheels, function_of
-
         single, (L, C), e3 = self._single(), self._sides, np.array([0.0, 0.0, 1.0])
         n = np.array([nearest(x) for x in single.axis])
         k, phi = (nearest(x) for x in single.frequencies)

@@ -9,7 +9,7 @@ phases; the trapezoidal rule has them to rounding, since its error falls as a po
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,8 @@ from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.inputs import FloatArray, number, real
 from atlas.errors import AtlasError, DomainError
 
-OF = ("rotation", "axis", "angular_velocity", "field")
-"""What may be asked for."""
+SpectrumOf: TypeAlias = Literal["rotation", "axis", "angular_velocity", "field"]
+"""Functions of time that have a spectrum."""
 
 MIN_AMPLITUDE = 1e-13
 """Least amplitude that rounding does not hide."""
@@ -107,8 +107,8 @@ class Wheels(NamedTuple):
 
 def spectrum(motion: Any, of: str, least: float) -> Spectrum:
     """Return the lines of a motion, see `Motion.spectrum`."""
-    if of not in OF:
-        raise AtlasError(f"A motion has no spectrum of {of!r}: choose from {', '.join(OF)}.")
+    if of not in get_args(SpectrumOf):
+        raise AtlasError(f"A motion has no spectrum of {of!r}: choose from {', '.join(get_args(SpectrumOf))}.")
     if motion.shape:
         raise AtlasError(f"A spectrum is that of one motion, not of an array of them, of shape {motion.shape}.")
     least = number(least, "least")

@@ -38,7 +38,7 @@ def scene_of(flight: Flight, turns: float = 3.5, stop: float | None = None, unit
         rf"a body in $\mathbf{{B}}={tex_vector(particle.B.tolist())}$, $\mathbf{{E}}={tex_vector(E)}$",
         f"a body in the electric field {plain_vector(E)}",
     )
-    rate = turns_of(flight.motion, particle.period) if particle.cyclotron_frequency else 0.0
+    rate = turns_of(flight.motion, float(particle.period)) if particle.cyclotron_frequency else 0.0
     return replace(picture(flight, point, setting, rate, turns, stop, unit), title="Flight")
 
 
@@ -56,10 +56,12 @@ def picture(
     `rate` is how often at most the body turns in a unit of time.
     """
     particle = flight.particle
-    if not particle.cyclotron_frequency:
+    cyclotron_frequency = float(particle.cyclotron_frequency)
+    if not cyclotron_frequency:
         raise DomainError("Without a magnetic field and a charge nothing turns the path of this flight: no picture.")
-    stop = positive(turns, "turns") * particle.period if stop is None else positive(stop, "stop")
-    spun = rate * stop + stop / particle.period
+    period = float(particle.period)
+    stop = positive(turns, "turns") * period if stop is None else positive(stop, "stop")
+    spun = rate * stop + stop / period
     if not spun < MAX_TURNS:
         raise DomainError(
             f"In this flight the body makes {spun:.3g} turns, and more than {MAX_TURNS} cannot be drawn: give a stop "
@@ -72,7 +74,7 @@ def picture(
         caption=(
             rf"A point $\mathbf{{x}}_N={tex_vector(point)}$ of a body winds round the path of its centre of mass: "
             rf"{setting[0]}; that circles with "
-            rf"$2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. "
+            rf"$2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(cyclotron_frequency))}$. (a) In space. "
             r"(b) Seen along $\mathbf{B}$. Thin lines join centre and point at equal steps of time."
         ),
         alt=(

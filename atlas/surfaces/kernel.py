@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import BLOCK, over
 from atlas.arithmetic.inputs import FloatArray, common_shape, components, kept, plain, vectors
@@ -61,7 +62,7 @@ class Quadric(Shown):
 
     family = "quadric"
 
-    def __init__(self, ratio: Any, field: Any) -> None:
+    def __init__(self, ratio: BodyLike, field: FieldLike) -> None:
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         I2, I3 = moments(ratio)
         self._inputs = (I2, I3, plain(B2), plain(B3))
@@ -71,7 +72,12 @@ class Quadric(Shown):
 
     @classmethod
     def of_top(
-        cls, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0
+        cls,
+        inertia: BodyLike,
+        coupling: RealArrayLike,
+        direction: RealArrayLike,
+        linear: RealArrayLike = 0.0,
+        quadratic: RealArrayLike = 0.0,
     ) -> "TopQuadric":
         """Quadric of starts with nu'' = 0 of a symmetric top, theorem-top-quadric.
 
@@ -99,7 +105,7 @@ class Quadric(Shown):
         return TopQuadric(inertia, coupling, direction, linear, quadratic)
 
     @kept
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Type of the surface, decided exactly on I2, I3, B2, B3: a string, or an array of strings.
 
         Notes
@@ -112,7 +118,7 @@ class Quadric(Shown):
         return names if names.ndim else str(names)
 
     @kept
-    def beta(self) -> Any:
+    def beta(self) -> FloatOrArray:
         """Angle beta from e2 to I^-1 B', tan(beta) = B3/(I B2), (53), in (-pi, pi] rad.
 
         Raises
@@ -123,10 +129,11 @@ class Quadric(Shown):
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
         slope = over(quadric.tangent, I2, I3, np.where(vertical, B3, B2), B3, unit=slice(2, None), degree=0)
-        return plain(np.arctan2(np.copysign(slope, B3), np.where(vertical, 0.0, np.copysign(1.0, B2))))
+        values: FloatOrArray = plain(np.arctan2(np.copysign(slope, B3), np.where(vertical, 0.0, np.copysign(1.0, B2))))
+        return values
 
     @kept
-    def a2(self) -> Any:
+    def a2(self) -> FloatOrArray:
         """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54).
 
         Raises
@@ -139,7 +146,7 @@ class Quadric(Shown):
         return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
-    def a3(self) -> Any:
+    def a3(self) -> FloatOrArray:
         """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54).
 
         Raises
@@ -152,7 +159,7 @@ class Quadric(Shown):
         return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @kept
-    def semi_axes(self) -> Any:
+    def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3 = sqrt(|1-I| B2^2 (1, |a2|, |a3|)), (55), (57), in 1/time; shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
         along = np.asarray(B2) == 0
@@ -190,7 +197,7 @@ class Quadric(Shown):
             row[:, 4], row[:, 5], row[:, 7], row[:, 8] = c, s, 0.0 - s, c
         return axes
 
-    def canonical(self, omega: Any) -> FloatArray:
+    def canonical(self, omega: RealArrayLike) -> FloatArray:
         """Canonical coordinates omega'_1, omega'_2, omega'_3 of points, eq. (53).
 
         Parameters
@@ -218,7 +225,7 @@ class Quadric(Shown):
         with np.errstate(over="ignore"):
             return np.asarray(np.ldexp(turned, -power))
 
-    def residual(self, omega: Any) -> Any:
+    def residual(self, omega: RealArrayLike) -> FloatOrArray:
         """Residual of eq. (50) at points, zero on the surface only.
 
         Parameters
@@ -274,7 +281,14 @@ class TopQuadric(Quadric):
     family = ""
     made_by = "Quadric.of_top"
 
-    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> None:
+    def __init__(
+        self,
+        inertia: BodyLike,
+        coupling: RealArrayLike,
+        direction: RealArrayLike,
+        linear: RealArrayLike,
+        quadratic: RealArrayLike,
+    ) -> None:
         self._top = inputs_of_top(inertia, coupling, direction, linear, quadratic)
         self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
         self.shape = common_shape(*map(np.shape, self._top))
@@ -282,7 +296,7 @@ class TopQuadric(Quadric):
         self.arguments = arguments_of(self._top)
 
     @kept
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Kind of the surface, the sign of D: decided exactly on the inputs as given.
 
         One of "two-sheet hyperboloid" (D > 0), "cone" (D = 0), "one-sheet hyperboloid" (D < 0); for n3 = 0 "plane pair"
@@ -293,13 +307,14 @@ class TopQuadric(Quadric):
         return names if names.ndim else str(names)
 
     @kept
-    def D(self) -> Any:
+    def D(self) -> FloatOrArray:
         """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once."""
         self._needs_finite()
-        return self._over(top.D, lambda exact: exact.D)
+        values: FloatOrArray = self._over(top.D, lambda exact: exact.D)
+        return values
 
     @kept
-    def semi_axes(self) -> Any:
+    def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         self._needs_finite()
         found = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), along=True)
@@ -312,13 +327,14 @@ class TopQuadric(Quadric):
         second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))
         return np.stack(np.broadcast_arrays(0.0, second, third), -1)
 
-    def residual(self, omega: Any) -> Any:
+    def residual(self, omega: RealArrayLike) -> FloatOrArray:
         """Left-hand side at points `omega` (..., 3), rounded once: -nu'' at the start, in 1/time^2.
 
         Zero on the surface only. Raises AtlasError for what are no vectors.
         """
         points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
-        return self._over(top.residual, lambda exact, *w: exact.residual(w), *points)
+        values: FloatOrArray = self._over(top.residual, lambda exact, *w: exact.residual(w), *points)
+        return values
 
     def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:
         """Return what a formula gives in two words, and where these leave a doubt, its exact value, rounded once."""

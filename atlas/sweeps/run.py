@@ -5,14 +5,14 @@ import json
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Future, wait
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, wait
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import replace
 from functools import cache
 from math import inf
 from pathlib import Path
 from time import perf_counter, process_time
-from typing import Any, TypeAlias, TypedDict, Unpack, cast, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast, overload
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from atlas.sweeps.families import FAMILIES
 from atlas.sweeps.plan import Columns, Plan
 from atlas.sweeps.store import Span, Table, span_of
 from atlas.sweeps.tables import PARTS, write
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 PART_SECONDS, MAX_PART_ROWS = 2.0, 2**18
 """How long a part should take, and the most rows that it has, which a worker keeps in memory."""
@@ -48,7 +51,7 @@ class _Options(TypedDict, total=False):
     listed: bool
     digits: int | None
     rows: int | None
-    executor: Any
+    executor: "Executor | Client | None"
     jobs: int | None
     progress: Progress | None
     time: str
@@ -75,7 +78,7 @@ def sweep(
     listed: bool = False,
     digits: int | None = None,
     rows: int | None = None,
-    executor: Any = None,
+    executor: "Executor | Client | None" = None,
     jobs: int | None = None,
     progress: Progress | None = None,
     time: str = TIME,

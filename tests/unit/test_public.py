@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -42,27 +43,7 @@ def test_public_functions_take_what_they_took(snapshot: SnapshotAssertion) -> No
 
 
 ROOT = folder("figures").parent
-RIGHT = """
-import atlas
-
-motion = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7)
-reveal_type(motion)
-reveal_type(motion.rotation(1.0))
-reveal_type(atlas.GeneralMotion)
-"""
-WRONG = """
-import atlas
-
-atlas.GeneralMotionn(3)
-atlas.ElementaryMotion(1.5, (1.0, 2.0), omega_2=0.7)
-"""
-
-SEQUENCES = """
-import atlas
-
-atlas.Field((0.0, 0.1, 0.2), [0, 0, 1]).B.sum()
-atlas.LaboratoryFrame((0, 0, 1.0), (0.0, 0.1, 0.2)).axis.sum()
-"""
+CALLS = ROOT / "tests" / "typed_calls.py"
 RUNS = """
 import atlas
 import numpy as np
@@ -77,8 +58,13 @@ reveal_type(atlas.sweep("free", {}, ["kind"], "free.csv"))
 
 
 def checked(path: Path, text: str) -> str:
-    """Return what mypy says of a file, with the cache of `make lint`."""
+    """Return what mypy says of a file with this text."""
     path.write_text(text, encoding="utf-8")
+    return said_of(path)
+
+
+def said_of(path: Path) -> str:
+    """Return what mypy says of a file, with the cache of `make lint`."""
     command = [sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--follow-imports", "silent", str(path)]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout
 
@@ -91,26 +77,22 @@ def test_each_public_name_has_the_type_of_its_home() -> None:
 
 
 @pytest.mark.slow
-def test_a_type_checker_sees_classes_and_arrays(tmp_path: Path) -> None:
-    """A motion is one of its class, and its matrices are arrays of floats."""
-    said = checked(tmp_path / "mine.py", RIGHT)
-    assert '"atlas.motions.elementary.kernel.ElementaryMotion"' in said
-    assert "float64" in said
-    assert "Any" not in said.splitlines()[0]
+def test_a_type_checker_takes_right_calls_and_refuses_each_wrong_one() -> None:
+    """Every statement of `wrong` is an error, and no statement of `right` is."""
+    text = CALLS.read_text("utf-8")
+    wrong = next(one for one in ast.parse(text).body if isinstance(one, ast.FunctionDef) and one.name == "wrong")
+    refused = {int(line) for line in re.findall(r"^[^:]+:(\d+): error:", said_of(CALLS), re.MULTILINE)}
+    assert refused == {statement.lineno for statement in wrong.body[1:]}
 
 
-@pytest.mark.slow
-def test_a_type_checker_refuses_what_is_not_there(tmp_path: Path) -> None:
-    """A misspelt class and a misspelt argument are errors."""
-    said = checked(tmp_path / "mine.py", WRONG)
-    assert "GeneralMotionn" in said
-    assert "omega_2" in said
-
-
-@pytest.mark.slow
-def test_a_type_checker_takes_what_is_taken(tmp_path: Path) -> None:
-    """A sequence is a vector, and what it became is an array."""
-    assert "error" not in checked(tmp_path / "mine.py", SEQUENCES)
+def test_no_public_parameter_or_result_is_of_any_type() -> None:
+    """What a user passes and gets has a type, so that an editor knows it."""
+    assert [
+        f"{name}: {key}"
+        for name, call in public()
+        for key, kind in (call.__init__ if inspect.isclass(call) else call).__annotations__.items()
+        if kind is Any
+    ] == []
 
 
 @pytest.mark.slow

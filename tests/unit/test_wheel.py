@@ -60,6 +60,13 @@ def told(done: subprocess.CompletedProcess[str]) -> list[str]:
     return [line for line in done.stderr.splitlines() if not re.search(r": \d+ of \d+ \(\d+ %\) after \d", line)]
 
 
+def test_the_types_are_in_the_wheel(program: Path) -> None:
+    """A type checker reads them only of a package that says so."""
+    place = program.parents[1] / "site" / "atlas"
+    assert (place / "py.typed").exists()
+    assert (place / "__init__.pyi").exists()
+
+
 def test_modules_of_the_users_own_break_nothing(run: Run, tmp_path: Path) -> None:
     """A folder may hold a signal.py and a struct.py: neither the workers nor the probe for GL load them."""
     for name in ("signal", "struct", "multiprocessing", "numpy", "vtkmodules"):

@@ -1,6 +1,7 @@
 """Bodies that could exist: their charge, frequencies and radiation, and what it does that the field magnetises them."""
 
 from math import atan2, hypot, inf, isfinite, pi, sqrt
+from typing import TYPE_CHECKING, cast
 
 from atlas.bodies.body import SymmetricBody, from_shape
 from atlas.bodies.charge import ChargeMoments
@@ -19,6 +20,9 @@ from atlas.book.schema import StrictStruct
 from atlas.book.tables.table import RATE, Data, Request, heads
 from atlas.errors import AtlasError
 from atlas.motions.elementary.kernel_hyperbola import Hyperbola
+
+if TYPE_CHECKING:
+    from atlas.arithmetic.annotations import ShapeName
 
 RATIO, TILT = 1.5, 2.0
 """I3/I2 of the body and B3/B2 of the field, those of the short solenoid in the oblique field."""
@@ -207,10 +211,13 @@ def coats(asked: CoatParameters) -> Data:
     rows: list[tuple[str | Number, ...]] = []
     for coat in asked.coats:
         body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
-        charges = ChargeMoments.shape(coat.charge, 1.0, **(coat.charge_dimensions or coat.dimensions))
-        across, along = charges.J2 / body.I2, charges.J3 / body.I3
-        A = (along * charges.J3 - across * charges.J2) / body.I2
-        values = (body.I3 / body.I2, across, along, across - along, A)
+        charges = ChargeMoments.shape(
+            cast("ShapeName", coat.charge), 1.0, **(coat.charge_dimensions or coat.dimensions)
+        )
+        I2, I3 = float(body.I2), float(body.I3)
+        across, along = charges.J2 / I2, charges.J3 / I3
+        A = (along * charges.J3 - across * charges.J2) / I2
+        values = (I3 / I2, across, along, across - along, A)
         rows.append((coat.name, *(Number(f"{value + 0.0:.3f}") for value in values)))
     return Data(
         heads("Body", "$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$"),
@@ -229,7 +236,7 @@ def swings(request: Request, asked: DiamagnetismParameters) -> Data:
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
         title, body, own = magnetised(case, asked)
-        I2, I3, (B2, B3) = body.I2, body.I3, case.components
+        I2, I3, (B2, B3) = float(body.I2), float(body.I3), case.components
         b = hypot(B2, B3)
         periods, rates = [], []
         for quadratic in (0.0, 2 * own):

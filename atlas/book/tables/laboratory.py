@@ -60,7 +60,7 @@ def levitated(asked: Dipole) -> Data:
         motion = asked.motion(spin)
         I = motion.inertia[0]
         small, slow = sqrt(asked.energy / I) / (2 * pi), -asked.energy / (I * 4 * pi**2 * spin) if spin else 0.0
-        frequencies = 1 / motion.period, _precession(motion) / (2 * pi)
+        frequencies = 1 / float(motion.period), _precession(motion) / (2 * pi)
         rows.append((Number(f"{spin:g}"), *map(_three, (frequencies[0], small, frequencies[1], slow))))
     return Data(
         heads(
@@ -203,17 +203,18 @@ def beyond_larmor(asked: Design) -> Data:
         b = mu * asked.magnet / 2
         magnetic = -anisotropy(asked.susceptibility, volume, along) * asked.magnet**2
         n = np.sin(asked.inclination), np.cos(asked.inclination)
+        I2, I3 = float(body.I2), float(body.I3)
         own, induced, both = (
-            TopMotion(
-                (body.I2, body.I3), (larmor * body.I2, larmor * body.I3), n,
+            float(TopMotion(
+                (I2, I3), (larmor * I2, larmor * I3), n,
                 (0.0, -larmor * n[0], asked.spin * b - larmor * n[1]), 0.0, quadratic,
-            ).precession_rate + larmor
+            ).precession_rate) + larmor
             for larmor, quadratic in ((b, 0.0), (0.0, magnetic), (b, magnetic))
         )  # fmt: skip
-        potential = (body.I3 - body.I2) * b * b
+        potential = (I3 - I2) * b * b
         offset = abs(potential) / 2 / (mass * GRAVITY)
         speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
-        drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * r**4 / body.I3
+        drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * r**4 / I3
         pressure = abs(both - induced) / (2 * pi) / drag
         rates = [Number(f"{rate / (2 * pi):.7g}") if magnetic else _three(rate / (2 * pi)) for rate in (induced, both)]
         first, last = (r, b / (2 * pi), own / (2 * pi)), ((both - induced) / (2 * pi), magnetic / potential)

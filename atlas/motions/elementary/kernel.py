@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE, TIME
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.given import broadcast, exact_number, low_word, part
@@ -103,7 +104,9 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     family = "elementary"
     _frequencies = slice(2, None)
 
-    def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
+    def __init__(
+        self, ratio: BodyLike, field: FieldLike, omega2: RealArrayLike, omega3: RealArrayLike | None = None
+    ) -> None:
         if isinstance(omega2, tuple | list) and len(omega2) == 3 and not any(np.ndim(x) for x in omega2):
             raise AtlasError(
                 f"omega2 is one number, or an array of them, but {tuple(omega2)} reads as a vector: "
@@ -133,47 +136,48 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             self._single(i)
 
     @kept
-    def case(self) -> Any:
+    def case(self) -> NameOrArray:
         """Name of the formula that applies, see the Notes of the class: a string, or an array of strings."""
         return np.array(CASES)[self._codes] if self.shape else self._single().case
 
     @property
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Type of the motion, equal to `case`: a string, or an array of strings."""
         return self.case
 
     @kept
-    def omega2(self) -> Any:
+    def omega2(self) -> FloatOrArray:
         """Second component of the initial angular velocity, as given, in rad/time."""
-        return plain(np.broadcast_to(self._inputs[4], self.shape))
+        values: FloatOrArray = plain(np.broadcast_to(self._inputs[4], self.shape))
+        return values
 
     @kept
-    def omega3(self) -> Any:
+    def omega3(self) -> FloatOrArray:
         """Third component of the angular velocity, constant by (71) or as given where free, in rad/time."""
         return self._scalars[0]
 
     @kept
-    def k(self) -> Any:
+    def k(self) -> FloatOrArray:
         """Frequency of precession about the field, k = omega2/B2hat by (79), in rad/time."""
         return self._scalars[1]
 
     @kept
-    def phi(self) -> Any:
+    def phi(self) -> FloatOrArray:
         """Frequency of proper rotation phi by (72), in rad/time."""
         return self._scalars[2]
 
     @property
-    def precession_rate(self) -> Any:
+    def precession_rate(self) -> FloatOrArray:
         """Rate of precession about the field, for a free body about m: equal to `k`, in rad/time."""
         return self.k
 
     @property
-    def spin_rate(self) -> Any:
+    def spin_rate(self) -> FloatOrArray:
         """Rate of rotation of the body about its own axis: equal to `phi`, in rad/time."""
         return self.phi
 
     @property
-    def period(self) -> Any:
+    def period(self) -> FloatOrArray:
         """Time 2 pi/|k| of one precession, after which the axis returns; inf for k = 0.
 
         Raises
@@ -189,7 +193,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         return turn_time(self.k)
 
     @cached_property
-    def _scalars(self) -> Any:
+    def _scalars(self) -> tuple[FloatOrArray, ...] | FloatArray:
         """Values of omega3, k, phi, and of I omega3, the third component of the momentum."""
         if not self.shape:
             k, phi = self._single().frequencies
@@ -269,7 +273,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         omega3, _, _, third = self._scalars
         return {"Omega": (0.0, self.omega2, omega3), "K": (0.0, *self.field), "m": (0.0, self.omega2, third)}
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, eq. (73).
 
         Parameters
@@ -289,7 +293,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """
         return super().angular_velocity(t)
 
-    def field_in_body(self, t: Any) -> FloatArray:
+    def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, eqs. (32), (60), (62).
 
         Parameters
@@ -309,7 +313,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """
         return self._in_body(self._evaluate(lambda single, t, out: single.swung(single.vector("K"), t, out), t, (3,)))
 
-    def angular_momentum(self, t: Any) -> FloatArray:
+    def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88).
 
         Parameters
@@ -331,7 +335,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             return self._momentum_of(lambda Omega: Omega, t)
         return self._evaluate(lambda single, t, out: single.turned(single.vector("m"), t, out), t, (3,))
 
-    def invariants(self, t: Any = None) -> dict[str, Any]:
+    def invariants(self, t: RealArrayLike | None = None) -> dict[str, FloatOrArray]:
         """Constants of the motion E', K^2, c3, c5, eqs. (36)-(41), and (m, B')/I2, eq. (88).
 
         Parameters
@@ -426,7 +430,7 @@ class FreeMotion(DoubleTurn[Free]):
     family, _kind = "free", "free body"
     _frequencies = slice(2, None)
 
-    def __init__(self, ratio: Any, omega: Any) -> None:
+    def __init__(self, ratio: BodyLike, omega: RealArrayLike) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         I2, I3 = moments(ratio)
         super().__init__(Free, I2, I3, *omega)
@@ -434,27 +438,27 @@ class FreeMotion(DoubleTurn[Free]):
         self.arguments = {"ratio": self.ratio, "omega": tuple(map(as_given, omega))}
 
     @kept
-    def k(self) -> Any:
+    def k(self) -> FloatOrArray:
         """Frequency of precession about m, k = |m|/I2, above (87), in rad/time."""
         return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @kept
-    def phi(self) -> Any:
+    def phi(self) -> FloatOrArray:
         """Frequency of proper rotation phi = (1 - I) omega3, (87), in rad/time."""
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._frequencies)
 
     @property
-    def precession_rate(self) -> Any:
+    def precession_rate(self) -> FloatOrArray:
         """Rate of precession about m: equal to `k`, in rad/time."""
         return self.k
 
     @property
-    def spin_rate(self) -> Any:
+    def spin_rate(self) -> FloatOrArray:
         """Rate of rotation of the body about its own axis: equal to `phi`, in rad/time."""
         return self.phi
 
     @property
-    def period(self) -> Any:
+    def period(self) -> FloatOrArray:
         """Period 2 pi/|phi| of Omega, as of a free body of three moments; inf for constant Omega.
 
         Raises
@@ -469,13 +473,13 @@ class FreeMotion(DoubleTurn[Free]):
         return turn_time(self.phi)
 
     @kept
-    def mode(self) -> Any:
+    def mode(self) -> NameOrArray:
         """Axis that the momentum circles: "long axis" (I3 < I2), "short axis" (I3 > I2), "ball" or "at rest"."""
         I2, I3, *omega = np.broadcast_arrays(*self._inputs)
         names = np.select([~np.any(omega, axis=0), I3 == I2, I3 < I2], ["at rest", "ball", "long axis"], "short axis")
         return names if self.shape else str(names)
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega(t) in the body, which rotates about the third axis with frequency phi.
 
         Parameters
@@ -495,7 +499,7 @@ class FreeMotion(DoubleTurn[Free]):
         """
         return super().angular_velocity(t)
 
-    def field_in_body(self, t: Any) -> FloatArray:
+    def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = 0 in the body: a free body has no field.
 
         Parameters

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import INERTIA, MOMENTUM, RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.given import exact_number
@@ -75,7 +76,7 @@ class BallMotion(DoubleTurn[Ball]):
     _frequencies = slice(1, None)
     _inverse = True
 
-    def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
+    def __init__(self, inertia: RealArrayLike, larmor: RealArrayLike, momentum: RealArrayLike) -> None:
         m2, m3 = components(momentum, ("m2", "m3"), "The momentum", MOMENTUM)
         inertia = numbers(inertia, "The inertia", INERTIA)
         check_ball(np.asarray(inertia))
@@ -86,29 +87,31 @@ class BallMotion(DoubleTurn[Ball]):
         self.arguments = {"inertia": as_given(inertia), "larmor": as_given(larmor), "momentum": momentum}
 
     @kept
-    def gamma(self) -> Any:
+    def gamma(self) -> FloatOrArray:
         """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the rotation about k_hat, (29), in rad/time."""
         return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @property
-    def precession_rate(self) -> Any:
+    def precession_rate(self) -> FloatOrArray:
         """Rate -alpha of the rotation about the field, (28), in rad/time."""
-        return plain(-np.asarray(self.larmor))
+        values: FloatOrArray = plain(-np.asarray(self.larmor))
+        return values
 
     @property
-    def spin_rate(self) -> Any:
+    def spin_rate(self) -> FloatOrArray:
         """Rate -gamma of the rotation about the axis k_hat in the body, (28), in rad/time."""
-        return plain(-np.asarray(self.gamma))
+        values: FloatOrArray = plain(-np.asarray(self.gamma))
+        return values
 
     @kept
-    def k_hat(self) -> tuple[Any, Any]:
+    def k_hat(self) -> tuple[FloatOrArray, FloatOrArray]:
         """Components (k2, k3) of the unit axis (29); (0, -1) for gamma = 0, where (29) is 0/0."""
         k2, k3 = over(
             lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._frequencies, degree=(0, 0)
         )
         return k2, plain(np.where(self.gamma == 0, -1.0, k3))
 
-    def angular_momentum(self, t: Any) -> FloatArray:
+    def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, eq. (26).
 
         Parameters
@@ -130,7 +133,7 @@ class BallMotion(DoubleTurn[Ball]):
             return self._momentum_of(lambda Omega: Omega, t)
         return self._evaluate(lambda single, t, out: single.swung(single.vector("m"), t, out), t, (3,))
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega = R^T m/I0 = R_k(gamma t) m(0)/I0 in the body, below eq. (25).
 
         Parameters
@@ -150,7 +153,7 @@ class BallMotion(DoubleTurn[Ball]):
         """
         return super().angular_velocity(t)
 
-    def field_in_body(self, t: Any) -> FloatArray:
+    def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = R^T B' in the body with B' = (0, 0, alpha), eq. (32).
 
         Parameters

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, components, plain, positive, real, whole
@@ -71,7 +72,7 @@ class Hyperbola(Shown):
 
     family = "hyperbola"
 
-    def __init__(self, ratio: Any, field: Any) -> None:
+    def __init__(self, ratio: BodyLike, field: FieldLike) -> None:
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
@@ -80,7 +81,12 @@ class Hyperbola(Shown):
 
     @classmethod
     def of_top(
-        cls, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
+        cls,
+        inertia: BodyLike,
+        coupling: RealArrayLike,
+        direction: RealArrayLike,
+        linear: float = 0.0,
+        quadratic: float = 0.0,
     ) -> "TopHyperbola":
         """Hyperbola of the steady precessions of one symmetric top (not in the paper).
 
@@ -119,9 +125,10 @@ class Hyperbola(Shown):
         return exact(self.I2, self.I3, self.B2, self.B3)
 
     @property
-    def pole(self) -> Any:
+    def pole(self) -> FloatOrArray:
         """Pole omega2 = -B2, excluded from (71), in rad/time."""
-        return 0.0 - self.B2
+        pole: FloatOrArray = 0.0 - self.B2
+        return pole
 
     @property
     def asymptotes(self) -> tuple[FloatArray, FloatArray]:
@@ -150,7 +157,7 @@ class Hyperbola(Shown):
             "omega2 = -(2-I) B2": (nearest(zero), 0.0),
         }
 
-    def omega3(self, omega2: Any) -> Any:
+    def omega3(self, omega2: RealArrayLike) -> FloatOrArray:
         """Ordinate omega3 of the curve at omega2, eq. (71).
 
         Parameters
@@ -170,9 +177,10 @@ class Hyperbola(Shown):
         AtlasError
             For an input that is no number.
         """
-        return self._over(ordinate, omega2)
+        values: FloatOrArray = self._over(ordinate, omega2)
+        return values
 
-    def frequencies(self, omega2: Any) -> tuple[Any, Any]:
+    def frequencies(self, omega2: RealArrayLike) -> tuple[FloatOrArray, FloatOrArray]:
         """Frequencies k = omega2/B2hat, eq. (79), and phi, eq. (72), at omega2.
 
         Parameters
@@ -217,7 +225,7 @@ class Hyperbola(Shown):
         """
         return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
 
-    def stability(self, omega2: Any) -> Any:
+    def stability(self, omega2: RealArrayLike) -> FloatOrArray:
         """Squared frequency of nutation -p'(omega3), with the cubic p of (47), theorem-stability (not in the paper).
 
         Parameters
@@ -243,9 +251,10 @@ class Hyperbola(Shown):
         an end of the unstable band, the motion is unstable, theorem-band-ends, unless B3 = 0,
         theorem-equatorial-stability.
         """
-        return self._over(stability, omega2, degree=2)
+        values: FloatOrArray = self._over(stability, omega2, degree=2)
+        return values
 
-    def growth_rate(self, omega2: Any) -> Any:
+    def growth_rate(self, omega2: RealArrayLike) -> FloatOrArray:
         """Growth rate of a small departure from the motion at omega2: sqrt(-`stability`), or 0 where positive.
 
         Parameters
@@ -265,7 +274,8 @@ class Hyperbola(Shown):
         AtlasError
             For an input that is no number.
         """
-        return plain(np.sqrt(np.maximum(-np.asarray(self.stability(omega2)), 0.0)))
+        values: FloatOrArray = plain(np.sqrt(np.maximum(-np.asarray(self.stability(omega2)), 0.0)))
+        return values
 
     def escape(self, omega2: float, omega1: float) -> "GeneralMotion":
         """General motion that starts next to the curve, at (omega1, omega2, omega3 by (71)).
@@ -295,7 +305,7 @@ class Hyperbola(Shown):
         return GeneralMotion(self._ratio, (self.B2, self.B3), (omega1, omega2, self.omega3(omega2)))
 
     @property
-    def least_stability(self) -> Any:
+    def least_stability(self) -> FloatOrArray:
         """Infimum of `stability` on the curve, in 1/time^2, rounded once (not in the paper).
 
         Raises
@@ -331,7 +341,7 @@ class Hyperbola(Shown):
             sum_ = 1 - 2 * tau2 + root(disc / (B2 * B2))
             return nearest(2 * one_less * tau2 / sum_), nearest(one_less * sum_ / (2 + 2 * tau2))
 
-    def sample(self, points: Any = 200, *, reach: float = 4.0) -> Branch:
+    def sample(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> Branch:
         """Points (omega2, omega3) of all branches of (67), one branch after the other; see `branches`.
 
         Parameters
@@ -354,7 +364,7 @@ class Hyperbola(Shown):
         first, second = zip(*self.branches(points, reach=reach), strict=True)
         return np.concatenate(first), np.concatenate(second)
 
-    def branches(self, points: Any = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
+    def branches(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
         """Branches of (67) sampled by the hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s; X > 0 first.
 
         Parameters

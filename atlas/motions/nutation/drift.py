@@ -19,10 +19,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.inputs import FloatArray, number, real
 from atlas.bodies.body import moments
 from atlas.errors import AtlasError, DomainError
+from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.nutation.kernel_top import TopMotion
 
 FIRST_NODES, MAX_NODES = 16, 4096
@@ -77,7 +79,13 @@ class Drift:
 
 
 def drift(
-    motion: Any, t: Any, *, field: float = 0.0, drag: Any = 0.0, linear: float = 0.0, quadratic: float = 0.0
+    motion: GeneralMotion | TopMotion,
+    t: RealArrayLike,
+    *,
+    field: float = 0.0,
+    drag: RealArrayLike = 0.0,
+    linear: float = 0.0,
+    quadratic: float = 0.0,
 ) -> Drift:
     """Slow change of a symmetric body's motion, averaged over the fast phases: an approximation.
 

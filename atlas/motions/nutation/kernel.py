@@ -6,7 +6,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 from flint import arb
+from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.inputs import FloatArray, finite, kept, plain
 from atlas.arithmetic.numbers import nearest
@@ -22,6 +24,7 @@ from atlas.motions.spectrum import Wheels
 NAME = "U28"
 """Names of kinds, none of which is longer."""
 
+Value = TypeVar("Value")
 Nutation = TypeVar("Nutation", bound=SingleMotion)
 
 
@@ -53,12 +56,12 @@ class NutatingMotion(Motion[Nutation]):
         return Rows(self._blocks, self._motions_of)
 
     @kept
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Type of the motion, see the Notes of the class: a string, or an array of strings."""
         return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
 
     @kept
-    def period(self) -> Any:
+    def period(self) -> FloatOrArray:
         """Period T of nutation; inf on a separatrix.
 
         Raises
@@ -73,7 +76,7 @@ class NutatingMotion(Motion[Nutation]):
         return self._scalar("period")
 
     @kept
-    def precession_per_period(self) -> Any:
+    def precession_per_period(self) -> FloatOrArray:
         """Angle of precession about the field in one period, in rad.
 
         Raises
@@ -89,7 +92,7 @@ class NutatingMotion(Motion[Nutation]):
         return self._scalar("precession_per_period")
 
     @kept
-    def spin_per_period(self) -> Any:
+    def spin_per_period(self) -> FloatOrArray:
         """Angle of rotation about the body's own axis in one period, in rad: the integral of Omega3 - nu dpsi/dt.
 
         Raises
@@ -100,17 +103,17 @@ class NutatingMotion(Motion[Nutation]):
         return self._scalar("spin_per_period")
 
     @property
-    def precession_rate(self) -> Any:
+    def precession_rate(self) -> FloatOrArray:
         """Mean rate of precession about the field, `precession_per_period`/`period`, in rad/time."""
         return self._rate("precession")
 
     @property
-    def spin_rate(self) -> Any:
+    def spin_rate(self) -> FloatOrArray:
         """Mean rate of rotation about the body's own axis, `spin_per_period`/`period`, in rad/time."""
         return self._rate("spin")
 
     @kept
-    def modulus(self) -> Any:
+    def modulus(self) -> FloatOrArray:
         """Modulus k of the elliptic functions: 0 for elementary nutation, 1 on a separatrix.
 
         Raises
@@ -121,16 +124,16 @@ class NutatingMotion(Motion[Nutation]):
         return self._scalar("modulus")
 
     @kept
-    def complementary_modulus(self) -> Any:
+    def complementary_modulus(self) -> FloatOrArray:
         """Complementary modulus sqrt(1 - k^2) of the elliptic functions, accurate next to a separatrix."""
         return self._scalar("complementary_modulus")
 
     @kept
-    def nome(self) -> Any:
+    def nome(self) -> FloatOrArray:
         """Nome q = exp(-pi K'/K) of the elliptic functions."""
         return self._scalar("nome")
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega(t) along the axes of the body.
 
         Parameters
@@ -150,7 +153,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return np.asarray(finite(super().angular_velocity(t), "Omega"))
 
-    def field_in_body(self, t: Any) -> FloatArray:
+    def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = R^T B' in the body, eq. (32).
 
         Parameters
@@ -171,20 +174,23 @@ class NutatingMotion(Motion[Nutation]):
         K = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
         return self._in_body(np.asarray(finite(K, "K")))
 
-    def _rate(self, name: str) -> Any:
+    def _rate(self, name: str) -> FloatOrArray:
         """Return a mean rate: the angle in a period over that, or where there is none the rate of a free body."""
         if not self.shape and not np.isfinite(self.period):
             return self._scalar(f"{name}_rate")
         rates = np.array(np.divide(getattr(self, f"{name}_per_period"), self.period))
         for i in np.flatnonzero(np.isnan(rates)).tolist():
             rates.flat[i] = scalar(self._single(i).exact, f"{name}_rate", alone=False)
-        return plain(rates)
+        values: FloatOrArray = plain(rates)
+        return values
 
-    def _scalar(self, name: str) -> Any:
+    def _scalar(self, name: str) -> FloatOrArray:
         """Return a number for each motion, in an array NaN for a motion that has none."""
         return self._each(name, lambda exact: scalar(exact, name, alone=not self.shape))
 
-    def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
+    def _each(
+        self, name: str, value: Callable[[Any], Value], shown: Callable[[Any], Any] = np.asarray
+    ) -> Value | NDArray[Any]:
         """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
         if 0 < prod(self.shape) <= self._few or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
@@ -192,7 +198,7 @@ class NutatingMotion(Motion[Nutation]):
         rows = np.moveaxis(shown(values), -1, 0)
         for i in np.flatnonzero(~certain).tolist():
             rows[i] = value(self._single(i).exact)
-        return rows.reshape(self.shape + rows.shape[1:])
+        return np.asarray(rows.reshape(self.shape + rows.shape[1:]))
 
     def _wheels(self) -> Wheels:
         """Return the turns of one motion."""
@@ -223,7 +229,7 @@ class SymmetricMotion(NutatingMotion[Nutation]):
     """Motions of bodies with I1 = I2, whose quartic is that of the third component of Omega, or of nu."""
 
     @kept
-    def roots(self) -> Any:
+    def roots(self) -> tuple[float, ...] | FloatArray:
         """Roots of the quartic Q in Omega3 (for tops in nu): complex, shape (..., 4), real roots first and ascending.
 
         Notes
@@ -233,9 +239,9 @@ class SymmetricMotion(NutatingMotion[Nutation]):
         return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
     @kept
-    def turning_points(self) -> tuple[Any, Any]:
+    def turning_points(self) -> tuple[FloatOrArray, FloatOrArray]:
         """Least and largest Omega3 in rad/time, for tops nu = cos theta; on a separatrix one is only approached."""
-        ends = self._each(
+        ends: Any = self._each(
             "turning_points", lambda exact: [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
         )
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)

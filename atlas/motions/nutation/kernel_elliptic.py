@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, RATE
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain
@@ -79,7 +80,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     _in_arrays, _kinds = (*(set(IN_ARRAYS) - {"turning_points"}), "v", "omega"), ("elliptic",)
     _blocks_of, _motions_of, _scalars_of = EllipticBlocks, EllipticAtTimes, EllipticScalars
 
-    def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
+    def __init__(self, inertia: BodyLike, field: FieldLike, z: RealArrayLike, branch: RealArrayLike = 1) -> None:
         parts = [
             *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
             *components(field, ("B1", "B2", "B3"), "The field", RATE),
@@ -94,7 +95,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         self.arguments = {"inertia": self.inertia, "field": field, "z": self.z, "branch": self.branch}
 
     @kept
-    def period(self) -> Any:
+    def period(self) -> FloatOrArray:
         """Period T of K; inf where no period exists.
 
         Raises
@@ -109,7 +110,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return self._scalar("period")
 
     @kept
-    def precession_per_period(self) -> Any:
+    def precession_per_period(self) -> FloatOrArray:
         """Angle of precession about the field, in one period, of the axis that K circles, in rad.
 
         Raises
@@ -125,22 +126,22 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return self._scalar("precession_per_period")
 
     @kept
-    def spin_per_period(self) -> Any:
+    def spin_per_period(self) -> FloatOrArray:
         """Angle of rotation about the axis that K circles, in one period: 2 pi or -2 pi, in rad."""
         return self._scalar("spin_per_period")
 
     @kept
-    def precession_rate(self) -> Any:
+    def precession_rate(self) -> FloatOrArray:
         """Mean rate of precession about the field of the axis that K circles, in rad/time; also for constant K."""
         return self._scalar("precession_rate")
 
     @kept
-    def spin_rate(self) -> Any:
+    def spin_rate(self) -> FloatOrArray:
         """Mean rate of rotation about the axis that K circles: 2 pi/`period`, -2 pi/`period` or 0, in rad/time."""
         return self._scalar("spin_rate")
 
     @kept
-    def stability(self) -> Any:
+    def stability(self) -> FloatOrArray:
         """Orbital stability of the curve of K and M: "stable", "unstable" or "undecided", or an array of these.
 
         Notes
@@ -152,7 +153,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return self._each("stability", lambda exact: exact.stability)
 
     @kept
-    def splitting(self) -> Any:
+    def splitting(self) -> FloatOrArray:
         """Squared frequency of small departures, theorem-splitting, in 1/time^2; negative where unstable.
 
         Raises
@@ -168,7 +169,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return finite(self._scalar("splitting"), "splitting")
 
     @kept
-    def v(self) -> Any:
+    def v(self) -> FloatOrArray:
         """Root v = branch sqrt((z + D/I1)(z + D/I2)(z + D/I3)), in inertia^3.
 
         Raises
@@ -179,7 +180,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         return finite(self._scalar("v"), "v")
 
     @kept
-    def omega(self) -> tuple[Any, Any, Any]:
+    def omega(self) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
         """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B', in rad/time.
 
         Raises
@@ -187,7 +188,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         DomainError
             If a component exceeds the largest float.
         """
-        omega = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
+        omega: Any = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
         finite(omega, "omega")
         return (omega[..., 0], omega[..., 1], omega[..., 2]) if self.shape else tuple(omega)
 
@@ -203,7 +204,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
         return of_elliptic(self._single(i).exact)
 
-    def angular_momentum(self, t: Any) -> FloatArray:
+    def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory.
 
         Parameters
@@ -223,7 +224,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         """
         return self._momentum_of(lambda Omega: Omega * np.stack(np.broadcast_arrays(*self.inertia), -1), t)
 
-    def invariants(self, t: Any = None) -> dict[str, Any]:
+    def invariants(self, t: RealArrayLike | None = None) -> dict[str, FloatOrArray]:
         """Constants of the motion H, F, (M, K), K^2 and kinetic energy, theorem-clebsch.
 
         Parameters

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain
@@ -77,7 +78,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
     family = "general"
     _in_arrays, _kinds = (*IN_ARRAYS, "roots"), KINDS
 
-    def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
+    def __init__(self, ratio: BodyLike, field: FieldLike, omega: RealArrayLike) -> None:
         I2, I3 = moments(ratio)
         self.ratio = kept_ratio(ratio, I3)
         B = field_components(field)
@@ -103,7 +104,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         exact = self._single(i).exact
         return of_general(exact.I, exact.field, exact.omega)
 
-    def angular_momentum(self, t: Any) -> FloatArray:
+    def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory, as in (88).
 
         Parameters
@@ -123,7 +124,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         """
         return self._momentum_of(self._momentum, t, "m/I2")
 
-    def invariants(self, t: Any = None) -> dict[str, Any]:
+    def invariants(self, t: RealArrayLike | None = None) -> dict[str, FloatOrArray]:
         """Constants of the motion E', K^2, c3, c5, eqs. (36)-(41), and (M, B')/I2 with M = II (Omega + K).
 
         Parameters

@@ -3,7 +3,9 @@
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, LENGTH, MASS, RATE, SI_FIELDS
 from atlas.arithmetic.double_double import given, over
@@ -107,7 +109,13 @@ class TopMotion(SymmetricMotion[SingleTop]):
     _blocks_of, _motions_of = TopBlocks, TopsAtTimes
 
     def __init__(
-        self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
+        self,
+        inertia: BodyLike,
+        coupling: RealArrayLike,
+        direction: RealArrayLike,
+        omega: RealArrayLike,
+        linear: RealArrayLike = 0.0,
+        quadratic: RealArrayLike = 0.0,
     ) -> None:
         *top, a0, A0 = inputs_of_top(inertia, coupling, direction, linear, quadratic)
         parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE), a0, A0]
@@ -121,7 +129,14 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
     @classmethod
     def heavy(
-        cls, body: SymmetricBody, gravity: float, length: float, direction: Any, omega: Any, *, mass: float
+        cls,
+        body: SymmetricBody,
+        gravity: float,
+        length: float,
+        direction: RealArrayLike,
+        omega: RealArrayLike,
+        *,
+        mass: float,
     ) -> Self:
         """Lagrange's top: a body under its weight, held at a point of its axis (not in the paper).
 
@@ -166,8 +181,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         cls,
         body: SymmetricBody,
         charges: ChargeMoments,
-        field: Any,
-        omega: Any,
+        field: FieldLike,
+        omega: RealArrayLike,
         *,
         c: float = 1.0,
         units: str | None = None,
@@ -250,7 +265,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         return cls((I2, I3), coupling, (B2, B3), omega, linear=exact_number(linear), quadratic=exact_number(quadratic))
 
     @kept
-    def stable(self) -> Any:
+    def stable(self) -> bool | NDArray[np.bool_]:
         """True if a motion with constant theta is stable, theorem-top-nutation; None where theta varies.
 
         Notes
@@ -343,7 +358,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         return of_top(self._row(i))
 
-    def field_in_body(self, t: Any) -> FloatArray:
+    def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Unit vector b(t) = R^T n/|n| in the body.
 
         Parameters
@@ -364,7 +379,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         b = self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,))
         return self._in_body(np.asarray(finite(b, "b")))
 
-    def angular_momentum(self, t: Any) -> FloatArray:
+    def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant.
 
         Parameters
@@ -384,7 +399,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         """
         return self._momentum_of(lambda _: self._momentum(t), t, "M/I2")
 
-    def invariants(self, t: Any = None) -> dict[str, Any]:
+    def invariants(self, t: RealArrayLike | None = None) -> dict[str, FloatOrArray]:
         """Constants of the motion divided by I2: energy h, M3 along the axis and p = (M, n) along the unit vector n.
 
         Parameters

@@ -4,6 +4,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.dimensions import LENGTH
 from atlas.arithmetic.inputs import FloatArray, common_shape, kept, vectors
 from atlas.bodies.field import LaboratoryFrame
@@ -19,10 +20,10 @@ AGREEMENT = 1e-9
 class Rotation(Protocol):
     """What a flight asks of a motion of the body about its centre of mass."""
 
-    def rotation(self, t: Any) -> FloatArray:
+    def rotation(self, t: RealArrayLike) -> FloatArray:
         """R(t), shape (..., 3, 3), in the laboratory axes."""
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Omega(t), shape (..., 3), in the body."""
 
 
@@ -53,7 +54,7 @@ class Flight(Shown):
     """
 
     def __init__(
-        self, particle: ParticleMotion, motion: Rotation, point: Any, frame: LaboratoryFrame | None = None
+        self, particle: ParticleMotion, motion: Rotation, point: RealArrayLike, frame: LaboratoryFrame | None = None
     ) -> None:
         self.particle, self.motion, self.point = particle, motion, vectors(point, "The point", LENGTH)
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
@@ -66,7 +67,7 @@ class Flight(Shown):
         """The point from the centre of mass, along the axes of the body in which R(0) is."""
         return np.asarray(np.vecmat(self.point @ self._to_user, self.motion.rotation(0.0)))
 
-    def rotation(self, t: Any) -> FloatArray:
+    def rotation(self, t: RealArrayLike) -> FloatArray:
         """Rotation matrix R(t) of the body in the user's frame, (84).
 
         Parameters
@@ -86,7 +87,7 @@ class Flight(Shown):
         """
         return np.asarray(self._to_user @ self.motion.rotation(t) @ self._to_user.T)
 
-    def arm(self, t: Any) -> FloatArray:
+    def arm(self, t: RealArrayLike) -> FloatArray:
         """Vector x_N(t) = R(t) R(0)^T x_N(0) from the centre of mass to the point, below eq. (18).
 
         Parameters
@@ -106,7 +107,7 @@ class Flight(Shown):
         """
         return np.asarray(np.matvec(self._to_user, np.matvec(self.motion.rotation(t), self._arm)))
 
-    def position(self, t: Any) -> FloatArray:
+    def position(self, t: RealArrayLike) -> FloatArray:
         """Position y_N(t) of the point, below eq. (18).
 
         Parameters
@@ -126,7 +127,7 @@ class Flight(Shown):
         """
         return self.particle.position(t) + self.arm(t)
 
-    def velocity(self, t: Any) -> FloatArray:
+    def velocity(self, t: RealArrayLike) -> FloatArray:
         """Velocity dy_N/dt = dy_0/dt + R [Omega, R(0)^T x_N(0)] of the point, by eq. (12).
 
         Parameters

@@ -5,7 +5,9 @@ from math import prod
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import NO_FIELDS, SI_FIELDS, TIME
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, frozen, plain, real, turn_time, vectors
 from atlas.bodies.field import Field
@@ -50,7 +52,15 @@ class ParticleMotion(Shown):
 
     family = "particle"
 
-    def __init__(self, mu: Any, E: Any, B: Any, position: Any, velocity: Any, c: Any = 1.0) -> None:
+    def __init__(
+        self,
+        mu: RealArrayLike,
+        E: RealArrayLike,
+        B: RealArrayLike,
+        position: RealArrayLike,
+        velocity: RealArrayLike,
+        c: RealArrayLike = 1.0,
+    ) -> None:
         c_ = real(c, "c")
         if (c_ <= 0).any():
             raise DomainError(f"c must be positive, not {c_.min()}.")
@@ -69,7 +79,7 @@ class ParticleMotion(Shown):
         self.arguments = {"mu": self.mu, "E": E_, "B": B_, "position": y, "velocity": v, "c": self.c}
 
     @classmethod
-    def in_field(cls, field: Field, position: Any, velocity: Any) -> Self:
+    def in_field(cls, field: Field, position: RealArrayLike, velocity: RealArrayLike) -> Self:
         """Motion of a particle in a `Field`, which holds mu, E, B and c, eq. (89).
 
         Parameters
@@ -92,7 +102,9 @@ class ParticleMotion(Shown):
         return cls(field.mu, field.E, field.B, position, velocity, field.c)
 
     @classmethod
-    def trochoid(cls, mu: Any, E: Any, B: Any, radius: Any, c: Any = 1.0) -> Self:
+    def trochoid(
+        cls, mu: RealArrayLike, E: RealArrayLike, B: RealArrayLike, radius: RealArrayLike, c: RealArrayLike = 1.0
+    ) -> Self:
         """Trochoid (99): y(0) = a e2 and y'(0) = (c |E_perp|/|B| + a omega) e1 in the frame `axes`.
 
         Parameters
@@ -130,7 +142,7 @@ class ParticleMotion(Shown):
         return cls(mu, E, B, a * e2, still.drift + a * omega * e1, c)
 
     @property
-    def case(self) -> Any:
+    def case(self) -> NameOrArray:
         """Configuration of the fields, decided exactly: a string, or an array of strings.
 
         Notes
@@ -141,7 +153,7 @@ class ParticleMotion(Shown):
         return self._each("case")
 
     @property
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Shape of the path across B, decided exactly: a string, or an array of strings.
 
         Notes
@@ -153,12 +165,12 @@ class ParticleMotion(Shown):
         return self._each("kind")
 
     @property
-    def cyclotron_frequency(self) -> Any:
+    def cyclotron_frequency(self) -> FloatOrArray:
         """Frequency omega = mu |B|/c of (97), with the sign of mu, in rad/time."""
         return self._each("cyclotron_frequency")
 
     @property
-    def period(self) -> Any:
+    def period(self) -> FloatOrArray:
         """Time 2 pi/|omega| of one turn, (97).
 
         Raises
@@ -180,7 +192,7 @@ class ParticleMotion(Shown):
         return np.asarray(self._each("drift"))
 
     @property
-    def radius(self) -> Any:
+    def radius(self) -> FloatOrArray:
         """Radius a of the circle around the drifting centre, (97)."""
         return self._each("radius")
 
@@ -189,7 +201,7 @@ class ParticleMotion(Shown):
         """Frame of figure Magn, rows e1, e2, e3: e3 along B, e2 along E_perp, e1 along [E, B]; shape (..., 3, 3)."""
         return np.asarray(self._each("axes"))
 
-    def position(self, t: Any) -> FloatArray:
+    def position(self, t: RealArrayLike) -> FloatArray:
         """Position y(t), eq. (101) with (93) and (98).
 
         Parameters
@@ -209,7 +221,7 @@ class ParticleMotion(Shown):
         """
         return self._spread(Charge.fill_position, t)
 
-    def velocity(self, t: Any) -> FloatArray:
+    def velocity(self, t: RealArrayLike) -> FloatArray:
         """Velocity y'(t), eq. (90).
 
         Parameters
@@ -229,7 +241,7 @@ class ParticleMotion(Shown):
         """
         return self._spread(Charge.fill_velocity, t)
 
-    def guiding_centre(self, t: Any) -> FloatArray:
+    def guiding_centre(self, t: RealArrayLike) -> FloatArray:
         """Guiding centre O(t) of (99), about which the particle circles, at its height along B.
 
         Parameters
@@ -249,7 +261,7 @@ class ParticleMotion(Shown):
         """
         return self._spread(Charge.fill_centre, t)
 
-    def _each(self, name: str) -> Any:
+    def _each(self, name: str) -> NDArray[Any] | Any:
         """Return an attribute of each particle, shape (..., its own); a number or a name if there is but one."""
         values = getattr(self._all, name)
         if self.shape:

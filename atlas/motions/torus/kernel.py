@@ -1,10 +1,12 @@
 """Any motion of a charged body with three different moments of inertia (not in the paper)."""
 
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, RATE
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain, real
@@ -22,6 +24,9 @@ from atlas.motions.start import Start, parts
 from atlas.motions.torus.certified import AsymmetricMotion as Balls
 from atlas.motions.torus.rounded import Certified
 from atlas.motions.torus.theta import MAX_ROUNDING, ThetaKernel, closed_form
+
+if TYPE_CHECKING:
+    from atlas.motions.torus.certified_spectral_curve import SpectralCurve
 
 BITS = 60
 """Relative accuracy of a frequency before it is rounded, once."""
@@ -237,7 +242,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     family = "asymmetric"
 
-    def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
+    def __init__(self, inertia: BodyLike, field: FieldLike, omega: RealArrayLike) -> None:
         parts = [
             *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
             *components(field, ("B1", "B2", "B3"), "The field", RATE),
@@ -250,12 +255,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         self.arguments = dict(zip(("inertia", "field", "omega"), kept, strict=True))
 
     @kept
-    def kind(self) -> Any:
+    def kind(self) -> NameOrArray:
         """Type of the motion, see the Notes of the class: a string, or an array of strings."""
         return self._of_each(lambda single: single.exact.kind)
 
     @kept
-    def H(self) -> Any:
+    def H(self) -> FloatOrArray:
         """Integral H = (M, II^-1 M)/2 + (K, II K)/2 with M = II (Omega + K), theorem-lie-poisson, in inertia/time^2.
 
         Raises
@@ -266,7 +271,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return finite(self._of_each(lambda single: nearest(single.exact.H)), "H")
 
     @kept
-    def F(self) -> Any:
+    def F(self) -> FloatOrArray:
         """Clebsch's integral F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch, in inertia^2/time^2.
 
         Raises
@@ -277,7 +282,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return finite(self._of_each(lambda single: nearest(single.exact.F)), "F")
 
     @kept
-    def MK(self) -> Any:
+    def MK(self) -> FloatOrArray:
         """Casimir (M, K): |B'| times the canonical momentum along B, in inertia/time^2.
 
         Raises
@@ -288,7 +293,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return finite(self._of_each(lambda single: nearest(single.exact.MK)), "(M, K)")
 
     @kept
-    def energy(self) -> Any:
+    def energy(self) -> FloatOrArray:
         """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy, in inertia/time^2.
 
         Raises
@@ -299,12 +304,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return finite(self._of_each(lambda single: nearest(single.exact.energy)), "The energy")
 
     @kept
-    def agreement(self) -> Any:
+    def agreement(self) -> NameOrArray:
         """Proof status of the closed form, or why none is used: a sentence, or an array of sentences."""
         return self._of_each(lambda single: single.agreement)
 
     @kept
-    def accuracy(self) -> Any:
+    def accuracy(self) -> FloatOrArray:
         """Bound on the errors of R, at any time, and of Omega and K relative to the largest rate, see the class.
 
         Notes
@@ -316,7 +321,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._of_each(lambda single: single.accuracy)
 
     @kept
-    def period(self) -> Any:
+    def period(self) -> FloatOrArray:
         """Period of Omega for a free body, of Omega and K for an elliptic motion; of nutation for a symmetric body.
 
         Raises
@@ -327,7 +332,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._scalar("period")
 
     @kept
-    def precession_rate(self) -> Any:
+    def precession_rate(self) -> FloatOrArray:
         """Mean rate of precession, in rad/time: of a free body about m, of an elliptic motion about the field.
 
         Raises
@@ -343,7 +348,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._scalar("precession_rate")
 
     @kept
-    def spin_rate(self) -> Any:
+    def spin_rate(self) -> FloatOrArray:
         """Mean rate of rotation about the axis that m or K circles: 2 pi/`period` with a sign, in rad/time.
 
         Raises
@@ -354,7 +359,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._scalar("spin_rate")
 
     @kept
-    def mode(self) -> Any:
+    def mode(self) -> NameOrArray:
         """Axis that the momentum of a free body circles: a string, or an array of strings.
 
         Raises
@@ -368,11 +373,11 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._of_each(lambda single: single.exact.mode)
 
-    def _scalar(self, name: str) -> Any:
+    def _scalar(self, name: str) -> FloatOrArray:
         return self._of_each(lambda single: scalar(single.exact, name, alone=not self.shape))
 
     @kept
-    def frequencies(self) -> Any:
+    def frequencies(self) -> FloatArray:
         """Angular frequencies (f1, f2, f3), shape (..., 3), in rad/time, each rounded once from certified balls.
 
         Raises
@@ -425,7 +430,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return of_nutation(self, single.closed.exact)
 
     @property
-    def curve(self) -> Any:
+    def curve(self) -> "SpectralCurve":
         """Spectral curve of one motion on a torus, with certified branch points, periods, frequencies and actions.
 
         Returns
@@ -448,10 +453,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
         if self.shape:
             raise AtlasError(f"A spectral curve is that of one motion, not of an array of them, of shape {self.shape}.")
-        return SpectralCurve(self._of_each(lambda single: single.exact))
+        return SpectralCurve(self._single().exact)
 
     @kept
-    def riemann_matrix(self) -> Any:
+    def riemann_matrix(self) -> NDArray[np.complex128]:
         """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0; shape (..., 2, 2).
 
         Raises
@@ -465,7 +470,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return np.asarray(self._of_each(lambda single: single.theta.riemann_matrix))
 
-    def angular_velocity(self, t: Any) -> FloatArray:
+    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega(t) along the axes of the body.
 
         Parameters
@@ -487,7 +492,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return super().angular_velocity(t)
 
-    def field_in_body(self, t: Any) -> FloatArray:
+    def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = R^T B' in the body, eq. (32).
 
         Parameters
@@ -509,7 +514,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._in_body(self._evaluate(lambda single, t, out: single.field_in_body(t, out), t, (3,)))
 
-    def angular_momentum(self, t: Any) -> FloatArray:
+    def angular_momentum(self, t: RealArrayLike) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory.
 
         Parameters

@@ -7,6 +7,8 @@ libraries that draw are loaded by the first call.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from atlas.arithmetic.annotations import StyleLike
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pyvista import Plotter
@@ -22,7 +24,7 @@ _HOMES = {
 __all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_plotter"]
 
 
-def figure(name: str, style: Any = None, target: str | None = None, **parameters: Any) -> "Figure":
+def figure(name: str, style: StyleLike = None, target: str | None = None, **parameters: object) -> "Figure":
     """Matplotlib figure of a recipe in figures/.
 
     Parameters
@@ -57,7 +59,7 @@ def figure(name: str, style: Any = None, target: str | None = None, **parameters
     return to_figure(recipes.load(name).scene(**parameters), style, target=place)
 
 
-def plotter(name: str, *, off_screen: bool = True, **parameters: Any) -> "Plotter":
+def plotter(name: str, *, off_screen: bool = True, **parameters: object) -> "Plotter":
     """PyVista plotter of the panels in space of a recipe in figures/.
 
     Parameters

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 
 from atlas import files
+from atlas.arithmetic.annotations import StyleLike
 from atlas.arithmetic.inputs import positive
 from atlas.errors import AtlasError, unknown
 from atlas.pictures import any_motion, movement, recipes
@@ -117,21 +118,30 @@ def animation(
     count: int,
     *,
     fps: float = FPS,
-    style: Any = None,
-    progress: Progress = lambda _done, _total, _what: None,
+    style: StyleLike = None,
+    progress: Progress | None = None,
 ) -> Moving:
     """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
     if not 2 <= count <= MAX_FRAMES:
         raise AtlasError(f"an animation has from 2 to {MAX_FRAMES} frames, not {count}")
     fps = positive(fps, "fps")
-    frames = Frames(make, count, style, progress)
+    frames = Frames(make, count, style, progress or (lambda _done, _total, _what: None))
     more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
     moving = Moving(frames.figure, frames.draw, frames=count, **more)
     moving.fps = fps
     return moving
 
 
-def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> Moving:
+def animate(
+    name: str,
+    over: str = "t",
+    values: Sequence[Any] | None = None,
+    *,
+    fps: float = FPS,
+    style: StyleLike = None,
+    progress: Progress | None = None,
+    **parameters: object,
+) -> Moving:
     """Matplotlib animation of a recipe's figure over one parameter, or over the time t.
 
     Parameters
@@ -142,8 +152,14 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
         Parameter that varies, "t" for the time of a figure with a motion.
     values : sequence, optional
         Values of the parameter, one per frame; for the time by default the duration of the motion.
-    **options
-        `style`, `fps` and `progress`, as for `animation`; all others are parameters of the recipe.
+    fps : float
+        Frames per second.
+    style : str or dict or list, optional
+        Matplotlib style, as for `atlas.figure`.
+    progress : callable, optional
+        Called as ``progress(steps done, steps, "view" or "frames")``: two steps a frame.
+    **parameters
+        Parameters of the recipe; others keep their defaults.
 
     Returns
     -------
@@ -157,12 +173,10 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
     AtlasError
         For an unknown name or parameter, and for a value out of its range.
     """
-    own = {"fps", "style", "progress"}
-    parameters = {name: options.pop(name) for name in [*options] if name not in own}
     recipe = recipes.load(name)
     if over == "t" and "t" not in recipe.parameters:
         scene = recipe.scene(**parameters)
-        moving = animation(*_in_time(scene, recipe, values), **options)
+        moving = animation(*_in_time(scene, recipe, values), fps=fps, style=style, progress=progress)
         moving.jumps = values is None and not movement.closes(scene)
         return moving
     if values is None:
@@ -179,7 +193,7 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
         except AtlasError as error:
             raise type(error)(f"{over} = {values[k]}: {error}") from error
 
-    return animation(make, len(values), **options)
+    return animation(make, len(values), fps=fps, style=style, progress=progress)
 
 
 def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> FuncAnimation:
