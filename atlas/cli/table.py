@@ -35,7 +35,8 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
     check_format(out)
     if not times:
         raise click.UsageError("--out writes what the motion has at --times or on a --grid: give one of them.")
-    columns, known = dict(columns_at(motion, list(map(float, times)))), FAMILIES[motion.family].units | {"t": "time"}
+    columns = dict(columns_at(motion, list(map(float, times))))
+    known = {**FAMILIES[motion.family].units, "t": "time"}
     content = PARTS[out.suffix[1:]](columns)
     if out.suffix == ".csv":
         named = {name: units.get(known.get(name, ""), known.get(name, "")) for name in columns}
