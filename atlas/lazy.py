@@ -1,6 +1,7 @@
 """Attributes that are made when they are first asked for, by any thread."""
 
 import functools
+from collections.abc import Callable
 from typing import Any, Self, TypeVar, overload
 
 Value = TypeVar("Value")
@@ -15,7 +16,11 @@ class cached_property(functools.cached_property[Value]):  # noqa: N801, TID251  
 
     A method of a subclass may use the value of the parent, `super().name`: that is not stored, since it would stand
     where the subclass's value belongs.
+
+    `finish` of a subclass of this property makes of a value what is stored.
     """
+
+    finish: Callable[[Any], Any] | None = None
 
     @overload
     def __get__(self, instance: None, owner: type[Any] | None = None) -> Self: ...
@@ -26,11 +31,11 @@ class cached_property(functools.cached_property[Value]):  # noqa: N801, TID251  
         if instance is None:
             return self
         name = str(self.attrname)
-        if getattr(type(instance), name) is not self:
-            return self.complete(self.func(instance))
         values = vars(instance)
-        return values[name] if name in values else values.setdefault(name, self.complete(self.func(instance)))
-
-    def complete(self, value: Value) -> Value:
-        """Return the value as it is stored."""
-        return value
+        is_stored = getattr(type(instance), name) is self
+        if is_stored and name in values:
+            return values[name]
+        value = self.func(instance)
+        if self.finish:
+            value = self.finish(value)
+        return values.setdefault(name, value) if is_stored else value

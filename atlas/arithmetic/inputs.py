@@ -178,9 +178,7 @@ def frozen(value: Value) -> Value:
 class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
     """A `cached_property` whose arrays can't be written into: other values hang on them."""
 
-    def complete(self, value: Value) -> Value:
-        """Return the value with its arrays made read-only."""
-        return frozen(value)
+    finish = staticmethod(frozen)
 
 
 def plain(array: Any) -> Any:

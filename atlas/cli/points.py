@@ -13,7 +13,7 @@ from atlas.errors import AtlasError
 from atlas.files import lines_of
 from atlas.measured import WANTED, heading, size
 
-MOST = 10**7
+MAX_ROWS = 10**7
 """Rows of a table that are read."""
 
 SYMMETRIC = 1e-9
@@ -142,15 +142,15 @@ def measured_columns(
             separator = next((s for s in (",", ";", "\t") if s in top), ",")
             reader = csv.reader(chain([top], texts), delimiter=separator)
             rows = ((reader.line_num, line) for line in reader if line)
-            (_, first), *lines = [*islice(rows, MOST + 2)] or [(1, [])]
+            (_, first), *lines = [*islice(rows, MAX_ROWS + 2)] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
         raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
     except csv.Error as error:
         raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
-    if len(lines) > MOST:
-        raise click.UsageError(f"{path} has more than {MOST} rows.")
+    if len(lines) > MAX_ROWS:
+        raise click.UsageError(f"{path} has more than {MAX_ROWS} rows.")
     names, units = zip(*map(heading, first), strict=True) if first else ((), ())
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")

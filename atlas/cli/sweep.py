@@ -32,8 +32,11 @@ data set: files that pandas and Dask read as one table. Beside a file that you e
 OUT.new.csv, and then the exit status is 2.
 """
 
-MOST = 10**7
-"""Values of one parameter that a range may have, and bytes of a file of a sweep."""
+MAX_RANGE_LENGTH = 10**7
+"""Values of one parameter that a range may have."""
+
+MAX_RECIPE_SIZE = 10**7
+"""Bytes of a file of a sweep."""
 
 
 class Out(click.ParamType):  # type: ignore[type-arg]  # which takes one since click 8.4
@@ -238,9 +241,9 @@ def read(path: Path) -> Any:
 
     try:
         with path.open("rb") as file:
-            text = file.read(MOST)
-        if len(text) == MOST:
-            raise click.UsageError(f"{path} is larger than {MOST // 10**6} MB: it is no recipe of a sweep.")
+            text = file.read(MAX_RECIPE_SIZE)
+        if len(text) == MAX_RECIPE_SIZE:
+            raise click.UsageError(f"{path} is larger than {MAX_RECIPE_SIZE // 10**6} MB: it is no recipe of a sweep.")
         recipe = msgspec.toml.decode(text, type=Recipe)
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
@@ -297,7 +300,7 @@ def _values(family: str, name: str, value: Any) -> Any:
     if len(rest) == 2 and first * last <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {value!r}.")
     # no more digits are read than a count can have
-    count = int(rest[0]) if len(rest[0].strip().lstrip("0")) < 9 else MOST + 1
-    if count > MOST:
-        raise click.UsageError(f"a range of {name} has at most {MOST} values, not {rest[0].strip()}.")
+    count = int(rest[0]) if len(rest[0].strip().lstrip("0")) < 9 else MAX_RANGE_LENGTH + 1
+    if count > MAX_RANGE_LENGTH:
+        raise click.UsageError(f"a range of {name} has at most {MAX_RANGE_LENGTH} values, not {rest[0].strip()}.")
     return Range(first, last, count, log=len(rest) == 2).values

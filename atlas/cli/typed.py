@@ -11,7 +11,7 @@ import click
 from atlas.errors import AtlasError
 from atlas.measured import WANTED, in_si, split
 
-MOST = 1_000_000
+MAX_RANGE_LENGTH = 1_000_000
 """Numbers in a range."""
 
 LONGEST = 2000
@@ -125,8 +125,8 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
             return [self._single(word, param, ctx)]
         start, stop, count = (self._single(item, param, ctx) for item in parts[:3])
         unit = str(WANTED[str(param.name)]) if start.unit or stop.unit else ""
-        if not count.is_integer() or not 2 <= count <= MOST:
-            raise click.UsageError(f"the count of {word} is a whole number from 2 to {MOST}.")
+        if not count.is_integer() or not 2 <= count <= MAX_RANGE_LENGTH:
+            raise click.UsageError(f"the count of {word} is a whole number from 2 to {MAX_RANGE_LENGTH}.")
         if log and start * stop <= 0:
             raise click.UsageError(
                 f"even steps of the logarithm need ends of one sign that are not zero, not {word!r}."

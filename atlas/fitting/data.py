@@ -41,7 +41,7 @@ NO_ROTATION = 1.1
 NEARLY_OPPOSITE = -0.99999
 """Cosine of an angle below which the axis of a turn is not its skew part."""
 
-MOST = 1200
+MAX_BLOCKS = 1200
 """Blocks of rows that are read: ten million rows."""
 NEAR = 0.5
 """How far a measured matrix or vector may be from a rotation, or from length 1."""
@@ -263,9 +263,9 @@ def of_file(path: Path, kind: str | None) -> Table:
     what there is of R, as a signal; or the `kind`. Raises AtlasError for a file that has no such columns.
     """
     with opened(path, fields=True) as file:
-        blocks = [*islice(file.blocks, MOST)]
+        blocks = [*islice(file.blocks, MAX_BLOCKS)]
         if next(file.blocks, None) is not None:
-            raise AtlasError(f"{file.file} has more than {MOST * BLOCK} rows: fit a part of them.")
+            raise AtlasError(f"{file.file} has more than {MAX_BLOCKS * BLOCK} rows: fit a part of them.")
         names = list(file.names)
         known = file.parameters.get("sigma")
     x = {name: np.concatenate([block[name] for block in blocks]) for name in names}

@@ -29,8 +29,14 @@ HEIGHT = 1.0
 BEYOND = 14.0
 """By how much chi square tells a nutation from noise, beyond what the best of so many frequencies takes off."""
 
-PHASE, MOST, FASTEST = 1.0, 10000, 10.0
-"""Radians at the end between nutations that are tried, how many they are at most, and how fast, in rates."""
+PHASE_STEP = 1.0
+"""Radians at the end between nutations that are tried."""
+
+MAX_NUTATIONS = 10000
+"""Nutations that are tried."""
+
+MAX_NUTATION_RATE = 10.0
+"""Fastest nutation that is tried, in rates of the data."""
 
 EVEN = 1e-3
 """Part of a step by which steps of time differ that show no more than frequencies up to Nyquist's."""
@@ -260,7 +266,7 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
     r = np.linspace(ratio.min, ratio.max, FINE)[1:-1] if ratio.vary else np.array([values["ratio"]])
     nyquist, steps = np.pi * data.t.size / span, np.diff(data.t)
     even = np.ptp(steps) < EVEN * steps.mean()
-    fastest = nyquist if even else max(FASTEST * problem.rate, 2 * nyquist)
+    fastest = nyquist if even else max(MAX_NUTATION_RATE * problem.rate, 2 * nyquist)
     with np.errstate(all="ignore"):
         lines = [steady.modes(r)]
         if data.kind == "axis":
@@ -277,12 +283,12 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
 
 
 def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
-    """Return those of a row of nutations below a frequency that differ by `PHASE` over the times; none if none is."""
+    """Return the nutations below a frequency that differ by `PHASE_STEP` over the times."""
     there = np.flatnonzero(modes.frequency < fastest)  # no nan
     if not there.size:
         return []
     passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[there])))) * span
-    marks = np.arange(0.0, passed[-1], max(PHASE, passed[-1] / MOST)) if there.size > 1 else np.zeros(1)
+    marks = np.arange(0.0, passed[-1], max(PHASE_STEP, passed[-1] / MAX_NUTATIONS)) if there.size > 1 else np.zeros(1)
     return [modes.part(there[np.searchsorted(passed, marks)])]
 
 

@@ -304,7 +304,7 @@ ELSEWHERE = (
     "NotCertifiedError(best.reason)",  # which takes seconds: `Best` is tried in test_cli_certified
     "is not TOML",
     "its folder is read-only",
-    "has more than {MOST} rows",
+    "has more than {MAX_ROWS} rows",
     "exceptions.Exit(_reader_gone())",
     "no JSON for",
     "raise error",
@@ -386,9 +386,10 @@ def test_what_goes_wrong_is_one_line_and_a_status(
 def test_a_table_without_an_end_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """More rows than a table may have are refused."""
     file = tmp_path / "long.csv"
-    for module, most, words in ((points, 3, f"sweep ball --quantity gamma --list {file} --out {tmp_path}/out.csv"),
-                                (data, 1, f"fit {file}")):  # fmt: skip
-        monkeypatch.setattr(module, "MOST", most)
+    swept = f"sweep ball --quantity gamma --list {file} --out {tmp_path}/out.csv"
+    for module, name, most, words in ((points, "MAX_ROWS", 3, swept),
+                                (data, "MAX_BLOCKS", 1, f"fit {file}")):  # fmt: skip
+        monkeypatch.setattr(module, name, most)
         file.write_text("t,R11\n" + 8193 * "0,1\n", encoding="utf-8")
         assert "long.csv has more than" in told(words.split())[0]
 

@@ -31,10 +31,6 @@ _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\S.*)((?:\n(?: .*)?)*)", re.MULTILINE)
 _TABLES = frozenset({"Parameters", "Attributes", "Returns", "Raises", "Warns"})
 """Sections of a docstring that list names or types, with their meanings indented below."""
-_ONCE = re.compile(
-    r"\s*Raises AtlasError for a time that is not finite or whose phases exceed 2\^50\.".replace(" ", r"\s+")
-)
-"""What a page with the reference says once, of all that takes a time."""
 
 
 class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
@@ -66,9 +62,7 @@ def view_reference(block: Reference, composer: Composer) -> ReferenceView:
 
     def described(name: str, thing: Described) -> DescribedView:
         members = tuple(described(inner, what) for inner, what in thing.members.items())
-        return DescribedView(
-            name, thing.arguments, composer.text(markdown_of_sections(_ONCE.sub("", thing.docstring))), members
-        )
+        return DescribedView(name, thing.arguments, composer.text(markdown_of_sections(thing.docstring)), members)
 
     for name in block.names:
         if name not in known:
