@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from math import hypot
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -43,10 +43,20 @@ def between(left: FloatArray, right: FloatArray) -> FloatArray:
     return product(product(of_matrix(left), np.eye(4)), of_matrix(right))
 
 
-def rotation_of(typed: Sequence[float], name: str) -> FloatArray:
-    """Return the rotation matrix (3, 3) of a typed quaternion, which has a name; AtlasError for no unit length."""
-    from scipy.spatial.transform import Rotation
+class Attitude(NamedTuple):
+    """Rotation of a quaternion (x, y, z, w) of any length."""
 
+    quaternion: tuple[float, ...]
+
+    def as_matrix(self) -> FloatArray:
+        """Return the rotation matrix (3, 3), rounded."""
+        from scipy.spatial.transform import Rotation
+
+        return np.asarray(Rotation.from_quat(self.quaternion).as_matrix())
+
+
+def rotation_of(typed: Sequence[float], name: str) -> Attitude:
+    """Return the rotation of a typed quaternion, which has a name; AtlasError for no unit length."""
     if abs((length := hypot(*typed)) - 1) > LENGTH_TOLERANCE:
         raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
-    return np.asarray(Rotation.from_quat(typed).as_matrix())
+    return Attitude(tuple(map(float, typed)))

@@ -186,8 +186,20 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
     return oblique_tensor(options["points"]) if options.get("points") is not None else None
 
 
+def exact_tensor(options: dict[str, Any]) -> Any:
+    """Return the inertia tensor, I11 I22 I33 I12 I13 I23, or principal moments, for the certified floor."""
+    tensor = given_tensor(options)
+    if tensor is None:
+        return exact_moments(options)
+    if options["points"] is not None and options["decimal"]:
+        raise click.UsageError("--decimal goes with --tensor, not with --points.")
+    if options["tensor"] is not None:
+        return exactly(options["tensor"], options)
+    return [float(tensor[i][j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+
+
 def given_attitude(options: Mapping[str, Any]) -> Any:
-    """Return the matrix R(0) of --attitude, None where it is not given. Raises AtlasError for no unit length."""
+    """Return the rotation R(0) of --attitude, None where it is not given. Raises AtlasError for no unit length."""
     if options.get("attitude") is None:
         return None
     from atlas.arithmetic.quaternions import rotation_of

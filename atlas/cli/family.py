@@ -15,7 +15,6 @@ from atlas.arithmetic.given import Given
 from atlas.cli import body
 from atlas.cli.options import chosen_times, examples, given, numbers, output_options, stack, times_options
 from atlas.cli.present import (
-    IN_DOUBLES,
     NOT_ASKED,
     TABLE_DIGITS,
     Line,
@@ -174,12 +173,13 @@ def _command_of(family: Family, described: Described) -> click.Command:
         def near() -> list[Any]:
             """Return the quaternions in doubles, which have a sign; none where that is not known."""
             try:
-                return list(along(_kernel(family, options).quaternion, times))
+                motion = motion_in_given_axes(options) if family.in_given_axes else None
+                return list(along((motion or _kernel(family, options)).quaternion, times))
             except NotCertifiedError:
                 return [None for _ in times]
 
         def balls(times: Sequence[float], quantities: Family) -> dict[str, Any]:
-            motion = family.balls()(*values_of(family, options, exact=True))
+            motion = _balls(family, options)
             moments = [exactly(t, options) for t in times]
             values = {s.name: [sample(s, motion, t, best) for t in moments] for s in sampled if not s.uncertified}
             if moments and not best:
@@ -250,12 +250,11 @@ def _shown_otherwise(
         return True
     if not family.in_given_axes:
         return False
-    along_own = body.given_tensor(options) is None and options["attitude"] is None
-    if along_own and (options["digits"] is not None or options["decimal"]):
+    if options["digits"] is not None or options["decimal"]:
         return False
     motion = motion_in_given_axes(options)
     if motion is not None:
-        _in_doubles(motion, options, parameters, times, NOT_ASKED if along_own else IN_DOUBLES)
+        _in_doubles(motion, options, parameters, times)
     return motion is not None
 
 
@@ -406,18 +405,10 @@ def axes_text(axes: Any) -> str:
     return ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)
 
 
-def _in_doubles(
-    motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float], worth: str
-) -> None:
+def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
     """Print a motion in given axes, which is certified in no twin but that of any body."""
     from atlas.motions.start import body_of
 
-    if options["digits"] is not None or options["decimal"]:
-        own = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
-        raise click.UsageError(
-            "--digits and --decimal go with principal axes, and the unit matrix at t = 0. Those of this motion are "
-            f"along {own.axes}, and in them it is atlas motion {' '.join(own.options)}"
-        )
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     record = {"family": family.name} | _answers(family, motion, times, sampled)
@@ -429,7 +420,7 @@ def _in_doubles(
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
-        printout = _printout(family, described, texts, options, worth, _in_hertz(family, texts, options))
+        printout = _printout(family, described, texts, options, NOT_ASKED, _in_hertz(family, texts, options))
         axes = axes_text(motion.axes)
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{family.last_axis}; columns along the axes given."
@@ -472,6 +463,18 @@ def _of_rounding(family: Family, options: dict[str, Any], times: Sequence[float]
 def _kernel(family: Family, options: dict[str, Any]) -> Any:
     """Return the object of kernels that the options say."""
     return family.kernels()(*values_of(family, options, exact=False))
+
+
+def _balls(family: Family, options: dict[str, Any]) -> Any:
+    """Return the certified object that the options say, in the axes and from the attitude that were given."""
+    if family.in_given_axes and (body.given_tensor(options) is not None or options["attitude"] is not None):
+        from atlas.motions.torus.certified_placed import PlacedMotion
+
+        attitude = exactly(options["attitude"] or (0.0, 0.0, 0.0, 1.0), options)
+        omega = exactly(body.start_of(options), options)
+        body.given_attitude(options)  # says what is wrong with it
+        return PlacedMotion(body.exact_tensor(options), body.exact_field(options), omega, attitude)
+    return family.balls()(*values_of(family, options, exact=True))
 
 
 def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:

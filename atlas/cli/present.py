@@ -215,7 +215,6 @@ def _inputs(options: dict[str, Any]) -> str:
     return taken + (f", and, rounded to doubles, {', '.join(rounded)}" if rounded else "")
 
 
-IN_DOUBLES = "Computed in doubles: no digit is proven in axes that are not principal ones, or from another attitude."
 NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 

@@ -79,20 +79,24 @@ class Placement:
 
 
 def turned_by(v: list[Any], *turns: FloatArray) -> list[Any]:
-    """Return the components of vectors turned by rotation matrices (..., 3, 3), the first one first, without rounding.
+    """Return the components of vectors turned by rotations, the first one first, without rounding.
+
+    A rotation is a matrix (..., 3, 3), or a quaternion (4,) of any length.
 
     A matrix of floats is orthogonal but for rounding: it stands for the rotation of its quaternion, whose components
-    are floats of any length. That is the matrix itself where its entries are -1, 0 and 1.
+    are floats. That is the matrix itself where its entries are -1, 0 and 1.
     """
-    turns = tuple(M for M in turns if (np.eye(3) != M).any())
+    turns = tuple(M for M in turns if M.shape == (4,) or (np.eye(3) != M).any())
     if not turns:
         return v
-    if all(np.isin(M, (-1, 0, 1)).all() for M in turns) and not any(isinstance(x, Given) for x in v):
+    if all(M.shape != (4,) and np.isin(M, (-1, 0, 1)).all() for M in turns) and not any(
+        isinstance(x, Given) for x in v
+    ):
         x = np.stack(np.broadcast_arrays(*v), -1)
         for M in turns:
             x = np.matvec(M, x)
         return [plain(x[..., i] + 0.0) for i in range(3)]
-    rows = [x for M in turns for x in np.moveaxis(rows_of_matrix(M), -1, 0)]
+    rows = [x for M in turns for x in np.moveaxis(M if M.shape == (4,) else rows_of_matrix(M), -1, 0)]
     return given(_turned, *rows, *v, unit=slice(len(rows), None), count=3)
 
 

@@ -19,6 +19,9 @@ from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
 from atlas.motions.frames import Placement, turned_by
 
+ROUNDING = 2.0**-50
+"""A matrix of floats may be so far from orthogonal by rounding alone."""
+
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
 
@@ -32,18 +35,20 @@ class Body(NamedTuple):
 
 
 class Start:
-    """Body, field in the laboratory, angular velocity, by components, and attitude (..., 3, 3), as they were given.
+    """Body, field in the laboratory, angular velocity, by components, and attitude, as they were given.
 
     The angular velocity is along the axes of the body, or where `outside` along those of the laboratory.
     """
 
-    def __init__(self, body: Body, B: list[Any], w: list[Any], R: FloatArray, *, outside: bool = False) -> None:
-        self.body, self.B, self.w, self.R, self.outside = body, B, w, R, outside
+    def __init__(self, body: Body, B: list[Any], w: list[Any], attitude: Any, *, outside: bool = False) -> None:
+        self.body, self.B, self.w, self.outside = body, B, w, outside
+        self.R, self._turn = attitude_of(attitude), getattr(attitude, "quaternion", None)
+        R = self.R
         self.shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
 
     def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
         """Return the components of field and angular velocity along axes of the body, its rows, without rounding."""
-        back = np.swapaxes(self.R, -1, -2)
+        back = np.swapaxes(self.R, -1, -2) if self._turn is None else np.array(self._turn) * (-1.0, -1.0, -1.0, 1.0)
         return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
 
     @property
@@ -91,14 +96,14 @@ class Start:
 def start_of(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Start:
     """Return the start of a motion from what `atlas.motion` takes."""
     B, w = columns(field, "The field", "B"), columns(omega, "The angular velocity", "omega")
-    return Start(body_of(inertia), B, w, attitude_of(attitude))
+    return Start(body_of(inertia), B, w, attitude)
 
 
 def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
     """Return a motion of a class in the laboratory, see `Motion.in_laboratory`."""
-    R, B = attitude_of(attitude), columns(field, "The field", "B")
+    B = columns(field, "The field", "B")
     w = [0.0, 0.0, 0.0] if omega is None else columns(omega, "The angular velocity", "omega")
-    start = Start(family._body_of(body), B, w, R, outside=True)  # noqa: SLF001  of the same folder
+    start = Start(family._body_of(body), B, w, attitude, outside=True)  # noqa: SLF001  of the same folder
     found = family._from_start(start, **parameters)  # noqa: SLF001
     if found is None:
         raise DomainError(f"This start gives no {family.__name__}: atlas.motion finds the class that fits.")
@@ -212,5 +217,5 @@ def attitude_of(attitude: Any) -> FloatArray:
     off = abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(initial=0.0)
     if off > ORTHOGONAL or (np.linalg.det(R) < 0).any():
         raise DomainError("The attitude must be a rotation matrix: R^T R = 1 to 1e-9, and det R = 1.")
-    # Newton's step to the nearest orthogonal matrix: what is one already stays
-    return np.asarray(R if off == 0 else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)
+    # Newton's step to the nearest orthogonal matrix; one that is orthogonal to rounding stays as it is
+    return np.asarray(R if off <= ROUNDING else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)

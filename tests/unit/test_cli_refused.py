@@ -144,7 +144,6 @@ CASES = [
     ("motion --inertia 1(1) 2 2.5 --field 1 2 3 --spin 1 --curve", "--curve is proven"),
     ("motion --ratio 1.3 --field 1 2 --omega2 0.3 --times 0:2:3:log", "ends of one sign"),
     ("explore top --ratio 1", "those of atlas motion stand alone"),
-    ("motion --tensor 1 1 1 0 0 0.1 --field 0 0 1 --spin 1 --digits 9", "go with principal axes, and the unit matrix"),
     ("motion --inertia 5 3 6 --field 0 1 2 --mu 1 --omega 1 2 3", "--mu goes with --magnetic only"),
     (f"{TOP} --inertia 1 1 --mass 1", "--mass goes with --heavy or --magnetic"),
     (f"{TOP}", "--inertia is missing"),

@@ -1,0 +1,151 @@
+"""Any motion in given axes, from any attitude, as balls: the attitude and the inertia tensor exactly as they are given.
+
+The principal moments and axes of a tensor T are algebraic numbers. A body near it, T~ = P^T diag(I) P with rational
+moments and a rational rotation P, moves almost alike. Euler's equations with the torque of the charge are
+
+    T Omega' = [T Omega, Omega] + 2 [Omega, g K],    g = (tr T)/2 - T,    R' = R Omega^,    K = R^T B',
+
+with |Omega| <= w by the energy and |K| = b. For two bodies in the same state at t = 0, whose tensors differ by e, with
+moments from I_min to I_max, k = I_max/I_min, Omega differs by x and R by a turn y,
+
+    x + (w + b) y <= n t exp(L |t|),    L = (2 k + 1)(w + b),
+    n = e (I_max w^2 + 2 I_max w b)/I_min^2 + e (w^2 + 5 w b)/I_min.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from atlas.arithmetic.certified_inputs import Real, rational, rationals
+from atlas.arithmetic.certified_rotation import Matrix, identity, product
+from atlas.arithmetic.numbers import dot, quaternion_products, workprec
+from atlas.bodies.formula_integrals import clebsch
+from atlas.bodies.inertia import principal_axes
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.lazy import cached_property
+from atlas.motions.nutation.certified_cayley_klein import matrix
+from atlas.motions.torus.certified import AsymmetricMotion
+
+MAX_BITS = 1 << 13
+"""Bits of moments and axes beyond which a time is too far."""
+
+LEAST_BITS = 256
+"""Bits of moments and axes for short times."""
+
+MARGIN = fmpq((1 << 20) + 1, 1 << 20)
+"""Factor by which bounds on moments hold for both bodies."""
+
+ROOTS = (
+    "Frequencies, period and mode depend on principal moments, which are roots: --inertia I1 I2 I3 has their digits."
+)
+
+
+OF_STATE = ("H", "F", "MK", "energy", "kind")
+OF_MOMENTS = ("frequencies", "mode", "period", "precession_rate", "spin_rate")
+"""Quantities that follow from the tensor, and those that need its principal moments."""
+
+
+def transposed(M: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    """Return the transposed matrix."""
+    return [list(row) for row in zip(*M, strict=True)]
+
+
+def times(M: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Any]:
+    """Return a matrix times a vector."""
+    return [dot(row, v) for row in M]
+
+
+class PlacedMotion:
+    """The motion of a body from the attitude of a quaternion (x, y, z, w), in the field B' of the laboratory.
+
+    The body is given by its principal moments (3,), or by an inertia tensor, six numbers I11 I22 I33 I12 I13 I23.
+    """
+
+    def __init__(self, inertia: Any, field: Any, omega: Any, attitude: Any = (0, 0, 0, 1)) -> None:
+        x, y, z, w = rationals(attitude, "the attitude", 4)
+        self.attitude: Matrix = matrix((w, x, y, z))
+        self.omega = rationals(omega, "omega", 3)
+        self.field = tuple(times(transposed(self.attitude), rationals(field, "field (B1, B2, B3)", 3)))
+        if len(inertia) == len("123"):
+            a, b, c = rationals(inertia, "inertia (I1, I2, I3)", 3)
+            d = e = f = fmpq(0)
+        else:
+            a, b, c, d, e, f = rationals(inertia, "the inertia tensor", 6)
+        self.tensor = [[a, d, e], [d, b, f], [e, f, c]]
+        self.is_diagonal = d == e == f == 0
+        self._bodies: dict[int, tuple[AsymmetricMotion, Matrix, fmpq]] = {}
+
+    def _body(self, bits: int) -> tuple[AsymmetricMotion, Matrix, fmpq]:
+        """Return the motion of a body near it, its axes as rows, and a bound on the difference of the tensors."""
+        if bits not in self._bodies:
+            axes: Matrix = identity()
+            moments = [self.tensor[i][i] for i in range(3)]
+            if not self.is_diagonal:
+                with workprec(bits):
+                    moments, rows = principal_axes(self.tensor)
+                    products = quaternion_products(rows)
+                    x, y, z, w = max(products, key=lambda row: max(abs(float(q.mid())) for q in row))
+                    axes = matrix([q.mid().fmpq() for q in (w, x, y, z)])
+                    moments = [I if isinstance(I, fmpq) else I.mid().fmpq() for I in moments]
+            own = AsymmetricMotion(moments, times(axes, self.field), times(axes, self.omega))
+            near = product(transposed(axes), [[I * x for x in row] for I, row in zip(moments, axes, strict=True)])
+            apart = sum((abs(a - b) for p, q in zip(near, self.tensor, strict=True) for a, b in zip(p, q, strict=True)),
+                        fmpq(0))  # fmt: skip
+            self._bodies[bits] = own, axes, apart
+        return self._bodies[bits]
+
+    @cached_property
+    def _sizes(self) -> tuple[arb, arb, arb, arb]:
+        """Bounds, for both bodies, on the moments from below and above, and on the lengths of Omega and K."""
+        own, _, apart = self._body(LEAST_BITS)
+        least, most = min(own.inertia) / MARGIN, max(own.inertia) * MARGIN
+        if apart > (MARGIN - 1) / 4 * least:
+            raise NotCertifiedError("not certified: the principal moments are of too different sizes.")
+        speed = arb((dot(self.omega, times(self.tensor, self.omega)) + apart * dot(self.omega, self.omega)) / least)
+        return arb(least), arb(most), speed.sqrt(), arb(dot(self.field, self.field)).sqrt()
+
+    def _moved(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
+        """Return a motion near it up to a time, its axes, and bounds on the differences of Omega and of R."""
+        if self.is_diagonal:
+            return *self._body(0)[:2], arb(0), arb(0)
+        least, most, w, b = self._sizes
+        size, rate = arb(abs(rational(t, "the time"))), (2 * most / least + 1) * (w + b)
+        growth, bits = float((rate * size).upper()) / 0.69, LEAST_BITS
+        while bits < ctx.prec + growth + 64:
+            bits *= 2
+        if bits > MAX_BITS:
+            raise NotCertifiedError(
+                f"not certified: at t = {float(size):g} the difference of two bodies near the tensor may have grown "
+                "beyond what is computed; its principal moments, by --inertia I1 I2 I3, have any times."
+            )
+        own, axes, apart = self._body(bits)
+        pull = apart * (most * w * (w + 2 * b) / least**2 + w * (w + 5 * b) / least)
+        apart_by = pull * size * (rate * size).exp()
+        return own, axes, arb(0, apart_by.upper()), arb(0, (apart_by / (w + b)).upper()) if w + b > 0 else arb(0)
+
+    def rotation(self, t: Any) -> Matrix:
+        """Return R(t) as rows."""
+        own, axes, _, error = self._moved(t)
+        R = product(self.attitude, product(transposed(axes), product(own.rotation(t), axes)))
+        return R if self.is_diagonal or rational(t, "the time") == 0 else [[x + error for x in row] for row in R]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) along the given axes of the body."""
+        own, axes, error, _ = self._moved(t)
+        if rational(t, "the time") == 0:
+            return list(self.omega)
+        Omega = times(transposed(axes), own.angular_velocity(t))
+        return Omega if self.is_diagonal else [x + error for x in Omega]
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a quantity, those of the principal moments where these are given."""
+        if name in OF_STATE and not self.is_diagonal:
+            J = [x for row in self.tensor for x in row]
+            H, F, c, *_ = clebsch(*J, *self.omega, *self.field)
+            return dict(zip(OF_STATE, (H / 2, F, c, H / 2 - c, "given by a tensor"), strict=True))[name]
+        if name not in (*OF_STATE, *OF_MOMENTS):
+            raise AttributeError(name)
+        if not self.is_diagonal:
+            raise DomainError(ROOTS)
+        return getattr(self._body(0)[0], name)
