@@ -19,7 +19,15 @@ class NotCertifiedError(AtlasError):
     """A value for which no enclosure was found; nothing is guessed in its place."""
 
 
-class RelativisticWarning(UserWarning):
+class AtlasWarning(UserWarning):
+    """What does not stop a calculation, but may not be what was meant."""
+
+
+class NearlySymmetricWarning(AtlasWarning):
+    """An inertia tensor two of whose principal moments differ by rounding alone: no symmetric body, and slow."""
+
+
+class RelativisticWarning(AtlasWarning):
     """A speed above a tenth of that of light, in known units, where formulas are non-relativistic."""
 
 

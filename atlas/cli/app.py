@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from atlas import __version__
-from atlas.errors import AtlasError, RelativisticWarning
+from atlas.errors import AtlasError, AtlasWarning
 from atlas.motions.register import FAMILIES
 
 LONG = 400
@@ -163,7 +163,7 @@ def _reader_gone() -> int:
 
 def show_warning(otherwise: Callable[..., None], message: Any, category: type[Warning], *where: Any) -> None:
     """Print a warning of the atlas as one line, any other as Python does."""
-    if issubclass(category, RelativisticWarning):
+    if issubclass(category, AtlasWarning):
         complain(str(message), 0)
     else:
         otherwise(message, category, *where)

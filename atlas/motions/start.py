@@ -1,6 +1,7 @@
 """The start of a motion: body, field, angular velocity and attitude, as they were given."""
 
 import reprlib
+import warnings
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -15,12 +16,15 @@ from atlas.arithmetic.numbers import as_rational, length, nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import SymmetricBody, moments
 from atlas.bodies.inertia import inertia_tensor, principal
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning
 from atlas.lazy import cached_property
 from atlas.motions.frames import Placement, turned_by
 
 ROUNDING = 2.0**-50
 """A matrix of floats may be so far from orthogonal by rounding alone."""
+
+NEARLY = 2.0**-40
+"""Difference of two moments, beside the largest, that may come from rounding of a tensor."""
 
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
@@ -160,7 +164,24 @@ def body_of(inertia: Any) -> Body:
     first, second, largest = np.moveaxis(np.sort(I), -1, 0)
     # the rounding of a tensor's elements may put a plane body beyond all bodies
     np.put_along_axis(I, I.argmax(axis=-1)[..., None], np.minimum(largest, first + second)[..., None], axis=-1)
+    for own, rows in zip(I.reshape(-1, 3), axes.reshape(-1, 3, 3), strict=True):
+        _hint_at_symmetry(own, rows)
     return Body(I, axes, inertia_matrix)
+
+
+def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
+    """Warn of ascending principal moments of a tensor two of which are nearly equal: nothing joins them."""
+    gaps = np.diff(I)
+    i, part = int(gaps.argmin()), float(gaps.min() / I[2])
+    if 0 < part <= NEARLY:
+        third = (0, 2)[1 - i]
+        warnings.warn(
+            f"Two principal moments of the tensor differ by {part:.1g} of the largest: the body has three, and is "
+            "slow to compute and not for long times. If two are meant to be equal, give atlas.SymmetricBody("
+            f"{I[1]:.16g}, {I[third]:.16g}, axes), third axis ({', '.join(f'{x:.10g}' for x in axes[third])}).",
+            NearlySymmetricWarning,
+            stacklevel=5,
+        )
 
 
 def of_moments(moments: Any, axes: FloatArray) -> Body:

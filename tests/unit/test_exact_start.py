@@ -15,6 +15,7 @@ import atlas
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.numbers import nearest
 from atlas.cli.app import atlas as command
+from atlas.errors import NearlySymmetricWarning, NotCertifiedError
 from atlas.motions.frames import turned_by
 from atlas.motions.nutation.certified_general import GeneralMotion as Balls
 
@@ -216,3 +217,18 @@ def test_the_series_give_a_ball_its_two_turns() -> None:
     B, w, t = (0.3, -1.0, 2.0), (0.3, 0.7, 0.2), 3.0
     both = Rotation.from_rotvec(-t * np.array(B)) * Rotation.from_rotvec(t * (np.array(B) + w))
     assert np.abs(taylor(1.0, B, w, t) - both.as_matrix()[2]).max() <= 16 * EPS
+
+
+def test_a_symmetric_tensor_turned_in_floats_is_told_when_it_is_made() -> None:
+    """Its moments are three, of two that differ by rounding: the warning names the symmetric one, none is searched."""
+    P = Rotation.random(random_state=2).as_matrix()
+    tensor = P.T @ np.diag([1.0, 1.0, 1.5]) @ P
+    with pytest.warns(NearlySymmetricWarning, match=r"atlas\.SymmetricBody\(0\.99.*third axis") as told:
+        m = atlas.motion((tensor + tensor.T) / 2, (0.3, 0.1, 1.0), (0.2, 0.3, 1.0))
+    assert len(told) == 1
+    assert m.family == "asymmetric"
+    same = atlas.motion(atlas.SymmetricBody(1.0, 1.5, P), (0.3, 0.1, 1.0), (0.2, 0.3, 1.0))
+    assert np.abs(m.rotation(3.0) - same.rotation(3.0)).max() < 1e-14
+    assert "differ by" in m.agreement
+    with pytest.raises(NotCertifiedError, match=r"up to \|t\| = 128\. .*SymmetricBody"):
+        m.rotation(1e4)

@@ -20,6 +20,7 @@ from atlas.arithmetic.certified_rotation import AXES, identity, product, turn
 from atlas.arithmetic.numbers import dot, workprec
 from atlas.arithmetic.numbers import nearest as nearest_float
 from atlas.errors import DomainError, NotCertifiedError
+from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import matrix
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop, check_moments
 from atlas.motions.nutation.certified_general import Symmetric
@@ -38,6 +39,8 @@ MAX_FLOW_TIME = 128
 
 NEARLY = fmpq(1, 1 << 40)
 """Difference of two moments, beside the largest, that may come from rounding."""
+
+REMEDY = " A body for which they are equal is atlas.SymmetricBody(I2, I3, axes), with any times."
 
 STATE_CACHE_SIZE = 256
 """States that are kept, for what else is asked at the same times."""
@@ -75,7 +78,7 @@ class OnTorus:
     @property
     def frequencies(self) -> list[arb]:
         """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
-        periods = self.torus.periods(ctx.prec + GUARD_BITS)
+        periods = self.periods(ctx.prec + GUARD_BITS)
         with workprec(ctx.prec + GUARD_BITS):
             return [x * self.rate for x in frequencies([p.least() for p in periods], self.b)]
 
@@ -108,14 +111,15 @@ class OnTorus:
             turn = -t * self.b
         if abs(t) <= MAX_DIRECT_TIME:
             return self.torus.flow.go(t, fmpq(0), bits), turn
-        if not self.is_regular:
-            return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
+        together = "" if self.is_regular else "the motion is one where two periods of its torus fall together"
+        if why := together or self.too_near:
+            return self._directly(t, why), turn
         if abs(t) <= MAX_FLOW_TIME and self.torus.spin is not None and self.torus.pushed is None:
             return self._directly(t, "the motion is next to an unstable spin"), turn
         if abs(t) <= MAX_FLOW_TIME and self.torus.is_long:
             return self._directly(t, "a period of its torus is long"), turn
         try:
-            first, second = self.torus.periods(ctx.prec + more)
+            first, second = self.periods(ctx.prec + more)
         except NotCertifiedError as reason:
             return self._directly(t, str(reason).removeprefix("not certified: ").removesuffix(".")), turn
         with workprec(bits + more):
@@ -127,24 +131,27 @@ class OnTorus:
             arrival = self._moved(arrival, H - left[0], F - left[1])
             return arrival, n * first.angle + m * second.angle + turn
 
-    @property
-    def _remedy(self) -> str:
-        """Sentence that names the symmetric body where two moments are nearly equal."""
+    @cached_property
+    def too_near(self) -> str:
+        """Why periods are not looked for: two moments differ by rounding alone, and they are too long; else nothing."""
         least, middle, most = sorted(self.moments)
         near = min(middle - least, most - middle) / most
         if near > NEARLY:
             return ""
-        return (
-            f" Two moments differ by {nearest_float(near):.1g} of the largest: a body for which they are equal is "
-            "atlas.SymmetricBody(I2, I3, axes), with any times."
-        )
+        return f"two moments differ by {nearest_float(near):.1g} of the largest, so that its periods are too long"
+
+    def periods(self, bits: int) -> Any:
+        """Return the two periods of the torus. Raises NotCertifiedError where none are proved, or looked for."""
+        if self.too_near:
+            raise NotCertifiedError(f"not certified: {self.too_near}.{REMEDY}")
+        return self.torus.periods(bits)
 
     def _directly(self, t: fmpq, why: str) -> Arrival:
         """Go the whole way, if it is not too long."""
         if abs(t) > MAX_FLOW_TIME:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
-                f"{nearest_float(MAX_FLOW_TIME / self.rate):.6g}.{self._remedy}"
+                f"{nearest_float(MAX_FLOW_TIME / self.rate):.6g}.{REMEDY * bool(self.too_near)}"
             )
         bits = ctx.prec + 2 * GUARD_BITS
         while True:
