@@ -212,7 +212,7 @@ def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]
     """Write what the motion has at its times, and show where."""
     if options["digits"] is not None or options["decimal"] or options["as_json"] or uncertain(options):
         raise click.UsageError("--out is a table in doubles: it goes without --digits, --decimal, --json and ±.")
-    motion = motion_in_given_axes(options) if family.name == "asymmetric" else None
+    motion = motion_in_given_axes(options) if family.in_given_axes else None
     write_table(motion or _kernel(family, options), times, options["out"], _units(family, options))
     click.echo(str(options["out"]))
 
