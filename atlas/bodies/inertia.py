@@ -90,43 +90,13 @@ def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
     from flint import fmpq
 
     from atlas.arithmetic.numbers import nearest, workprec
+    from atlas.bodies.certified_inertia import principal_axes
 
     if not (matrix * (1 - np.eye(3))).any():
         return np.diagonal(matrix).copy(), np.eye(3)
     with workprec(PRECISION):
         values, axes = principal_axes([[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()])
         return np.array([*map(nearest, values)]), np.array([[nearest(x) for x in axis] for axis in axes])
-
-
-def principal_axes(matrix: Any) -> tuple[list[Any], list[list[Any]]]:
-    """Return principal values of a symmetric matrix of rationals, ascending, and the rows of a rotation, as balls."""
-    from flint import arb, fmpq_mat, fmpq_poly
-
-    from atlas.arithmetic.numbers import cross, dot
-
-    def unit(v: Any) -> list[arb]:
-        return [x / dot(v, v).sqrt() for x in v]
-
-    (a, d, e), (d2, b, f), (e2, f2, c) = matrix
-    d, e, f = (d + d2) / 2, (e + e2) / 2, (f + f2) / 2
-    of_pairs = a * b + a * c + b * c - d * d - e * e - f * f
-    determinant = fmpq_mat([[a, d, e], [d, b, f], [e, f, c]]).det()
-    roots = fmpq_poly([-determinant, of_pairs, -(a + b + c), 1]).complex_roots()
-    values = sorted(((x.real, n) for x, n in roots), key=lambda root: float(root[0].mid()))
-    simple = list[list[arb]]()
-    for value in (value for value, count in values if count == 1):
-        rows = [[a - value, arb(d), arb(e)], [arb(d), b - value, arb(f)], [arb(e), arb(f), c - value]]
-        axis = unit(max((cross(rows[i], rows[i - 1]) for i in range(3)), key=lambda v: float(dot(v, v).mid())))
-        simple.append([-x for x in axis] if max(axis, key=lambda x: abs(float(x.mid()))) < 0 else axis)
-    moments = [x for x, n in values for _ in range(n)]
-    if len(simple) == 3:
-        first, second, third = simple
-        return moments, [first, second, third if dot(cross(first, second), third) > 0 else [-x for x in third]]
-    (axis,) = simple
-    least = min(range(3), key=lambda i: abs(float(axis[i].mid())))
-    second = unit(cross(axis, [arb(i == least) for i in range(3)]))
-    frame = [list(cross(second, axis)), second, axis]
-    return moments, frame if values[0][1] == 2 else [axis, *frame[:2]]
 
 
 def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:

@@ -20,8 +20,8 @@ from flint import arb, ctx, fmpq
 from atlas.arithmetic.certified_inputs import Real, rational, rationals
 from atlas.arithmetic.certified_rotation import Matrix, identity, product
 from atlas.arithmetic.numbers import dot, quaternion_products, workprec
+from atlas.bodies.certified_inertia import principal_axes
 from atlas.bodies.formula_integrals import clebsch
-from atlas.bodies.inertia import principal_axes
 from atlas.errors import DomainError, NotCertifiedError
 from atlas.lazy import cached_property
 from atlas.motions.nutation.certified_cayley_klein import matrix
