@@ -54,7 +54,7 @@ class Window:
 
 def components(field: Any) -> tuple[float, float]:
     """Return B2 and B3 of B', of which one at least must not vanish."""
-    B2, B3 = (number(component, name) for component, name in zip(parts(field, NAMES, "The field"), NAMES, strict=True))
+    B2, B3 = map(number, parts(field, NAMES, "The field"), NAMES)
     if B2 == 0 and B3 == 0:
         raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
     return B2, B3

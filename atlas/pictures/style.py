@@ -12,6 +12,7 @@ and tubes are in printer's points.
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from types import MappingProxyType
 
 from atlas.errors import AtlasError, nearest
@@ -172,11 +173,13 @@ def _luminance(colour: str) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
+@cache
 def is_dark(ground: str) -> bool:
     """Tell whether white is read better on a colour than black."""
     return contrast(WHITE, ground) > contrast("#000000", ground)
 
 
+@cache
 def readable(colour: str, ground: str = WHITE) -> str:
     """Return the colour of a text on a ground: itself, darker or lighter if its contrast needs that; for white ink."""
     if colour == WHITE:
@@ -187,6 +190,7 @@ def readable(colour: str, ground: str = WHITE) -> str:
     return colour
 
 
+@cache
 def style(role: str) -> Style:
     """Return the look of a role, or say which roles there are."""
     if role in STYLES:
