@@ -35,7 +35,7 @@ def scene(
         raise DomainError(f"figure bifurcation takes one to four values of the momentum, not {momentum}.")
     maps = [Bifurcation(inertia, b, ratio * b) for ratio in momentum]
     panels = tuple(
-        panel(rf"({letter}) $p={tex(ratio.c / ratio.b)}$", ratio, reach, words=letter == "a")
+        panel(rf"({letter}) $p={tex(ratio.c / ratio.b)}$", ratio, reach)
         for letter, ratio in zip("abcd", maps, strict=False)
     )
     there = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
@@ -67,8 +67,8 @@ def scene(
     )
 
 
-def panel(name: str, bifurcation: Bifurcation, reach: float, *, words: bool) -> Plane:
-    """Return the plane of one c, with names at its curves or not; upwards stands H less F over twice the middle moment.
+def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
+    """Return the plane of one c, with names at its curves; upwards stands H less F over twice the middle moment.
 
     Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
     oval and somewhere not positive on the bounded one, so that the stretches with s > 0 are the border, for p = 0 the
@@ -102,10 +102,9 @@ def panel(name: str, bifurcation: Bifurcation, reach: float, *, words: bool) -> 
     edge = outline([(oval, points) for oval, _, _, outer, points in lines if outer], x_limits[1])
     y_limits = room(edge[:, 1], 0.05)
     layers: list[Layer] = [Region(edge, "region")]
-    if words:
-        place = np.array([x_limits[0] + 0.4 * (x_limits[1] - x_limits[0]), y_limits[1]])
-        layers.append(Label(place, "no motion", "note", (0.0, -3.0)))
-    named = {(text if stable else "unstable"): k for k, (_, text, stable, _, _) in enumerate(lines)} if words else {}
+    place = np.array([x_limits[0] + 0.4 * (x_limits[1] - x_limits[0]), y_limits[1]])
+    layers.append(Label(place, "no motion", "note", (0.0, -3.0)))
+    named = {(text if stable else "unstable"): k for k, (_, text, stable, _, _) in enumerate(lines)}
     for k, (oval, text, stable, _, points) in enumerate(lines):
         role = {"unbounded": "main", "bounded": "third"}[oval] if stable else "unstable_line"
         word = text if stable else "unstable"

@@ -15,8 +15,8 @@ from atlas.pictures.captions import plain, quotient, tex, tex_equals
 def scene(
     *,
     ratio: Any = 1.5,
-    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
-    periods: float = 2.0,
+    omega: tuple[float, float, float] = (0.3, 0.7, 1.0),
+    periods: float = 4.0,
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:

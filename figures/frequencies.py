@@ -23,8 +23,8 @@ TOP = 4.0
 MAX_ORDER = 8
 BESIDE = 4.4
 """Millimetres from a dot to its p/q."""
-APART = 3.0
-"""Millimetres between dots that have their p/q both."""
+APART, ROOM = 3.0, 6.0
+"""Millimetres between dots that have their p/q both, and from a pair in (a) with a p/q to the next."""
 POLE_TOLERANCE = 1e-9
 """Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""
 
@@ -130,7 +130,14 @@ def frequencies(
     layers += [Curve(piece, "main", "" if order else r"$\phi$") for order, piece in enumerate(pieces)]
     side = float(np.copysign(1.0, B2))
     marks = [m for m in motions.values() if ends[0] < m.omega2 < ends[1] and abs(m.phi) < top]
-    layers += [Points(np.array([[m.omega2, m.phi], [m.omega2, m.k]]), "point") for m in marks]
+    pairs = [np.array([[m.omega2, m.phi], [m.omega2, m.k]]) for m in marks]
+    layers += [Curve(pair, "guide") for pair in pairs]
+    layers += [Points(pair, "point") for pair in pairs]
+    scale = (WIDTH - MARGIN) / (ends[1] - ends[0])  # millimetres
+    for r, m in motions.items():
+        others = [other.omega2 for other in motions.values() if other is not m]
+        if m in marks and scale * min((abs(m.omega2 - other) for other in others), default=np.inf) > ROOM:
+            layers.append(Label(np.array([m.omega2, m.phi]), f"${r}$", "note", (6.0 * side, 6.0)))
     layers += [
         Points(np.array([[0.0, 0.0]]), "rest"),
         Points(np.array([[-2 * B2, 0.0]]), "special"),

@@ -4,11 +4,13 @@ The body precesses about the field with the frequency k, (79), while it turns ab
 phi, (72): the body at the start with the way of that axis, (84); Omega(t), (73); and m(t), (88).
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from atlas.arithmetic.inputs import positive
 from atlas.motions.elementary.kernel import ElementaryMotion
-from atlas.pictures import Arrow, Curve, Layer, Plane, Points, Scene, Space
+from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space
 from atlas.pictures.any_motion import course
 from atlas.pictures.bodies import drawn_body
 from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting
@@ -42,7 +44,7 @@ def scene(
     free = not any(motion.field)
     axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"
     along = "" if free else r"; dashed: its projection on the field"
-    turning = rf"The body at the start; its axis in {SPOKES} steps."
+    turning = rf"The body at the start; its axis in {SPOKES} steps, half at $t_1$."
     seen = rf"The body's axis goes evenly round {axis}." if motion.k else "The body's axis does not move."
     return Scene(
         caption=(
@@ -68,8 +70,8 @@ def scene(
         ),
         panels=(
             trace(motion),
-            velocity(motion, stop, unit),
-            momentum(motion, slow, unit),
+            marked(velocity(motion, stop, unit), motion),
+            marked(momentum(motion, slow, unit), motion),
         ),
         columns=COLUMNS,
         named={"dashed": "reference"} if along else {},
@@ -88,12 +90,23 @@ def trace(motion: ElementaryMotion) -> Space:
         tips = motion.third_axis(np.arange(SPOKES) * period / SPOKES)
         layers += [Curve(np.stack([BODY * tip, tip]), "guide") for tip in tips]
         layers.append(Curve(curve(motion.third_axis, 0.0, period, size), "trace"))
+        layers.append(Points(motion.third_axis(np.array([period / 2])), "point"))
+        layers.append(Label(motion.third_axis(period / 2), "$t_1$", "label", (6.0, 0.0)))
     if axis.any():
         name, role = (r"$\mathbf{m}$", "momentum") if free else (r"$\mathbf{B}$", "field")
         layers.append(Arrow(O, 1.5 * axis / np.linalg.norm(axis), role, name))
     layers.append(Arrow(O, 1.25 * E3, "body_axis", r"$\mathbf{R}_3(0)$"))
     layers.append(Points(E3[None], "start"))
     return Space(tuple(layers), title="(a) body and axis")
+
+
+def marked(panel: Plane, motion: ElementaryMotion) -> Plane:
+    """Return a panel over the time with an upright line at t1, half a precession; without one as it is."""
+    time = np.pi / abs(motion.k) if motion.k else np.inf
+    if panel.x_limits is None or panel.y_limits is None or time > panel.x_limits[1]:
+        return panel
+    line = np.column_stack([np.full(2, time), panel.y_limits])
+    return replace(panel, layers=(*panel.layers, Curve(line, "limit"), Label(line[1], "$t_1$", "note", (5.0, -6.0))))
 
 
 def velocity(motion: ElementaryMotion, stop: float, unit: str) -> Plane:

@@ -22,6 +22,8 @@ WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
 RANGES = {"decay": (0.1, 30.0)}
 """Beyond, what a rounding of the start has grown to would be seen: the motion would leave again."""
 
+ROLES = ("main", "second")
+
 
 def scene(
     *,
@@ -46,8 +48,8 @@ def scene(
         caption=(
             r"The axis leaves the circle of an unstable precession, makes one excursion, and comes back. "
             rf"$\omega_2={tex(omega2)}$ of "
-            rf"{tex_setting(ratio, field)}. (a) The trace of the axis in one of the two, $\mathbf{{B}}$ "
-            r"upright; dashed: the circle of the precession. (b) $\Omega_3$ of both, with "
+            rf"{tex_setting(ratio, field)}. (a) The trace of the axis in each of the two, $\mathbf{{B}}$ "
+            r"upright; dotted: the circle of the precession. (b) Their $\Omega_3$, with "
             rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$."
         ),
         alt=(
@@ -56,11 +58,11 @@ def scene(
             "pulse upwards and one downwards from the same level."
         ),
         panels=(
-            sphere(motions[0], field, last, (azimuth, elevation)),
+            sphere(motions, field, last, (azimuth, elevation)),
             course(motions, float(Hyperbola(ratio, field).omega3(omega2)), last, unit),
         ),
         columns=2,
-        named={"dashed": "reference"},
+        named={"dotted": "limit"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -85,25 +87,25 @@ def excursions(ratio: Any, field: tuple[float, float], omega2: float) -> list[Ge
     return curves
 
 
-def sphere(motion: GeneralMotion, field: tuple[float, float], last: float, view: tuple[float, float]) -> Space:
-    """Panel (a): the trace of the axis on the sphere, with the field upright."""
-    fine = tolerance(1.4)
-
-    def axis(t: FloatArray) -> FloatArray:
-        return axis_trace.turned(motion.third_axis(t), motion.field)
-
-    trace, r = curve(axis, -last, last, fine, pieces=64), field[1] / float(np.hypot(*field))
+def sphere(motions: list[GeneralMotion], field: tuple[float, float], last: float, view: tuple[float, float]) -> Space:
+    """Panel (a): the traces of the axis on the sphere in the looks of panel (b), with the field upright."""
+    fine, r = tolerance(1.4), field[1] / float(np.hypot(*field))
     ring = solids.circle(r * E3, E3, float(np.sqrt(1.0 - r * r)), fine)
     aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
     layers: list[Layer] = [
         solids.sphere(O, 1.0, fine),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
-        Curve(ring, "reference"),
-        Label(ring[int(np.argmax(ring @ aside))], "precession", "reference", (6.0, 0.0)),
-        Curve(trace, "trace"),
-        Points(axis(np.zeros(1)), "start"),
-        Label(axis(np.zeros(1))[0], "$t=0$", "label", (0.0, 8.0)),
+        Curve(ring, "limit"),
+        Label(ring[int(np.argmax(ring @ aside))], "precession", "note", (6.0, 0.0)),
     ]
+    for motion, role in zip(motions, ROLES, strict=True):
+
+        def axis(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
+            return axis_trace.turned(motion.third_axis(t), motion.field)
+
+        place = axis(np.zeros(1))
+        layers += [Curve(curve(axis, -last, last, fine, pieces=64), role), Points(place, "start")]
+        layers.append(Label(place[0], "$t=0$", "label", (0.0, 8.0)))
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
 
 
@@ -111,14 +113,13 @@ def course(motions: list[GeneralMotion], rest: float, last: float, unit: str) ->
     """Panel (b): Omega3 of both motions over time; at rest it is that of the precession."""
     view = ((-last, last), room([rest, *(motion.omega[2] for motion in motions)], 0.1))
     layers: list[Layer] = [Curve(np.array([[-last, rest], [last, rest]]), "unstable")]
-    for motion, role in zip(motions, ("main", "second"), strict=False):
+    for motion, role in zip(motions, ROLES, strict=True):
 
         def point(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
             return np.stack([t, motion.angular_velocity(t)[:, 2]], axis=-1)
 
         line = flat(point, -last, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48)
-        shown = ", shown in (a)" if motion is motions[0] else ""
-        name = ("upper" if motion.omega[2] > rest else "lower") + shown
+        name = "upper" if motion.omega[2] > rest else "lower"
         layers += [Curve(line, role), Label(line[[len(line) // 2]], name, role, (30.0, 0.0))]
     layers.append(Label(np.array([0.85 * last, rest]), "precession", "unstable", (0.0, 5.0)))
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title=r"(b) $\Omega_3$")

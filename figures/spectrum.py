@@ -35,7 +35,7 @@ def scene(
     axis, spin = motion.spectrum("axis", least), motion.spectrum("angular_velocity", least)
     rates = dict(zip((*axis.names, *spin.names), (*axis.rates, *spin.rates), strict=True))
     top = 1.2 * float(max(axis.frequencies.max(initial=0.0), spin.frequencies.max(initial=0.0))) or 1.0
-    symbols = {"nutation": "M", "precession": "p", "spin": "s"}
+    symbols = {"nutation": r"\omega_T", "precession": "k", "spin": r"\phi"}
     told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
         caption=(
@@ -57,8 +57,8 @@ def scene(
             )
         ),
         panels=(
-            stems(r"(a) the axis, $(m,l)$ at $mM+lp$", axis, least, names, top, ""),
-            stems(r"(b) $\boldsymbol{\Omega}$, $(m,j)$ at $mM+js$", spin, least, names, top, unit),
+            stems(r"(a) the axis, $(m,l)$ at $m\omega_T+lk$", axis, least, names, top, ""),
+            stems(r"(b) $\boldsymbol{\Omega}$, $(m,j)$ at $m\omega_T+j\phi$", spin, least, names, top, unit),
         ),
         size=(WIDTH, HEIGHT),
     )

@@ -77,7 +77,9 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
             Curve(np.stack([line[0], place - gap]), "component"),
             Curve(np.stack([place + gap, line[1]]), "component"),
         ]
-        layers.append(Label(place, f"${tex(nu)}$", "note"))
+        layers.append(
+            Label(place, f"$\\nu_0={tex(nu)}$" if nu == sorted(lines)[len(lines) // 2] else f"${tex(nu)}$", "note")
+        )
     layers.append(Curve(envelope(M3, reach), "main"))
     if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
         layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))

@@ -187,7 +187,7 @@ def marked(named: Sequence[Place], field: Any) -> list[Layer]:
         *(Points(np.array([place.at]), place.role) for place in named),
         Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
         *(
-            Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
-            for place, turn in zip(named, (1, -1, -1), strict=False)
+            Label(np.array(place.at), place.text, place.role, (x * s2, y * s3))
+            for place, (x, y) in zip(named, ((-5, 5), (-5, 4), (0, -8)), strict=False)
         ),
     ]

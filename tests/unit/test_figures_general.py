@@ -263,11 +263,21 @@ def test_a_push_of_the_disk_grows_with_the_rate_of_the_caption(ratio: float, B3:
     assert abs(slope - rate) <= 1e-3 * rate
 
 
+def test_one_moment_is_marked_in_all_panels_of_a_motion() -> None:
+    """The dot on the way of the axis is where the axis is at the time of the upright lines."""
+    body, *courses = panels("motion")
+    times = {float(layers(course, Curve, "limit")[0].points[0, 0]) for course in courses}
+    assert len(times) == 1
+    (dot,) = layers(body, Points, "point")
+    assert np.allclose(dot.points[0], ElementaryMotion(1.5, (1.0, 2.0), 0.7).third_axis(times.pop()), atol=1e-14)
+
+
 def test_the_separatrix_follows_the_equations_of_motion() -> None:
     """The drawn Omega3 is that of an integration from its turning point, within 1e-7; the trace is on the sphere."""
     sphere, course = panels("separatrix")
-    (trace,) = layers(sphere, Curve, "trace")
-    assert np.abs(np.linalg.norm(trace.points, axis=1) - 1).max() <= 8 * EPS
+    (trace,), (other,) = layers(sphere, Curve, "main"), layers(sphere, Curve, "second")
+    for one in (trace, other):
+        assert np.abs(np.linalg.norm(one.points, axis=1) - 1).max() <= 8 * EPS
     both = sys.modules["atlas_figures.separatrix"].excursions(*LONG)
     for motion, role in zip(both, ("main", "second"), strict=True):
         (line,) = layers(course, Curve, role)
