@@ -17,22 +17,35 @@ from atlas.bodies.symmetric_top import moments_of_one
 
 @dataclass(frozen=True)
 class Clebsch:
-    """What a charged body of any inertia tensor J conserves; each a float, or an array if the state was one.
+    """Conserved quantities of a charged body of any inertia tensor J, as `atlas.clebsch` returns them.
 
-    M = J (Omega + K) is the canonical momentum. H, F and both Casimirs are independent if the three principal moments
-    differ; a symmetric body conserves M3 too, and F follows from it, theorem-clebsch-symmetric.
+    Each is a float, or an array for an array of states. With the field K in the body, M = J (Omega + K) is the
+    canonical momentum.
+
+    Attributes
+    ----------
+    H : float or ndarray
+        (M, J^-1 M)/2 + (K, J K)/2, theorem-lie-poisson, in inertia/time^2.
+    F : float or ndarray
+        Clebsch's integral M^2 - det J (K, J^-1 K), theorem-clebsch, in (inertia/time)^2.
+    MK : float or ndarray
+        Casimir (M, K): |B'| times the canonical momentum along B, in inertia/time^2.
+    K2 : float or ndarray
+        Casimir K^2 = B'^2, (37), in 1/time^2.
+    energy : float or ndarray
+        Kinetic energy (Omega, J Omega)/2 = H - (M, K), theorem-kinetic-energy, in inertia/time^2.
+
+    Notes
+    -----
+    The four integrals are independent if the three principal moments differ. A symmetric body conserves M3 too, and F
+    follows from M3, theorem-clebsch-symmetric.
     """
 
     H: FloatOrArray
-    """H = (M, J^-1 M)/2 + (K, J K)/2, theorem-lie-poisson, in the unit of inertia/time^2."""
     F: FloatOrArray
-    """Clebsch's F = M^2 - det J (K, J^-1 K), theorem-clebsch, in (unit of inertia/time)^2."""
     MK: FloatOrArray
-    """The Casimir (M, K), |B'| times the canonical momentum along B, in the unit of inertia/time^2."""
     K2: FloatOrArray
-    """The Casimir K^2 = B'^2, (37), in 1/time^2."""
     energy: FloatOrArray
-    """Kinetic energy (Omega, J Omega)/2 = H - (M, K), theorem-kinetic-energy, in the unit of inertia/time^2."""
 
 
 def clebsch(inertia: BodyLike, Omega: RealArrayLike, K: RealArrayLike) -> Clebsch:

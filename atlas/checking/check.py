@@ -29,13 +29,38 @@ CheckedMotion: TypeAlias = AnyMotion | TopMotion
 
 @dataclass(frozen=True)
 class Check:
-    """The grades of a trajectory; `str` is what `atlas check` prints.
+    """Errors and correct digits of a trajectory, as `atlas.check` returns them; `str` is the text that `atlas check` prints.
 
-    The columns have the names that they had in the input. ``step`` is the step of the integrator, if that is said,
-    else the mean distance of the times; ``end`` is the last of them. ``errors`` holds for R, Omega and quaternion the
-    largest error of each ``rows_a_point`` rows that follow one another, ``times`` the time of the first of them: so few
-    that a curve can be drawn through them. ``conventions`` are sentences on conventions in which columns that
-    fail would be right. ``notes`` are sentences on columns and rows that were left out.
+    Attributes
+    ----------
+    file, case : str
+        Name of the trajectory, and type of the reference motion.
+    parameters : mapping of str to object
+        Parameters of the reference motion.
+    frequencies : mapping of str to str
+        Frequencies of the reference motion, in certified digits.
+    rows : int
+        Number of rows that were compared.
+    threshold : float
+        Number of correct digits below which a column fails.
+    columns : tuple of Column
+        Median and least number of correct digits of each column, under its name in the input.
+    drifts : tuple of Drift
+        Largest deviation of each conserved quantity.
+    rows_a_point : int
+        Number of consecutive rows that `errors` summarises in one value.
+    times : tuple of float
+        First time of each such group of rows.
+    errors : mapping of str to tuple of float
+        Largest error in each group, for "R", "Omega" and "quaternion".
+    conventions : tuple of str
+        Sentences on conventions in which columns that fail would be right.
+    step : float
+        Step of the integrator as given, else the mean spacing of the times.
+    end : float
+        Last time.
+    notes : tuple of str
+        Sentences on columns and rows that were left out.
     """
 
     file: str

@@ -19,10 +19,26 @@ ROUNDING = 2.0**-52
 
 @dataclass(frozen=True)
 class Convergence:
-    """The largest errors of runs of one motion, the longest step first; `str` is what `atlas check --order` prints.
+    """Order of convergence of an integrator from runs with several steps, as `atlas.check` returns it.
 
-    ``errors`` holds them for R, Omega and quaternion, ``orders`` the order p that each run and the one before it show,
-    error ~ step^p, ``order`` that of all runs by least squares; None where an error is no more than rounding.
+    `str` is the text that `atlas check --order` prints. Runs are sorted by step, the longest first.
+
+    Attributes
+    ----------
+    case : str
+        Type of the reference motion.
+    parameters : mapping of str to object
+        Parameters of the reference motion.
+    files : tuple of str
+        Names of the runs.
+    steps : tuple of float
+        Steps of the runs.
+    errors : mapping of str to tuple of float
+        Largest error of each run, for "R", "Omega" and "quaternion".
+    orders : mapping of str to tuple of float or None
+        Order p in error ~ step^p from each run and the one before; None where an error is rounding.
+    order : mapping of str to float or None
+        Order of all runs by least squares.
     """
 
     case: str

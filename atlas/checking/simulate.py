@@ -22,7 +22,31 @@ Method: TypeAlias = Literal["DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA"]
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
-    """A simulated motion: `R` (N, 3, 3) in the laboratory and `Omega` (N, 3) in the body at the times `t` (N,)."""
+    """Numerical solution of the equations of motion at N times, as `atlas.simulate` returns it.
+
+    Attributes
+    ----------
+    t : ndarray, shape (N,)
+        Times.
+    R : ndarray, shape (N, 3, 3)
+        Rotation matrices, with the body's axes in the laboratory as columns.
+    Omega : ndarray, shape (N, 3)
+        Angular velocity in the body, in rad/time.
+    method : str
+        Integrator of `scipy.integrate.solve_ivp`.
+    rtol, atol : float
+        Relative and absolute tolerance of the integrator.
+    evaluations : int
+        Number of evaluations of the right-hand side.
+    seconds : float
+        Wall-clock time of the integration.
+    inertia : ndarray, shape (3, 3)
+        Inertia tensor.
+    field : ndarray, shape (3,)
+        B' in the laboratory, in 1/time.
+    omega : ndarray, shape (3,)
+        Initial angular velocity in the body, in rad/time.
+    """
 
     t: FloatArray
     R: FloatArray
@@ -31,24 +55,34 @@ class Simulation:
     rtol: float
     atol: float
     evaluations: int
-    """How often the right-hand side was evaluated."""
     seconds: float
     inertia: FloatArray
-    """Inertia tensor (3, 3)."""
     field: FloatArray
-    """B' (3,) in the laboratory."""
     omega: FloatArray
-    """Initial angular velocity (3,)."""
 
     def integrals(self) -> Clebsch:
-        """Return H, F, (M, K), K^2 and the kinetic energy at every time, theorem-clebsch."""
+        """Conserved quantities of `atlas.clebsch` at every time, theorem-clebsch.
+
+        Returns
+        -------
+        Clebsch
+            Attributes are arrays (N,).
+        """
         return clebsch(self.inertia, self.Omega, field_in_body(self.R, self.field))
 
     def drift(self) -> dict[str, float]:
-        """Return the largest deviation of each integral from its initial value, in units of the size of its terms.
+        """Largest deviation of each conserved quantity from its initial value, relative to the size of its terms.
 
-        H, F and (M, K) are measured in units of (|M|^2/I1 + I3 K^2), (|M|^2 + I3^2 K^2) and |M| |K| at t = 0, with the
-        least and largest moments I1 and I3; K^2 and the energy in units of themselves.
+        Returns
+        -------
+        dict of str to float
+            Keys "H", "F", "MK", "K2" and "energy".
+
+        Notes
+        -----
+        The sizes at t = 0 are |M|^2/I1 + I3 K^2 for H, |M|^2 + I3^2 K^2 for F and |M| |K| for (M, K). Here I1 and I3
+        are the least and the largest principal moment, and M is the canonical momentum. K^2 and the energy are relative
+        to their initial values.
         """
         now, start = self.integrals(), clebsch(self.inertia, self.omega, self.field)
         least, *_, most = np.linalg.eigvalsh(self.inertia)

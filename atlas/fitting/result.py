@@ -47,7 +47,15 @@ FARTHEST = 1e9
 
 
 class Prediction(NamedTuple):
-    """A predicted quantity and its standard errors: of rotations angles about the laboratory's axes, (..., 3)."""
+    """Predicted quantity and its standard errors, as `Fit.predict` returns them.
+
+    Attributes
+    ----------
+    value : ndarray
+        Values, of the shape of the times and of the quantity.
+    sigma : ndarray
+        Standard errors in the unit of `value`; for rotations angles about the laboratory axes, shape (..., 3), in rad.
+    """
 
     value: FloatArray
     sigma: FloatArray

@@ -49,23 +49,34 @@ MIN_RATE_SQUARE = 1e-280
 
 @dataclass(frozen=True, eq=False)
 class Monodromy:
-    """What became of the lattice of periods on one loop."""
+    """Periods of a top continued round a closed loop of its constants, as `atlas.monodromy` returns them.
+
+    Attributes
+    ----------
+    p, g : ndarray, shape (N + 1,)
+        Loop: the momentum p along n, in inertia/time, and g = I2 (dtheta/dt)^2 + V with the potential V of
+        theorem-every-top, in inertia/time^2. The last point is the first.
+    period : ndarray, shape (N + 1,)
+        Period T of the nutation.
+    turns : ndarray, shape (N + 1, 2)
+        Precession and proper rotation in one period, divided by 2 pi, continued along the loop.
+    step : float
+        Largest change of `turns` between neighbours, after the change of T times the rate at the first point is taken
+        off; below 1/4, so that the continuation is unique.
+    radius : float
+        Largest radius of the certified enclosures of `turns`.
+    """
 
     p: FloatArray
     g: FloatArray
-    """The loop in the plane of p and g, arrays (N + 1,) whose last point is the first, at one M3."""
     period: FloatArray
-    """T on it."""
     turns: FloatArray
-    """Delta psi and Delta chi over 2 pi, continued along the loop, shape (N + 1, 2)."""
     step: float
-    """The largest change of a turn between neighbours, less that of T times the first point's rate: below 1/4."""
     radius: float
-    """The largest radius of the balls of the turns."""
 
     @property
     def matrix(self) -> tuple[tuple[int, int, int], ...]:
-        """Rows of the new g1, g2, g3 in the old."""
+        """Monodromy matrix (3, 3) of integers: the periods g1, g2, g3 after the loop, as rows, in terms of those before."""
         m, n = (round(float(x)) for x in self.turns[-1] - self.turns[0])
         return (1, 0, 0), (0, 1, 0), (-m, -n, 1)
 

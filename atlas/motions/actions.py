@@ -21,10 +21,20 @@ from atlas.motions.spectrum import mean
 
 @dataclass(frozen=True)
 class Actions:
-    """Actions of one motion, `values` in the unit of inertia by that of time, over I2 where the body has a ratio.
+    """Action variables of one motion, as `Motion.actions` returns them; d energy = sum of rates d values.
 
-    `names` say what turns, `rates` at which mean rate, and `energy` is the energy whose derivatives in the actions they
-    are: kinetic energy, and a top's potential.
+    For a body given by its ratio I3/I2 the values and the energy are divided by I2.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the k angles, such as "nutation", "precession" and "spin".
+    values : ndarray, shape (k,)
+        Actions, in inertia/time.
+    rates : ndarray, shape (k,)
+        Mean rates of the angles, in rad/time.
+    energy : float
+        Kinetic energy, for a top with its potential, in inertia/time^2.
     """
 
     names: tuple[str, ...]

@@ -14,6 +14,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.inputs import FloatArray, number, real
 from atlas.errors import AtlasError, DomainError
@@ -41,14 +42,32 @@ Array = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Lines of one function of time, f(t) = sum of amplitudes exp(i frequencies t); called with t it is that sum.
+    """Lines of a function of time, f(t) = sum of amplitudes exp(i frequencies t), as `Motion.spectrum` returns them.
 
-    `frequencies` (N,), ascending, both signs of each, in 1/time; `amplitudes` (N, ...) of the shape of the function,
-    those of opposite frequencies conjugate; `combinations` (N, k), whole numbers whose products with the `rates` (k,),
-    `names` of which say what turns, add up to the frequencies; where several do, the shortest stands. `mean_square` is
-    the mean over all times of the sum of squares, of which `power`, the squares of each line, add up to what the lines
-    that are left out leave (Parseval). A component of f swings by twice the size of its complex amplitude:
-    a line and the one at the opposite frequency together.
+    An object of this class is callable: with times t it gives the sum over its N lines.
+
+    Attributes
+    ----------
+    of : str
+        Function: "rotation", "axis", "angular_velocity" or "field".
+    names : tuple of str
+        Names of the k basic rates, such as "nutation", "precession" and "spin".
+    rates : ndarray, shape (k,)
+        Basic rates, in rad/time.
+    frequencies : ndarray, shape (N,)
+        Frequencies, ascending, each with its negative, in rad/time.
+    amplitudes : ndarray of complex128, shape (N, ...)
+        Amplitudes in the unit and shape of f; conjugate at opposite frequencies.
+    combinations : ndarray of int, shape (N, k)
+        Integers m with frequency = (m, rates); the shortest where several agree.
+    mean_square : float
+        Mean over all times of the sum of the squared components of f.
+
+    Notes
+    -----
+    By Parseval's theorem the sum of `power` is `mean_square` minus the power of the lines below the least amplitude.
+    A component of f oscillates with twice the magnitude of its complex amplitude: the line at the opposite frequency
+    adds as much.
     """
 
     of: str
@@ -61,17 +80,28 @@ class Spectrum:
 
     @property
     def power(self) -> FloatArray:
-        """Sum of the squared amplitudes of each line, (N,)."""
+        """Sum of the squared magnitudes of the amplitudes of each line, shape (N,), in the unit of f squared."""
         return _power(self.amplitudes)
 
-    def __call__(self, t: Any) -> FloatArray:
-        """Return the sum of the lines at times of any shape."""
+    def __call__(self, t: RealArrayLike) -> FloatArray:
+        """Sum of the lines at the times t.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, of any shape.
+
+        Returns
+        -------
+        ndarray, shape (..., *shape of f)
+            Values of f.
+        """
         times = real(bare(t, "The time", TIME), "The time")
         phases = np.exp(1j * np.multiply.outer(times, self.frequencies))
         return np.asarray(np.tensordot(phases, self.amplitudes, 1).real)
 
     def __repr__(self) -> str:
-        """Return how many lines there are, and of what."""
+        """Return the function, the number of lines and the names of the rates, as one line of text."""
         return f"<Spectrum of {self.of}: {len(self.frequencies)} lines, {', '.join(self.names)}>"
 
 

@@ -116,7 +116,7 @@ R = GENERAL.rotation(TIMES)
     [
         (TIMES, {}, "nothing to grade"),
         (TIMES, {"rotation": R[:5]}, r"\(9, 3, 3\), not \(5, 3, 3\)"),
-        (TIMES, {"rotation": R * np.nan}, "finite"),
+        (TIMES, {"rotation": R * np.nan}, "no row with all its numbers"),
         (TIMES, {"quaternion": R[:, 0]}, r"\(9, 4\)"),
         (TIMES, {"rotation": R, "rotations": R}, "give one of them"),
         (TIMES[:, None], {"rotation": R}, r"one array \(N,\)"),

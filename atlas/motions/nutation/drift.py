@@ -38,7 +38,7 @@ MIN_WIDTH, WITHIN_A_STEP = 1e-6, 1e-2
 
 
 class Body(NamedTuple):
-    """Moments, coupling and potential of a top."""
+    """Moments I2, I3, coupling k2, k3 and potential `linear`, `quadratic` of a top, in the units of `TopMotion`."""
 
     I2: float
     I3: float
@@ -50,11 +50,26 @@ class Body(NamedTuple):
 
 @dataclass(frozen=True)
 class Drift:
-    """A motion that changes slowly, at times `t` (m,): each value (m,), in the units of the motion.
+    """Slow change of a motion at m times, as `atlas.drift` returns it; arrays have the shape (m,) unless noted.
 
-    `energy`, `M3` and `p`; `action` of the nutation; the mean `nutation`, `precession` and `spin` rates, and the angles
-    `phases` (m, 3) by which these have gone on since t = 0; the extremes of `nu` (m, 2), cos theta. `motion(i)` is the
-    one with these constants at time t_i, from where nu is least.
+    Attributes
+    ----------
+    t : ndarray
+        Times.
+    energy : ndarray
+        Kinetic energy plus the potential of a top, in inertia/time^2.
+    M3, p : ndarray
+        Canonical momentum along the body's axis, and along the field (for a top along its direction), in inertia/time.
+    action : ndarray
+        Action of the nutation, in inertia/time.
+    nutation, precession, spin : ndarray
+        Mean rates, in rad/time.
+    phases : ndarray, shape (m, 3)
+        Angles of nutation, precession and spin since t = 0, in rad.
+    nu : ndarray, shape (m, 2)
+        Least and largest cos theta, theta from the field to the body's axis.
+    bodies : tuple of Body
+        Moments, coupling and potential at each time.
     """
 
     t: FloatArray
@@ -70,7 +85,18 @@ class Drift:
     bodies: tuple[Body, ...]
 
     def motion(self, i: int) -> TopMotion:
-        """Return the motion at time t_i, its axis at the least nu."""
+        """Motion with the constants of the time t[i].
+
+        Parameters
+        ----------
+        i : int
+            Index of the time.
+
+        Returns
+        -------
+        TopMotion
+            Motion that starts at the least cos theta.
+        """
         b, nu = self.bodies[i], float(self.nu[i, 0])
         across = float(np.sqrt(max(1 - nu * nu, 0.0)))
         w2 = ((self.p[i] - self.M3[i] * nu) / across - b.k2 * across) / b.I2 if across else 0.0
