@@ -1,4 +1,4 @@
-"""What is given, as exact rationals: nothing is rounded before the first ball."""
+"""Inputs as exact rationals: nothing is rounded before the first ball."""
 
 import operator
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""Turns about an axis, and their products: what a motion is whose axis keeps its angle with the field."""
+"""Rotations about an axis and their products: motions whose axis keeps its angle with the field."""
 
 from collections.abc import Sequence
 from typing import Any, TypeAlias

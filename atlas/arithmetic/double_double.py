@@ -65,7 +65,7 @@ class DoubleDouble:
         return DoubleDouble(*parts)
 
     def __add__(self, other: "DoubleDouble") -> "DoubleDouble":
-        """Return the sum; exact inputs cancel without loss, and what inexact ones lose is in `rel`."""
+        """Return the sum; exact inputs cancel without loss, and the error of inexact ones is in `rel`."""
         s = self.hi + other.hi
         t = s - self.hi
         e = (self.hi - (s - t)) + (other.hi - t)
@@ -363,7 +363,7 @@ def _normal(s: Any, e: Any) -> tuple[Any, Any]:
 
 
 def _product(x: DoubleDouble, y: DoubleDouble) -> tuple[Any, Any]:
-    """Return the product of the first words, and what its rounding left out, by Dekker."""
+    """Return the product of the first words and its rounding error, by Dekker's algorithm."""
     (a, b), (c, d) = x.halves, y.halves
     p = x.hi * y.hi
     e = a * c

@@ -18,7 +18,7 @@ Index = tuple[int, ...]
 
 
 class Given:
-    """Exact numbers, each also in two words: the nearest double `hi`, and `lo`, what it leaves, within `rel` of both.
+    """Exact numbers, each also as a double-double: the nearest double `hi` and the low part `lo`, within `rel`.
 
     NumPy takes an object of this class for the array of its nearest doubles; kernels for arrays take both words, and
     what is made of one motion the rational number itself.
@@ -73,7 +73,7 @@ class Given:
 
 
 def _own(shape: tuple[int, ...], index: Index) -> Index:
-    """Return the index in an array of this shape of what broadcasts to an index."""
+    """Return the index in an array of this shape of the element that broadcasts to an index."""
     return tuple(0 if n == 1 else i for n, i in zip(shape, index[len(index) - len(shape) :], strict=True))
 
 
@@ -99,7 +99,7 @@ def as_float_or_fraction(x: fmpq | Fraction) -> float | Fraction:
 
 
 def element(x: Any, index: Index) -> Any:
-    """Return what an input is at an index of all motions: a float, a rational number, or None."""
+    """Return the element of an input at an index of all motions: a float, a rational number, or None."""
     if isinstance(x, Given):
         return x.at(index)
     x = np.asarray(x)
@@ -129,7 +129,7 @@ def part(x: Any, rows: Any) -> Any:
 
 
 def low_word(x: Any) -> Any:
-    """Return what the nearest doubles of an input leave."""
+    """Return the low parts of an input: 0.0 for plain doubles."""
     return x.lo if isinstance(x, Given) else 0.0
 
 

@@ -1,4 +1,4 @@
-"""What a user typed, as float64, or one sentence that says what is wrong with it."""
+"""Input of a user as float64 arrays, or an error of one sentence."""
 
 import reprlib
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 Value = TypeVar("Value")
 
 NO_VECTORS = (dict, set, frozenset, bytes, bytearray)
-"""What can be gone through and may give numbers, but keys, in no order, or bytes."""
+"""Iterables that are not vectors."""
 
 _OF_FIELD = (
     " B' lies in the plane of e2 and e3, so that B1 = 0 is left out; a Field itself will do or, for an axis in any "
@@ -55,7 +55,7 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
 
 
 def _not_real(value: Any, name: str) -> AtlasError:
-    """Return the error for what is not made of numbers."""
+    """Return the error for an input that is not made of real numbers."""
     return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.")
 
 
@@ -150,7 +150,7 @@ def _listed(parts: Sequence[Any]) -> bool:
 
 
 def finite(values: Value, name: str) -> Value:
-    """Return what was computed, a number or an array, or several; DomainError where one is too large for a float."""
+    """Return computed numbers or arrays unchanged; DomainError where one of them is not finite."""
     numbers: Any = values if isinstance(values, tuple) else (values,)
     if not all(np.isfinite(value).all() for value in numbers):
         raise DomainError(f"{name} is too large for a float: choose larger units.")
@@ -168,7 +168,7 @@ def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def frozen(value: Value) -> Value:
-    """Return what an object keeps and hands out: an array can no longer be written into, nor one of several."""
+    """Return a value, or a tuple or list of values, with its arrays made read-only."""
     for array in value if isinstance(value, tuple | list) else (value,):
         if isinstance(array, np.ndarray):
             array.flags.writeable = False
@@ -187,7 +187,7 @@ def plain(array: Any) -> Any:
 
 
 def as_given(array: Any) -> Any:
-    """Return what an object keeps of an input: exact numbers as they are, all others as `plain` gives them."""
+    """Return an input for storage: exact numbers unchanged, all others as `plain` gives them."""
     return array if isinstance(array, Given) else plain(array)
 
 

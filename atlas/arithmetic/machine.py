@@ -1,4 +1,4 @@
-"""What the machine gives: two threads where they help, and memory that a process keeps for its arrays.
+"""Threads and memory of the machine: two threads where they help, and memory that a process keeps for its arrays.
 
 NumPy lets go of the interpreter while it computes; the system is not asked for the same pages again and again.
 """

@@ -63,7 +63,7 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
     @overload
     def __get__(self, one: object, of: Any = None) -> Value: ...
     def __get__(self, one: Any, of: Any = None) -> Self | Value:
-        """Return the value, made if the precision of the moment is above what it was made with."""
+        """Return the cached value, computed anew if the current precision exceeds the precision of the cached one."""
         if one is None:
             return self
         with _LOCK:  # else the precision could be another thread's, or change while the value is made

@@ -58,7 +58,7 @@ MIN_LONGEST_TIME = 1e-290
 
 
 class Phases:
-    """Phases of one or two frequencies, and what is needed to evaluate them at times t.
+    """Phases of one or two frequencies, with the tables that evaluate them at times t.
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
     `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
@@ -160,7 +160,7 @@ class Phases:
         return half, rest, signs(whole), free
 
     def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
-        """Return what `angles` does with the number of half turns, plus `rounder`, in the place of their sign."""
+        """Return the result of `angles` with the number of half turns, plus `rounder`, in the place of their sign."""
         far = farthest(t)
         if not far <= self.longest:
             self.check(t)

@@ -32,7 +32,7 @@ IDENTITY = np.eye(3)
 E, J, E33 = np.diag([1.0, 1, 0]), np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.diag([0.0, 0, 1])
 
 SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
-"""What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
+"""Factors of the functions of a basis, which come as halves and as products of halves."""
 
 
 class Basis:
@@ -214,7 +214,7 @@ class DoubleRotation:
         return combinations(self.precession, weights, t, (3,), out)
 
     def swung(self, vector: tuple[float, float, float], t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R_z(-phi t) v for a constant v, shape (..., 3): how the body sees what precesses with it."""
+        """Return R_z(-phi t) v for a constant vector v, shape (..., 3)."""
         x, y, z = vector
         if max(abs(x), abs(y)) > LARGEST:
             raise AtlasError(f"The vector {vector} that turns is too large for a float: choose larger units.")
@@ -235,7 +235,7 @@ def combinations(
         return out
 
     def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
-        """Return what fills a block."""
+        """Return the function that fills a block of times."""
         basis = Basis(phases, size, len(weights))
         return lambda times, rows: combined(basis.at(times), weights, rows)
 
@@ -254,7 +254,7 @@ def evaluate(
     out: FloatArray | None,
     prepare: Callable[[int], Callable[[FloatArray, FloatArray], None]],
 ) -> FloatArray:
-    """Return what ``prepare(size)(t, rows)`` writes, block by block, for times of any shape; rows (m, prod(shape))."""
+    """Return an array that ``prepare(size)(t, rows)`` fills block by block, for times of any shape."""
     out = target(out, times.shape + shape)
     rows = out.reshape(times.size, prod(shape))
     flat: Any = times.reshape(-1) if times.flags.c_contiguous else times.flat

@@ -43,7 +43,7 @@ def magnitude(x: arb) -> int:
 
 
 def words(x: Number, count: int) -> list[float]:
-    """Split a number into doubles, each the nearest to what the ones before it leave."""
+    """Split a number into doubles, each the nearest to the remainder of the ones before."""
     parts, rest = [], middle(x)
     with workprec(2 * BITS):
         for _ in range(count):
@@ -53,7 +53,7 @@ def words(x: Number, count: int) -> list[float]:
 
 
 def turn_of(x: Number) -> arb:
-    """Return what is left of a number beyond the nearest whole one."""
+    """Return a number minus the nearest integer."""
     m, e = (int(number) for number in middle(x).man_exp())
     if e >= 0:
         return arb(0)

@@ -1,1 +1,1 @@
-"""Bodies and what acts on them: moments of inertia, charges, fields, units, what is conserved."""
+"""Bodies and fields: moments of inertia, charges, units, conserved quantities."""

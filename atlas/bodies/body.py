@@ -40,7 +40,7 @@ def moments(ratio: Any) -> tuple[Any, Any]:
 
 
 def kept_ratio(ratio: Any, I3: Any) -> Any:
-    """Return what an object keeps of its `ratio`: the body, or the I3 of `moments`, never an array of the user's."""
+    """Return the ratio for storage: the body, or the I3 of `moments`, never an array of the user's."""
     return ratio if isinstance(ratio, SymmetricBody) else I3
 
 

@@ -141,5 +141,5 @@ def check_D(n3: Number, linear: Number) -> None:
 
 
 def check_force(force: Any, what: str) -> None:
-    """Raise DomainError for what a particle has only where a magnetic force acts on it."""
+    """Raise DomainError for a quantity that needs a magnetic force on the particle."""
     refuse(force == False, f"Without a magnetic force (mu B = 0) the motion has no {what}.")  # noqa: E712  of arrays too

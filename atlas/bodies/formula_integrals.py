@@ -1,4 +1,4 @@
-"""What a body conserves, (36) to (41) and theorem-clebsch, and the cubic and quartic of Omega3 that follow.
+"""Conserved quantities of a body, (36) to (41) and theorem-clebsch, and the cubic and quartic of Omega3 that follow.
 
 The cubic and the quartic are for exact rationals, and for floats where no values of them are wanted: these cancel, and
 `pseudo_oscillator` and `nutation.roots` write them from the state at t = 0, in forms that don't.
@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from atlas.arithmetic.numbers import Number, Vector, cross, dot
 
 NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
-"""What an elementary motion conserves, in this order."""
+"""Names of the conserved quantities of an elementary motion, in order."""
 
 
 def integrals(

@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 
 @dataclass(frozen=True)
 class Integrals:
-    """What a symmetric body conserves; each a float, or an array if the motion was one."""
+    """Conserved quantities of a symmetric body; each a float, or an array for an array of motions."""
 
     E: Any
     """E' = 2E/I2 = Omega1^2 + Omega2^2 + I Omega3^2, (36), in 1/time^2."""

@@ -1,4 +1,4 @@
-"""A body that could exist, in SI units: the charge that it can hold, what it radiates, how the field magnetises it.
+"""A real body in SI units: the charge that it can hold, its radiation, and its magnetisation by the field.
 
 All parts have one charge-to-mass ratio mu, so the electric dipole moment about the centre of mass is mu times the sum
 of m x, which is zero: what turns about the centre radiates by its magnetic dipole mu m/2, m the angular momentum, and

@@ -1,4 +1,4 @@
-"""What a symmetric top in a uniform field is given by, without its motion."""
+"""Inputs of a symmetric top in a uniform field, without its motion."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -37,7 +37,7 @@ def inputs_of_top(inertia: Any, coupling: Any, direction: Any, linear: Any, quad
 
 
 def arguments_of(top: Sequence[Any]) -> dict[str, Any]:
-    """Return what `inputs_of_top` took, by name, from what it returns."""
+    """Return the arguments of `inputs_of_top` by name, from its result."""
     I2, I3, k2, k3, n2, n3, linear, quadratic = map(plain, top)
     return {
         "inertia": (I2, I3), "coupling": (k2, k3), "direction": (n2, n3), "linear": linear, "quadratic": quadratic,

@@ -29,7 +29,7 @@ CheckedMotion: TypeAlias = AnyMotion | TopMotion
 
 @dataclass(frozen=True)
 class Check:
-    """Errors and correct digits of a trajectory, as `atlas.check` returns them; `str` is the text that `atlas check` prints.
+    """Errors and correct digits of a trajectory, as `atlas.check` returns them; `str` is the text of `atlas check`.
 
     Attributes
     ----------

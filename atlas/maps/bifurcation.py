@@ -93,7 +93,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Spin:
-    """A spin about a principal axis, 0 to 2, along the field: its values, and what neighbours do."""
+    """A spin about a principal axis, 0 to 2, along the field: its constants, and the motions near it."""
 
     axis: int
     F: float

@@ -1,4 +1,4 @@
-"""Monodromy of a symmetric top: what becomes of the periods on a loop round a focus-focus value, theorem-residue.
+"""Monodromy of a symmetric top: change of the periods on a loop round a focus-focus value, theorem-residue.
 
 At regular values of (M3, p, g) the motion lies on a torus. Its periods are the lattice of all (s, t, u) for which the
 turn by s about n, the turn by t about the body's axis and the motion for the time u, one after the other, bring the
@@ -76,7 +76,7 @@ class Monodromy:
 
     @property
     def matrix(self) -> tuple[tuple[int, int, int], ...]:
-        """Monodromy matrix (3, 3) of integers: the periods g1, g2, g3 after the loop, as rows, in terms of those before."""
+        """Monodromy matrix (3, 3) of integers: rows are g1, g2, g3 after the loop in terms of those before."""
         m, n = (round(float(x)) for x in self.turns[-1] - self.turns[0])
         return (1, 0, 0), (0, 1, 0), (-m, -n, 1)
 

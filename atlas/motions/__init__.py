@@ -1,1 +1,1 @@
-"""Motions: `base` is what all of them offer, a folder holds one kind."""
+"""Motions: `base` holds the members of every class, a folder one type of motion."""

@@ -1,4 +1,4 @@
-"""Actions of a motion: what a slow change of the field or of the body leaves as it is.
+"""Actions of a motion: the quantities that a slow change of the field or of the body conserves.
 
 On the torus of a motion each phase goes round a cycle, along which the canonical momentum M does the work
 

@@ -1,4 +1,4 @@
-"""What all motions share: one plan for one motion and for an array of them, which broadcasts with the times."""
+"""Base of all classes of motions: one interface for one motion and for an array, which broadcasts with the times."""
 
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
@@ -36,7 +36,7 @@ OTHERS = {
     "z": "atlas.EllipticMotion(inertia, field, z)",
     "attitude": "atlas.motion(inertia, field, omega, attitude)",
 }
-"""What takes an argument that a class of motions does not."""
+"""Classes and functions that take an argument which another class refuses, by the name of the argument."""
 
 
 Value = TypeVar("Value")
@@ -57,7 +57,7 @@ BLOCK = 4096
 
 
 def check_column(j: Any) -> None:
-    """Raise AtlasError for what is no column of R."""
+    """Raise AtlasError unless j is 1, 2 or 3, the number of a column of R."""
     if not isinstance(j, Integral) or isinstance(j, bool) or j not in {1, 2, 3}:
         raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
 
@@ -111,7 +111,7 @@ class Motion(Shown, Generic[Single]):
         return values.reshape(self.shape + values.shape[1:])
 
     def _place(self, placement: Placement, arguments: Mapping[str, Any], made_by: str) -> Self:
-        """Put a motion that nobody has yet where it was asked for, by what made it; return the motion."""
+        """Set the placement and the call of a new motion, and return the motion."""
         self._placement, self.made_by, self.arguments = placement, made_by, arguments
         return self
 

@@ -20,7 +20,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.lazy import cached_property
 
 VECTORS = ("rotation", "angular_velocity", "field")
-"""What varies with time."""
+"""Quantities of `of` that are functions of time."""
 
 MAX_UPRIGHT_ANGLE = 1e-3
 """Angle of a top's axis with n from which its inputs have derivatives in all components of n."""
@@ -65,7 +65,7 @@ def of_rounding(motion: Any, t: Any) -> FloatArray:
 
 
 def _ones(motion: Any) -> list["One"]:
-    """Return what is known of each motion of an array, kept with it."""
+    """Return one `One` for each motion of an array, cached with the array."""
     known: dict[int, One] = vars(motion).setdefault("_differentiated", {})
     return [known.get(i) or known.setdefault(i, One(motion, i)) for i in range(int(np.prod(motion.shape)))]
 

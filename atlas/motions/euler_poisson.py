@@ -80,7 +80,7 @@ def momentum_along_field(inertia: Any, K: Any, Omega: Any) -> FloatArray:
 
 
 def _torque(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Return [I Omega - 2 g K, Omega], what I dOmega/dt is in (16)."""
+    """Return the right-hand side [I Omega - 2 g K, Omega] of I dOmega/dt in (16)."""
     return bracket(np.matvec(inertia, Omega) - 2 * np.matvec(mass_matrix(inertia), K), Omega)
 
 

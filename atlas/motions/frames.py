@@ -70,7 +70,7 @@ class Placement:
 
     @staticmethod
     def started(values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
-        """Return vectors or matrices, of a rank, with those at t = 0 replaced by what was given."""
+        """Return vectors (rank 1) or matrices (rank 2) with those at t = 0 replaced by the given initial value."""
         known = np.equal(bare(t, "The time", TIME), 0)
         if known.any():
             known = np.broadcast_to(known, values.shape[:-rank])

@@ -1,4 +1,4 @@
-"""Lines of a motion: what R(t), the body's axis, Omega and the field in the body are made of, as sums of exp(i f t).
+"""Lines of a motion: R(t), the body's axis, Omega and the field in the body as sums of exp(i f t).
 
 Every motion but a separatrix is R(t) = R_n(p t) S(M t) R_a(s t): a turn about n in the laboratory, one about an axis a
 of the body, and S of period 2 pi, of one nutation, of two phases for three moments, or none. By Rodrigues a turn has

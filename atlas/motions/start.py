@@ -98,7 +98,7 @@ class Start:
 
 
 def start_of(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Start:
-    """Return the start of a motion from what `atlas.motion` takes."""
+    """Return the start of a motion from the arguments of `atlas.motion`."""
     B, w = columns(field, "The field", "B"), columns(omega, "The angular velocity", "omega")
     return Start(body_of(inertia), B, w, attitude)
 
@@ -139,7 +139,7 @@ def _copied(value: Any) -> Any:
 
 
 def body_of(inertia: Any) -> Body:
-    """Return what a body is by its ratio, its moments or its tensor. Raises DomainError for what no body has."""
+    """Return the `Body` of a ratio, of moments or of a tensor. Raises DomainError for values that no body has."""
     if isinstance(inertia, SymmetricBody):
         I2, I3 = moments(inertia)
         return of_moments((I2, I2, I3), inertia.axes)
@@ -185,7 +185,7 @@ def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
 
 
 def of_moments(moments: Any, axes: FloatArray) -> Body:
-    """Return the body of principal moments along axes. Raises DomainError for what no body has."""
+    """Return the body of principal moments along axes. Raises DomainError for moments that no body has."""
     rows = _stacked([real(x, "A moment of inertia") for x in moments])
     for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
         inertia_tensor(row)
@@ -229,7 +229,7 @@ def _stacked(parts: list[FloatArray]) -> FloatArray:
 
 
 def attitude_of(attitude: Any) -> FloatArray:
-    """Return rotation matrices (..., 3, 3), orthogonal to rounding. Raises DomainError for what is no rotation."""
+    """Return rotation matrices (..., 3, 3), orthogonal to rounding. DomainError for any other matrix."""
     if attitude is None:
         return np.eye(3)
     R = real(attitude.as_matrix() if hasattr(attitude, "as_matrix") else attitude, "The attitude")

@@ -19,7 +19,7 @@ class Quadric:
 
     @property
     def kind(self) -> str:
-        """What surface (50) is, decided on the inputs as given."""
+        """Type of the surface (50), decided exactly."""
         if self.B2 == 0:
             return "all space" if self.B3 == 0 else "line"
         if self.B3 == 0:

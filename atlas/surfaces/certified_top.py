@@ -31,7 +31,7 @@ def inputs_of_top(
 def constants(
     inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any
 ) -> tuple[fmpq, fmpq, fmpq, Surd, Surd, fmpq, fmpq]:
-    """Return what the formulas of `atlas.surfaces.formula_top` take, exactly."""
+    """Return the exact arguments of the formulas in `atlas.surfaces.formula_top`."""
     I, (k2, k3), (n2, n3), potential = inputs_of_top(inertia, coupling, direction, linear, quadratic)
     N = n2 * n2 + n3 * n3
     size = Surd.root(N)
@@ -52,7 +52,7 @@ class TopQuadric(Quadric):
 
     @property
     def kind(self) -> str:
-        """What surface it is: the sign of D, decided exactly."""
+        """Type of the surface: the sign of D, decided exactly."""
         if self.B2 == 0:
             return "line"
         sign = self._excess.sign

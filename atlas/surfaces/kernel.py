@@ -337,7 +337,7 @@ class TopQuadric(Quadric):
         return values
 
     def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:
-        """Return what a formula gives in two words, and where these leave a doubt, its exact value, rounded once."""
+        """Return the values of a formula in double-double, or exactly where these leave a doubt; each rounded once."""
         inputs = list(self._top)
         if along:
             inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])

@@ -18,7 +18,7 @@ from atlas.motions.elementary.formula_hyperbola import closing
 from atlas.motions.elementary.kernel import ElementaryMotion
 
 BITS = 300
-"""Relative accuracy of the constants: beyond what is kept of them."""
+"""Relative accuracy of the constants, finer than the digits that are kept."""
 
 
 class Closed(DoubleRotation):

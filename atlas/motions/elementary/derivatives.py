@@ -1,4 +1,4 @@
-"""What motions in elementary functions are made of: exact inputs by name, what they make, and scalars of that."""
+"""Inputs of motions in elementary functions: exact values by name, the motion that they give, and its scalars."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace

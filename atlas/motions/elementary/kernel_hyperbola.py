@@ -442,7 +442,7 @@ class Hyperbola(Shown):
             return nearest(root(abs(I2 - I3) / I2 * B2 * B2)) or abs(self.B2)
 
     def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
-        """Return what a formula of I2, I3, B2, B3 and omega2 gives, where (71) holds."""
+        """Return the values of a formula of I2, I3, B2, B3 and omega2, where (71) holds; rounded once."""
         omega2 = real(omega2, "omega2", RATE)
         check_curve(self.B2, omega2)
         return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, None), **more)

@@ -112,7 +112,7 @@ class Evaluation:
         return np.asarray(u)
 
     def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        """Return half the phases, reduced, and what rounding left out; keep how many whole turns that is."""
+        """Return half the phases, reduced, and their rounding errors; keep the number of whole turns."""
         half, rest, whole, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
         self._keep(whole)
         return half, rest

@@ -1,4 +1,4 @@
-"""What motions whose axis nutates share as balls: from the pair (alpha, beta) to periods, angles and attitudes.
+"""Nutating motions in balls: from the pair (alpha, beta) to periods, angles and attitudes.
 
 Of a motion that is two turns one after the other entries that are zero throughout are exactly zero. Where M = II (Omega
 + K) is along neither the field nor the axis, p = M3 = 0, the body swings in a plane of Larmor's frame like a pendulum,

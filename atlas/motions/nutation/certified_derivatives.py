@@ -48,7 +48,7 @@ Row: TypeAlias = list[Any]
 
 @dataclass(frozen=True)
 class Constants:
-    """Constants of a motion: `form` is what does not vary, `tables` are the numbers, by groups."""
+    """Constants of a motion: `form` does not depend on the inputs, `tables` are the numbers, by groups."""
 
     form: tuple[Any, ...]
     tables: Tables
@@ -249,7 +249,7 @@ def sizes_of(row: Row) -> FloatArray:
 
 
 def radii_of(row: Row) -> FloatArray:
-    """Return the radii of balls, nan for what is not a number: that is no bound."""
+    """Return the radii of balls; nan for a ball that is not finite and gives no bound."""
     return np.array(
         [
             float(x.real.rad() + x.imag.rad() if isinstance(x, acb) else x.rad()) if x.is_finite() else np.nan

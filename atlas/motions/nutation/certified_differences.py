@@ -50,7 +50,7 @@ class Differences:
             self.beside = [self._beside(i, self.scales[i] / fmpq(2) ** bits) for i in self.places]
 
     def _beside(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
-        """Return motions with the weights whose sums are the derivative in an input, and what changes it over h."""
+        """Return motions with the weights whose sums are the derivative in an input, and that input's change over h."""
         for steps, weights in SIDES:
             try:
                 moved = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]

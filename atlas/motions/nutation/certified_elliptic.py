@@ -308,7 +308,7 @@ class EulerTop(EllipticMotion):
 
 
 def check_moments(moments: tuple[fmpq, ...]) -> None:
-    """Raise DomainError for what are no moments of a body."""
+    """Raise DomainError for three numbers that are no moments of a body."""
     shown = ", ".join(str(nearest(I)) for I in moments)
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")

@@ -1,4 +1,4 @@
-"""What the integral of nu adds to a top's turn about its own axis, kappa times it, as a function of time.
+"""Rotation of a top about its own axis by kappa times the integral of nu, as a function of time.
 
     integral of nu = rate t + twist s + (2 sense/sqrt(|A|)) at(O(s)/E(s)),    at = arctan for A < 0, artanh for A > 0,
 

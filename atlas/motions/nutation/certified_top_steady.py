@@ -12,7 +12,7 @@ from atlas.motions.nutation.certified_quartic import TopQuartic
 
 
 class SteadyPrecession(NamedTuple):
-    """A steady precession at one inclination: its rate about n, and what becomes of a small push.
+    """A steady precession at one inclination: its rate about n, and its stability.
 
     `nutation` is the square of the frequency of small nutations, theorem-top-nutation: where it is negative a push
     grows. `stable` says which, where it is zero too.

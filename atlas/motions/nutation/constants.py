@@ -139,7 +139,7 @@ def _doubled(precision: int) -> int:
 
 
 def _swing(exact: Any) -> Any:
-    """Return what the integral of nu adds to the turn about the axis, None for nothing."""
+    """Return the rotation about the axis by the integral of nu, None for none."""
     if exact is None:
         return None
     return Crossing(exact) if isinstance(exact, ExactCrossing) else Swing(exact)

@@ -2,7 +2,7 @@
 
 Every motion of one nutation is R = exp(lambda t n) S(s) exp(sigma t e3), s = t + origin less whole periods T, so
 
-    v = t lambda_p n + t sigma_p R e3 + (origin_p - count T_p) v_s + (what is bounded and periodic).
+    v = t lambda_p n + t sigma_p R e3 + (origin_p - count T_p) v_s + (bounded and periodic terms).
 
 Whatever grows with time is in three derivatives of frequencies, which `atlas.motions.nutation.certified_derivatives`
 makes in balls with all other constants; v_s and the bounded part are those of the pair (alpha, beta) at a fixed place s
@@ -29,7 +29,7 @@ LARGE_TERM, LOST_TERM = 256.0, 4096.0
 
 
 class Weighted:
-    """v of some combinations of a pair's inputs: sums of what depends on time, with weights that do not.
+    """v of some combinations of a pair's inputs: sums of functions of time with constant weights.
 
     In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q and
     along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so from b;
@@ -120,7 +120,7 @@ class Weighted:
         return ways, [self.axes @ np.array([x.real, x.imag, y]) for x, y in zip(e, nu, strict=True)], nu[0]
 
     def _ways(self, p: Array, q: Array, u: Array, w: Array) -> FloatArray:
-        """Return what real and imaginary part of a_p and of b_p add to v, (3, 4, m)."""
+        """Return the terms of v from the real and imaginary parts of a_p and of b_p, shape (3, 4, m)."""
         ways = np.array([
             [-q.real, q.imag, p.real, -p.imag],
             [-q.imag, -q.real, p.imag, p.real],
@@ -130,7 +130,7 @@ class Weighted:
 
     @staticmethod
     def _sum(ways: Sequence[FloatArray], parts: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
-        """Return what rows of derivatives add to v, or to dv/dt, (3, rows, m)."""
+        """Return the terms of v, or of dv/dt, from rows of derivatives, shape (3, rows, m)."""
         pairs = [(ways[i], parts[level - i][:, rows]) for i in range(level + 1)]
         terms = [(way[:, j, None], derivative[j]) for way, derivative in pairs for j in range(4)]
         total = np.multiply(*terms[0])
@@ -143,7 +143,7 @@ class Weighted:
         self, t: FloatArray, s: FloatArray, count: FloatArray, by_s: Sequence[FloatArray], axis: Sequence[FloatArray],
         level: int,
     ) -> FloatArray:  # fmt: skip
-        """Return what the columns weigh, or the slopes of it, (3, 8, m)."""
+        """Return the functions of time that the columns weigh, or their slopes, shape (3, 8, m)."""
         (v, e), n = (by_s[level], axis[level]), self.axes[:, 2:]
         basis = np.empty((3, 8, t.size))
         basis[:, 0], basis[:, 1], basis[:, 2], basis[:, 3], basis[:, 4] = s * v, count * v, t * e, e, s * e
@@ -167,11 +167,11 @@ class Varied:
 
     @cached_property
     def differences(self) -> Differences:
-        """What gives derivatives at single times."""
+        """Evaluator of derivatives at single times."""
         return self._make()
 
     def weighted(self, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
-        """Return what gives v of combinations of inputs, see `Weighted`; v is the sum of all."""
+        """Return the evaluators of v for combinations of inputs, see `Weighted`; v is the sum of all."""
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
             rest = 0 if weighted else 1

@@ -1,4 +1,4 @@
-"""What motions that nutate are made of: exact inputs by name, the twin in balls that they make, and scalars of that."""
+"""Inputs of nutating motions: exact values by name, the certified counterpart that they give, and its scalars."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ NUTATION: dict[str, Callable[[Any], Any]] = {name: attrgetter(name) for name in 
 
 @dataclass(frozen=True)
 class Inputs:
-    """Exact inputs of one motion by name, their sizes, what makes its twin, and scalars of that.
+    """Exact inputs of one motion by name, their sizes, the constructor of its certified counterpart, and its scalars.
 
     `parts` are moments, coupling, and the potential's linear and quadratic
     part, from which the angular acceleration follows; `field` is the field in the body at t = 0 with its derivatives in
@@ -50,7 +50,7 @@ class Inputs:
         return next(float(floats([size])[0]) for name, size in sizes if name.startswith(("omega", "K", "larmor")))
 
     def varied(self, names: Sequence[str]) -> Any:
-        """Return what gives v and dv/dt for some of the inputs."""
+        """Return the evaluator of v and dv/dt for some of the inputs."""
         places = self._places(names)
         differences = partial(Differences, self.twin, self.values, places, self.scales)
         try:

@@ -127,7 +127,7 @@ class VariedPair:
 
 
 class Swing:
-    """What the integral of nu adds to the turn about a top's axis, and its derivatives."""
+    """Rotation about a top's axis by the integral of nu, and its derivatives."""
 
     def __init__(self, value: Tables, slopes: Sequence[Tables], pair: VariedPair) -> None:
         self.pair, self.A = pair, float(value["A"][0].mid())

@@ -34,7 +34,7 @@ TOLERANCE, SETTLED = 1e-9, 1e-12
 """Relative error of the steps, and of the averages."""
 
 MIN_WIDTH, WITHIN_A_STEP = 1e-6, 1e-2
-"""Width of a nutation that is none, and what a steady motion may lack of its energy; within a step that is tried."""
+"""Width of a nutation below which a motion is steady, and relative energy that a steady motion may lack in a step."""
 
 
 class Body(NamedTuple):
@@ -231,7 +231,7 @@ def _start(motion: Any) -> tuple[Body, FloatArray, float]:
 
 
 class Averages:
-    """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and what varies with it."""
+    """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and functions of nu there."""
 
     def __init__(self, body: Body, state: FloatArray, near: float, lacking: float = MIN_WIDTH) -> None:
         self.body, self.state = body, state

@@ -78,7 +78,7 @@ def exponentials(exact: Nutating, precision: int) -> tuple[Exponentials, Exponen
 
 
 def cancelling(alpha: Exponentials, beta: Exponentials) -> float:
-    """Return the largest ratio of the sum of the weights to what is left of it at any of many times."""
+    """Return the largest ratio of the sum of the weights to the sum of the terms at any of many times."""
     phases = np.linspace(0, 1, 257)
     square = np.zeros(len(phases))
     for x in (alpha, beta):

@@ -25,7 +25,7 @@ MAX_EXPONENT = 700.0
 """From there on exp(-x) is nothing beside one, and exp x nearly infinite."""
 
 SECH_SCALE = 2.0**500
-"""What sech x is multiplied by where x leaves that range: one of alpha and beta may be as small as it is there."""
+"""Factor of sech x where x leaves that range: one of alpha and beta may be as small as sech x there."""
 
 
 class Steady:
@@ -84,7 +84,7 @@ class Trigonometric:
         return 4 if self.constant else 2
 
     def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return cos 2v and sin 2v from what `fill` takes."""
+        """Return cos 2v and sin 2v from the arguments of `fill`."""
         if self.constant:
             u = 2 * u / (1.0 - u * u)
         square = u * u
@@ -213,7 +213,7 @@ class Line:
         self.longest = (2 * MAX_EXPONENT + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
     def at(self, t: FloatArray, rest: FloatArray | float) -> tuple[FloatArray, FloatArray]:
-        """Return x at t + rest, and what rounding left out of it."""
+        """Return x at t + rest, and its rounding error."""
         upper = t * SPLITTER
         upper -= upper - t
         lower = t - upper

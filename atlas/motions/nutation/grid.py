@@ -179,7 +179,7 @@ class Windows:
 
 
 def window(grid: Grid, count: int) -> int:
-    """Return how many times a polynomial may serve, by what the first windows show; zero if too few to be worth it."""
+    """Return the number of times that one polynomial may serve, estimated from the first windows; zero if too few."""
     angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.parts.frequencies)
     for length in LENGTHS:
         size = min(count // length, MAX_WINDOWS_TRIED)

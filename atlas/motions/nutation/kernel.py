@@ -1,4 +1,4 @@
-"""What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
+"""Nutating motions: matrices from the pair (alpha, beta), and the scalars of a period."""
 
 from collections.abc import Callable, Container, Sequence
 from math import prod
@@ -191,7 +191,7 @@ class NutatingMotion(Motion[Nutation]):
     def _each(
         self, name: str, value: Callable[[Any], Value], shown: Callable[[Any], Any] = np.asarray
     ) -> Value | NDArray[Any]:
-        """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
+        """Return one value for each motion: a scalar or an array; uncertain entries come from balls."""
         if 0 < prod(self.shape) <= self._few or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
         values, certain = self._scalars[name]

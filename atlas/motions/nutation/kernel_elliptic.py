@@ -20,7 +20,7 @@ from atlas.motions.nutation.single_elliptic import SingleElliptic
 from atlas.motions.start import Start, parts
 
 CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
-"""What a motion conserves, in this order."""
+"""Names of the conserved quantities, in the order of `invariants`."""
 
 
 def balls(*row: float) -> Balls:

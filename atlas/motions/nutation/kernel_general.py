@@ -21,7 +21,7 @@ from atlas.motions.nutation.single import SingleGeneral
 from atlas.motions.start import Start
 
 CONSTANTS = (*NAMES[:4], "(M,B')")
-"""What a motion conserves, in this order."""
+"""Names of the conserved quantities, in the order of `invariants`."""
 
 
 def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:

@@ -65,7 +65,7 @@ class Rows:
 
     @cached_property
     def field(self) -> tuple[Any, ...]:
-        """Constants of the axis and of the field, and what else there is of such motions."""
+        """Constants of the axis and of the field of all motions."""
         return self._of(self._motions.constants)
 
     @cached_property
@@ -154,7 +154,7 @@ class TopsAtTimes(MotionsAtTimes):
 
     @staticmethod
     def constants(block: Any) -> tuple[Any, ...]:
-        """Return the constants of the axis and of n in the body, and of what the integral of nu adds."""
+        """Return the constants of the axis, of n in the body, and of the rotation by the integral of nu."""
         return block.constants, block.swings
 
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:

@@ -1,4 +1,4 @@
-"""Many motions by blocks: what their constants are made from, and whether their inputs are of one size.
+"""Many motions by blocks: the inputs of their constants, and whether these are of one size.
 
 With y = M t + y0 the pair (alpha, beta) of the axis, and that of the angular velocity, is exp(i l t) F times the sum
 over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of
@@ -77,7 +77,7 @@ class Block:
 
     @cached_property
     def swing(self) -> SwingSums | None:
-        """What the integral of nu adds to the turn about the axis; None where kappa is zero in all rows."""
+        """Rotation about the axis by the integral of nu; None where kappa is zero in all rows."""
         r = self.roots
         return swing_sums(self.means, r.n3, r.A) if r.top and r.top.twisted.any() else None
 
@@ -89,7 +89,7 @@ class Block:
 
     @property
     def swings(self) -> Swings | None:
-        """What turns times into that turn of tops."""
+        """Evaluator of that rotation of tops at times."""
         top = self.roots.top
         return top and Swings.of(self.swing, self.means, self.roots, top, self.exponents)
 
@@ -140,7 +140,7 @@ class Block:
 
 
 def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
-    """Return frequencies over a power of two as words in half turns, and what they may be off."""
+    """Return frequencies over a power of two as words in half turns, and bounds on their errors."""
     turns = rates * PER_RADIAN
     return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 

@@ -1,4 +1,4 @@
-"""Elliptic motions in arrays: the roots of Q, the sphere of K, and what turns times into matrices.
+"""Elliptic motions in arrays: the roots of Q, the sphere of K, and the evaluation at times.
 
 Seen along the axis a about which K does not circle, an elliptic motion nutates like a top: u = -K_a moves between the
 roots ±u_t of a quartic that is even in u, see `atlas.motions.nutation.certified_elliptic_quartic`. With x_i = z +

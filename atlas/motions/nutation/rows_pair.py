@@ -112,7 +112,7 @@ class SpherePair:
 
     @cached_property
     def angles(self) -> DoubleDouble:
-        """What alpha and beta turn by, on the average, twice, seen from their frame: (2, m), in 1/time."""
+        """Twice the mean rates of alpha and beta, relative to their frame: shape (2, m), in 1/time."""
         k, width = self.sphere, self.means.roots.width
         angles = k.torques / k.far * (width / abs(k.near).scaled(1) * self._third[0] + ONE)
         return chosen(k.torques.hi == 0, k.torques, angles)
@@ -162,7 +162,7 @@ class SpherePair:
 
     @cached_property
     def change(self) -> Change:
-        """What Omega3 changes by."""
+        """Change of Omega3."""
         r, square = self.means.roots, self.means.nome * self.means.nome
         weight, power = constant(1.0, square), constant(1.0, square)
         zero = constant(0.0, square)
@@ -187,7 +187,7 @@ class SpherePair:
 
     @cached_property
     def factors(self) -> tuple[Any, FloatArray]:
-        """What the sums are multiplied by, (2, m), complex, and its relative error."""
+        """Factors of the sums, shape (2, m), complex, and their relative error."""
         k, (x, y) = self.sphere, self.sums.start
         size = x * x + y * y
         lost = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)

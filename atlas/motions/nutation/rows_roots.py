@@ -1,4 +1,4 @@
-"""The turning points of many motions in two words, and what else the quartic Q has of roots.
+"""The turning points of many motions in two words, and the other roots of the quartic Q.
 
 In v = n3 - b nu, which for a body in a field is Omega3 - omega3, the quartic of
 `atlas.motions.nutation.certified_quartic` starts with the square of dv/dt at t = 0, so that v = 0 lies between the
@@ -34,7 +34,7 @@ MAX_LAST_STEP = 2.0**-24
 """Largest last step, in parts of the root and of the distance to the next, that one Newton step makes good."""
 
 ROUNDING = 2.0**-98
-"""Bound on what Horner's rule in two words loses of each term."""
+"""Bound on the relative error of each term in Horner's rule with two words."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ class Roots(TurningPoints):
 
 
 class Top(NamedTuple):
-    """What else acts on the axis of a top, in units of I2 and of b, the length of n.
+    """Coupling and potential of a top, in units of I2 and of b, the length of n.
 
     kappa, the difference of k2/(I2 b) and k3/(I3 b), is zero unless `twisted`; `linear` and `quadratic` are those of
     the potential, A the leading coefficient of Q; `rates` (m,) is the largest of the rates that the top has.

@@ -34,7 +34,7 @@ KINDS = (
     "spin along the field",
     "free body",
 )
-"""Kinds that are decided in arrays; what is nearer to a border than the error is none of them."""
+"""Types of motion that are decided in arrays; a motion nearer to a border than the error is none of them."""
 
 TOP_KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
 """Those of tops."""
@@ -63,7 +63,7 @@ class Scalars:
         return self._known[name]
 
     def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
-        """Return what makes a scalar, and others with it."""
+        """Return the function that makes a scalar, and others with it."""
         return _angles if name.endswith("per_period") else _scalars
 
     def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:

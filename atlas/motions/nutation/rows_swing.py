@@ -1,4 +1,4 @@
-"""What the integral of nu adds to the turn of many tops about their axes, kappa times it, in arrays.
+"""Rotation of many tops about their axes by kappa times the integral of nu, in arrays.
 
 It is that of `atlas.motions.nutation.certified_swing`, with v = M s, M = pi/T, s the time since the turning point next
 to where nu is infinite, and cosines and sines of a multiple of an angle c, cos^2 + A sin^2 = 1, which join across A =
@@ -53,7 +53,7 @@ class SwingSums(NamedTuple):
 
 
 class Swings(NamedTuple):
-    """What turns times into half of the turn that is no multiple of time, of tops in a row, the last axis of each.
+    """Evaluator at times of half the part of the rotation that is no multiple of time, of tops along the last axis.
 
     `factor` is kappa/sqrt(|A|), `size` sqrt(|A|), where A = 0 kappa and 0; `start` (2, m) are cosine and sine of 2 y at
     t = 0, `before` is half the turn there; `slope` is what a radian of y may make of it; `fastest` is the largest rate.

@@ -1,4 +1,4 @@
-"""One motion whose axis nutates: its constants in balls, and what turns times into matrices and into Omega.
+"""One nutating motion: its constants in balls, and the evaluation of matrices and of Omega at times.
 
 The angular velocity of a body in a field has a pair (alpha, beta) of its own; that of a top follows from the slopes of
 the pair of its axis.
@@ -70,7 +70,7 @@ class SingleMotion:
 
     @cached_property
     def left(self) -> FloatArray:
-        """What stands before the matrix of (alpha, beta)."""
+        """Constant left factor of the matrix of (alpha, beta)."""
         cos, sin, _, _ = self._tilt
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
         return np.asarray(self.right.T @ tilt)
@@ -99,7 +99,7 @@ class SingleMotion:
         """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
 
         def prepare(size: int) -> Any:
-            """Return what fills a block."""
+            """Return the function that fills a block of times."""
             evaluation = Evaluation(self.parts, size, signed=True)
 
             def fill(times: FloatArray, rows: FloatArray) -> None:
@@ -113,7 +113,7 @@ class SingleMotion:
 
     @cached_property
     def _sides(self) -> FloatArray:
-        """What takes the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
+        """Matrix from the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
         sides = between(self.left, self.right)[[3, 0, 2, 1]]
         start = Evaluation(self.parts, 1, signed=True).parts(np.zeros(1))[:, 0] @ sides
         return np.asarray(-sides if start[3] < 0 else sides)
@@ -138,7 +138,7 @@ class SingleMotion:
         """Return linear combinations of the products of alpha and beta, or of another pair."""
 
         def prepare(size: int) -> Any:
-            """Return what fills a block."""
+            """Return the function that fills a block of times."""
             evaluation = Evaluation(parts or self.parts, size)
             return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
 
@@ -216,7 +216,7 @@ class SingleGeneral(SingleMotion):
 
 
 class SingleTop(SingleMotion):
-    """One motion of a top: its constants in balls, and what turns times into matrices."""
+    """One motion of a top: its constants in balls, and the evaluation of matrices at times."""
 
     exact: TopMotion
 
@@ -230,7 +230,7 @@ class SingleTop(SingleMotion):
         kappa = nearest(self.exact.quartic.kappa) if self._sloping.swing else 0.0
 
         def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
-            """Return what fills a block."""
+            """Return the function that fills a block of times."""
             evaluation = Evaluation(self._sloping, size)
 
             def fill(times: FloatArray, rows: FloatArray) -> None:

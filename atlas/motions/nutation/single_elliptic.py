@@ -1,4 +1,4 @@
-"""One motion in Jacobi's functions, elliptic or of a free body: what turns times into matrices and into Omega."""
+"""One motion in Jacobi's functions, elliptic or of a free body: evaluation of matrices and of Omega at times."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ MAX_ERROR = 3.6e-15
 
 
 class SingleElliptic(SingleMotion):
-    """One elliptic motion: its constants in balls, and what turns times into matrices."""
+    """One elliptic motion: its constants in balls, and the evaluation of matrices at times."""
 
     exact: EllipticMotion
 

@@ -1,4 +1,4 @@
-"""A motion in one nutation, or without, as two turns and a function of one phase: what its spectrum is made of."""
+"""A nutating or steady motion as two uniform rotations and a function of one phase, for its spectrum."""
 
 from typing import Any
 

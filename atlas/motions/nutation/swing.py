@@ -86,7 +86,7 @@ class Swing:
         return max((n + 1 for n, x in enumerate(grown) if not x < NEGLIGIBLE * largest), default=1)
 
     def half_at(self, multiple: int, half: FloatArray, rest: FloatArray) -> FloatArray:
-        """Return it from half phases and what rounding left out of them, 2v being a multiple, rounded once."""
+        """Return it from half phases and their rounding errors, 2v being a multiple, rounded once."""
         v = multiple * self._sum(half, rest)
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
 

@@ -65,13 +65,13 @@ class TopHyperbola(Shown):
         return np.array([0.0, 1.0]), along / np.hypot(*along)
 
     def omega3(self, omega2: Any) -> Any:
-        """Ordinate omega3 at omega2, rounded once. DomainError at the pole; AtlasError for what is no number."""
+        """Ordinate omega3 at omega2, rounded once. DomainError at the pole; AtlasError unless a number."""
         return self._over(top.omega3, self._exact.omega3, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
         """Rates k = omega2/n2 of precession about n and phi = omega3 - n3 k of the turn about the axis.
 
-        DomainError at the pole; AtlasError for what is no number.
+        DomainError at the pole; AtlasError for an input that is no number.
         """
         k, phi = self._over(top.frequencies, self._exact.frequencies, omega2, degree=(1, 1))
         return k, phi
@@ -79,14 +79,14 @@ class TopHyperbola(Shown):
     def stability(self, omega2: Any) -> Any:
         """Square of the frequency of small nutations, in 1/time^2, theorem-top-nutation; unstable where negative.
 
-        Where it is zero see `stable`. DomainError at the pole; AtlasError for what is no number.
+        Where it is zero see `stable`. DomainError at the pole; AtlasError for an input that is no number.
         """
         return self._over(top.stability, self._exact.stability, omega2)
 
     def stable(self, omega2: Any) -> Any:
         """Whether the motion at omega2 is stable against nutation, decided exactly: True, or an array of booleans.
 
-        DomainError at the pole; AtlasError for what is no number.
+        DomainError at the pole; AtlasError for an input that is no number.
         """
         values = real(omega2, "omega2", RATE)
         stable = np.array([self._exact.stable(float(x)) for x in values.flat], dtype=bool).reshape(values.shape)
@@ -104,7 +104,7 @@ class TopHyperbola(Shown):
     def motion(self, omega2: float, omega1: float = 0.0) -> TopMotion:
         """Return the motion at omega2, with `omega1` to push it; omega3 is that of the curve, rounded once.
 
-        Raises DomainError at the pole, AtlasError for what is no number.
+        Raises DomainError at the pole, AtlasError for an input that is no number.
         """
         inertia, coupling, direction, linear, quadratic = self.given
         return TopMotion(inertia, coupling, direction, (omega1, omega2, self.omega3(omega2)), linear, quadratic)
@@ -141,6 +141,6 @@ class TopHyperbola(Shown):
         return omega2, np.asarray(self.omega3(omega2))
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
-        """Return what a formula gives at omega2, rounded once. DomainError at the pole."""
+        """Return the values of a formula at omega2, rounded once. DomainError at the pole."""
         values, alone = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
         return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=alone)

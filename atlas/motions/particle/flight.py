@@ -14,11 +14,11 @@ from atlas.motions.euler_poisson import bracket
 from atlas.motions.particle.kernel import ParticleMotion
 
 AGREEMENT = 1e-9
-"""How far, of its size, the field of the turning body may be from that of its centre: what typed digits may lose."""
+"""Largest relative difference between the fields of the rotating body and of its centre, for rounded digits."""
 
 
 class Rotation(Protocol):
-    """What a flight asks of a motion of the body about its centre of mass."""
+    """Methods that a `Flight` uses of a motion of the body about its centre of mass."""
 
     def rotation(self, t: RealArrayLike) -> FloatArray:
         """R(t), shape (..., 3, 3), in the laboratory axes."""

@@ -60,7 +60,7 @@ def gyration(x: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArra
 
 
 BLOCK = 4096
-"""Times evaluated at once, so that what is between stays in the cache."""
+"""Times evaluated at once, so that intermediate arrays stay in the cache."""
 
 CASES = (
     "electric field alone", "no force", "magnetic field alone", "parallel fields", "oblique fields", "crossed fields",

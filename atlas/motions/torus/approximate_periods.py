@@ -170,7 +170,7 @@ class Curve:
         return self._held(self.in_cell(u))
 
     def in_cell(self, u: acb) -> acb:
-        """Return what u is modulo the periods of wp, in the cell about zero."""
+        """Return u modulo the periods of wp, in the cell about zero."""
         u -= round(float(u.imag.mid()) / float(self.imaginary.imag.mid())) * self.imaginary
         return u - round(float(u.real.mid()) / float(self.real.mid())) * self.real
 

@@ -23,10 +23,10 @@ CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Pairs (e, d): theta[c,e; 0,d] for c = 0, 1."""
 
 LEFT_OUT_LOG = 46.0
-"""Logarithm of what terms that are left out are smaller by than the largest one, wherever they are summed."""
+"""Logarithm of the ratio of the largest term to the omitted terms, anywhere."""
 
 HALF_TURN = 0.55
-"""Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
+"""Phases of a reduced time, in turns: half a turn and the rounding error near the longest times."""
 
 PRODUCT, ROUNDED = 2.24, 1.01
 """Units of 2^-53 by which a complex product, and a number that is rounded once, are wrong beside themselves."""

@@ -43,7 +43,7 @@ NEARLY = fmpq(1, 1 << 40)
 REMEDY = " A body for which they are equal is atlas.SymmetricBody(I2, I3, axes), with any times."
 
 STATE_CACHE_SIZE = 256
-"""States that are kept, for what else is asked at the same times."""
+"""Size of the cache of states, for further quantities at the same times."""
 
 MAX_GROWTH_PRECISION = 600
 """Bits from which on growing errors get no more."""
@@ -53,7 +53,7 @@ GUARD_BITS = 48
 
 
 class OnTorus:
-    """A motion that goes on for ever on its torus, or on what the torus shrinks to."""
+    """A motion that stays on its torus, or on the closed curve to which the torus shrinks."""
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         unit, self.rate = _power(max(moments)), _power(max(map(abs, (*Omega, *K))))
@@ -267,7 +267,7 @@ class AsymmetricMotion:
 
     @property
     def on_torus(self) -> OnTorus | None:
-        """What a motion "on a torus" is made of, in units in which its numbers are near one; None for other kinds."""
+        """Constants of a motion "on a torus", in units in which they are near one; None for other types."""
         return self._motion if isinstance(self._motion, OnTorus) and self._motion.is_regular else None
 
     @property

@@ -45,7 +45,7 @@ SPARE_BITS = 40
 """Bits beyond those of the constants."""
 
 LEFT_OUT = 240.0
-"""Logarithm of what products of terms that are left out are smaller by than the largest one."""
+"""Logarithm of the ratio of the largest product of terms to the omitted products."""
 
 FAINT_LOG = 90.0
 """Logarithm of what terms of D that are left out, and those of a defect that are bounded alike in the whole cell, are

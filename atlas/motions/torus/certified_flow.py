@@ -98,7 +98,7 @@ class Flow:
         self.start = [*W, *K]
 
     def rates(self, a: fmpq, g: fmpq) -> Rates:
-        """Return V_i/W_i, and what stands before W_j W_k and K_j K_k in the rates of W."""
+        """Return V_i/W_i, and the coefficients of W_j W_k and K_j K_k in the rates of W."""
         I = self.moments
         across = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
         return (

@@ -1,4 +1,4 @@
-"""The spectral curve of a motion on a torus, and what belongs to it, theorem-clebsch: for whoever goes on with it.
+"""The spectral curve of a motion on a torus, with its certified numbers, theorem-clebsch, for further analysis.
 
 Over the body's curve v^2 = P(z) = prod(z + D/I_i) it is eta^2 = g(z) + 2 c v, g = K^2 z^2 + (F + e2 K^2) z + 2 D H,
 c = (M, K), D = I1 I2 I3, e2 = I1 I2 + I1 I3 + I2 I3: of genus 3, with an involution eta -> -eta, whose Prym variety of
@@ -133,7 +133,7 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
 
 
 def _matrix(tau: acb_mat, digits: int) -> list[list[list[str]]]:
-    """Return real and imaginary parts of a matrix, each with so many digits; what is zero to so many places is zero."""
+    """Return real and imaginary parts of a matrix with a number of digits; entries below the last digit are zero."""
     least = arb(10) ** -digits
 
     def text(x: arb) -> str:

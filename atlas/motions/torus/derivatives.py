@@ -71,7 +71,7 @@ class TorusVaried:
         return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])
 
     def weighted(self, *_: Any) -> None:
-        """Return what is kept for combinations of inputs: nothing."""
+        """Return None: nothing is cached for combinations of inputs."""
 
     def vectors(
         self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, *_: Any

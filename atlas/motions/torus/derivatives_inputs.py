@@ -1,4 +1,4 @@
-"""What motions of three moments are made of: exact inputs by name, the twin in balls, and scalars of that."""
+"""Inputs of motions with three moments: exact values by name, the certified counterpart, and its scalars."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

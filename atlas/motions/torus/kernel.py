@@ -32,7 +32,7 @@ BITS = 60
 """Relative accuracy of a frequency before it is rounded, once."""
 
 MOTION_CACHE_SIZE = 16
-"""Motions that are kept with what was found of them."""
+"""Size of the cache of motions with their closed forms."""
 
 CHECK_TIMES = (5.3, -61.7, 2.9e5, -8.1e11)
 """Times, over the largest rate, at which a closed form is held against the certified twin; the last if it is proved."""
@@ -57,7 +57,7 @@ class SingleAsymmetric:
 
     @cached_property
     def _first(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
-        """The closed form if there is one, held against nothing yet; and what is known of it, or why there is none."""
+        """The closed form if there is one, not yet compared, else None; and its proof status, or why there is none."""
         elliptic = self.exact.elliptic
         if elliptic is not None:
             return self._elliptic(elliptic)
@@ -71,7 +71,7 @@ class SingleAsymmetric:
 
     @cached_property
     def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
-        """The closed form if there is one that is proved or agrees with the certified twin; and what is known of it."""
+        """The closed form if it is proved or agrees with the certified counterpart, else None; and its proof status."""
         closed, known = self._first
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, known
@@ -97,7 +97,7 @@ class SingleAsymmetric:
         return closed, f"{known}; rounding adds {closed.accuracy:.1e} at most"
 
     def _elliptic(self, exact: EllipticMotion) -> tuple[SingleElliptic | None, str]:
-        """Return the closed form by Jacobi's functions, and what is known of it, or why it is not taken."""
+        """Return the closed form by Jacobi's functions, and its proof status, or why it is not used."""
         try:
             if isinstance(exact, EulerTop):
                 single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
@@ -148,7 +148,7 @@ class SingleAsymmetric:
 
     @property
     def agreement(self) -> str:
-        """What is known of the truth of the closed form, or why there is none."""
+        """Proof status of the closed form, or why none is used."""
         return self._choice[1]
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:

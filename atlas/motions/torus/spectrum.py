@@ -1,4 +1,4 @@
-"""A motion on a torus as a turn and a function of two phases: what its spectrum and its actions are made of."""
+"""A motion on a torus as a uniform rotation and a function of two phases, for its spectrum and its actions."""
 
 from functools import partial
 from typing import Any

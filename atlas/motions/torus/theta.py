@@ -139,7 +139,7 @@ class ThetaKernel:
 
     @cached_property
     def proved(self) -> float | None:
-        """Bound on what the formulas are wrong by at any time up to phases of 2^50; None where it is not proved."""
+        """Bound on the errors of the formulas at any time up to phases of 2^50; None where no bound is proved."""
         from atlas.motions.torus.certified_distances import distances, drifts
 
         theta, torus = self.made_of
@@ -196,7 +196,7 @@ class ThetaKernel:
         return R.reshape(-1, 3, 3), W - K, K
 
     def _attitude(self, weights: FloatArray) -> Callable[..., None]:
-        """Return what fills rows with combinations of Re N, Im N and K of the motion."""
+        """Return the function that fills rows with combinations of Re N, Im N and K of the motion."""
 
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, SUM_BLOCK):
@@ -261,7 +261,7 @@ class ThetaKernel:
         return table, np.array([*steps, True], dtype=int)[:, None]
 
     def _vectors(self, forms: slice, weights: FloatArray) -> Callable[..., None]:
-        """Return what fills rows with combinations of K, or of K and W."""
+        """Return the function that fills rows with combinations of K, or of K and W."""
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, SUM_BLOCK):
@@ -285,7 +285,7 @@ class ThetaKernel:
         return _sum(x, low)
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
-        """Return half the phases less whole turns, in radians, what rounding left out of them, and the turns."""
+        """Return half the phases less whole turns, in radians, their rounding errors, and the number of turns."""
         return self.phases.reduced(t, room(3, t.size), low)[:3]
 
 
@@ -296,7 +296,7 @@ def _joined(q: FloatArray) -> FloatArray:
 
 
 def _sum(x: Array, y: Array) -> tuple[Array, Array]:
-    """Return a sum and what its rounding left out, by Knuth."""
+    """Return a sum and its rounding error, by Knuth's algorithm."""
     s = x + y
     rounded = s - x
     return s, (x - (s - rounded)) + (y - rounded)

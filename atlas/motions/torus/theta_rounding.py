@@ -65,7 +65,7 @@ def quotients(
 
 @dataclass(frozen=True)
 class Rounding:
-    """What errors depend on: forms of N, D, K and W, b = |B'|, and the largest rate.
+    """Inputs of the error bounds: forms of N, D, K and W, b = |B'|, and the largest rate.
 
     Their places are `into` @ half phases, and N turns by the angle `turning` @ half phases.
     """
