@@ -1,4 +1,4 @@
-r"""Changes the TeX of a formula by one sign, number, letter or index at a time: a trial that reads it must notice."""
+r"""Changes the TeX of a formula by one sign, number, letter, index or connective: a trial that reads it must notice."""
 
 import random
 import re
@@ -6,6 +6,7 @@ import re
 _TOKEN = re.compile(r"\\(?:begin|end)\{\w+\}|\\(?:text|mathrm|operatorname)\{[^}]*\}|\\[A-Za-z]+|\\.|.", re.DOTALL)
 _GREEK = [rf"\{name}" for name in "alpha beta gamma kappa lambda mu nu phi psi chi omega Omega".split()]
 _SWAPS = {"+": "-", "-": "+", r"\pm": r"\mp", r"\mp": r"\pm", r"\sin": r"\cos", r"\cos": r"\sin"}
+_CONNECTIVES = {r"\iff": r"\implies", r"\implies": r"\iff", r"\qquad": r"\iff", r"\quad": r"\implies"}
 _LETTERS = [[*"xyzuvwabcdefghijklmnopqrst"], [*"XYZUVWABCDEFGHIJKLMNOPQRST"]]
 _ANSATZ = (
     *(r"\omega_2, \Omega _3)^T", r"(1-I)\Omega _3+(2-I)B'_3]\Omega", r"-I\Omega _3K_2", r"+I\Omega _3K_1"),
@@ -50,6 +51,8 @@ def _others(mark: str, before: str, tokens: list[str], place: int) -> list[tuple
     kind, others = "letter", list[str]()
     if mark in _SWAPS:
         kind, others = "function" if len(mark) == 4 else "sign", [_SWAPS[mark]]
+    elif mark in _CONNECTIVES:
+        kind, others = "connective", [_CONNECTIVES[mark]]
     elif mark in {"=", r"\equiv", "("} and _begins_a_term(tokens, place):
         kind, others = "sign", [f"{mark}-"]
     elif mark.isdigit():

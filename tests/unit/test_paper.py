@@ -67,6 +67,12 @@ def test_an_equation_is_found_by_its_number_and_by_its_label(word: str) -> None:
     assert find(word) == (EQUATIONS["(72)"],)
 
 
+@pytest.mark.parametrize(("word", "label"), [("A1", "mf1"), ("(A15)", "mf13"), ("A16", "mf14")])
+def test_an_equation_of_the_appendix_is_found_by_its_published_number(word: str, label: str) -> None:
+    """The preprint of 26 March 2024 (preprints.org 202403.1313) cites the energy (103), mf13, as (A15)."""
+    assert find(word) == (equation(label),)
+
+
 def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
     """mf61 is on (53) and (55): both are found, and one alone cannot be meant."""
     assert [entry.name for entry in find("mf61")] == ["(53)", "(55)"]
@@ -81,6 +87,7 @@ def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
         ("theorem-pear", r"'theorem-pear' in the ledger \(did you mean 'theorem-pair'\?\)"),
         ("105", r"no equation \(105\) in the ledger; the nearest is \(104\)"),
         pytest.param("9" * 5000, r"no equation \(9+\) in the ledger; the nearest is \(104\)", id="5000 digits"),
+        ("A17", "'A17' in the ledger"),
         ("(0)", r"no equation \(0\) in the ledger; the nearest is \(1\)"),
         ("\N{SUPERSCRIPT TWO}", "there is no equation"),
     ],

@@ -121,7 +121,7 @@ def test_slips_are_graded_and_counted_once() -> None:
         "gap in the argument": 1,
         "missing case": 11,
         "misprint": 9,
-        "wording": 5,
+        "wording": 7,
     }
     signs = {"(98)", "(99)", "(101)", "text-drift", "text-ball-centre", "text-along-field"}
     assert {name for name, verdict in graded.items() if verdict.slip == "(97)"} == signs

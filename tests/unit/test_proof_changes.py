@@ -9,7 +9,7 @@ from changes import changes
 from rewritings import rewritings
 
 from atlas.trial.ledger import EQUATIONS
-from atlas.trial.proofs import recorded
+from atlas.trial.proofs import recorded, tex
 from atlas.trial.proofs.run import trial
 
 COUNT = 40
@@ -27,8 +27,8 @@ def test_a_changed_formula_is_refuted_or_unreadable(place: int) -> None:
     """The trial reads the TeX that is shown: none of its signs can be changed and the verdict stay."""
     name = sample()[place]
     case = trial(name)
-    for tex, what in changes(EQUATIONS[name].tex, most=8, seed=name):
-        assert replace(case, tex=tex).of_printed().decision != "proved", (name, what)
+    for other, what in changes(EQUATIONS[name].tex, most=8, seed=name):
+        assert replace(case, tex=other).of_printed().decision != "proved", (name, what)
 
 
 @pytest.mark.parametrize("place", range(0, COUNT, 3))
@@ -36,8 +36,8 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
     """Letters exchanged, a term dropped, another bracket, a lost dot or prime: other mistakes are noticed too."""
     name = sample()[place]
     case = trial(name)
-    for tex, what in rewritings(EQUATIONS[name].tex, most=5, seed=name):
-        assert replace(case, tex=tex).of_printed().decision != "proved", (name, what)
+    for other, what in rewritings(EQUATIONS[name].tex, most=5, seed=name):
+        assert replace(case, tex=other).of_printed().decision != "proved", (name, what)
 
 
 @pytest.mark.parametrize(
@@ -63,6 +63,14 @@ def test_a_rewritten_formula_is_refuted_or_unreadable(place: int) -> None:
         ("theorem-band", r"\le0", r"\le1"),
         ("theorem-clebsch", r"\dot F", r"\ddot F"),
         ("theorem-sigma", r"\zeta(t+z_0)", r"\zeta(-t+z_0)"),
+        ("theorem-cusp", r"\implies", r"\iff"),
+        ("theorem-cusp", r"\implies", r",\quad "),
+        ("theorem-clebsch", r",\qquad\dot F", r"\iff\dot F"),
+        ("theorem-closed", r"\iff k", r"\implies k"),
+        ("theorem-closed", r",\qquad\varrho", r"\iff\varrho"),
+        ("theorem-top-precession", r"\iff", r",\quad "),
+        ("theorem-points", r"\iff", r"\implies"),
+        ("text-ball-limit", r"\implies", r"\iff"),
     ],
 )
 def test_what_says_nothing_or_less_is_not_proved(name: str, right: str, wrong: str) -> None:
@@ -72,11 +80,22 @@ def test_what_says_nothing_or_less_is_not_proved(name: str, right: str, wrong: s
     assert other.of_printed().decision not in {"proved", "definition"}
 
 
+@pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if "\\iff" in entry.tex])
+def test_an_equivalence_is_tried_in_both_directions(name: str) -> None:
+    """A double arrow that is read has a line for the other direction, or a form of the line; another is named."""
+    case = trial(name)
+    double = [line for line in case.arrows.values() if line is not None]
+    assert len(double) + sum("\\iff" in phrase for phrase in tex.said(case.formula, case.signs)) == EQUATIONS[
+        name
+    ].tex.count("\\iff")
+    assert all(line or case.form is not str for line in double)
+
+
 def test_changes_are_of_one_sign_number_letter_or_index() -> None:
     """Every kind occurs, and each formula differs from the first."""
-    tex = r"\dot K_1=\Omega_3 K_2-2\sin\phi t"
-    found = dict(changes(tex))
+    formula = r"\dot K_1=\Omega_3 K_2-2\sin\phi t"
+    found = dict(changes(formula))
     assert {what.split()[1] for what in found.values()} == {"sign", "number", "letter", "index", "function"}
-    assert tex not in found
+    assert formula not in found
     assert r"\dot K_1=\Omega_3 K_2+2\sin\phi t" in found
     assert r"\dot K_1=\Omega_2 K_2-2\sin\phi t" in found

@@ -66,6 +66,16 @@ def test_a_missing_record_is_empty_and_a_spoilt_one_is_an_error(tmp_path: Path) 
         recorded.load(spoilt)
 
 
+@pytest.mark.parametrize("field", ["tex", "says", "assumptions"])
+def test_a_verdict_goes_stale_with_all_that_its_entry_says(field: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its formula, its words and each of its assumptions are in the fingerprint."""
+    before, entry = recorded.source("(72)"), recorded.equation("(72)")
+    value = getattr(entry, field)
+    other = replace(entry, **{field: ("$B'_2 < 0$", *value[1:]) if isinstance(value, tuple) else f"{value} "})
+    monkeypatch.setattr(recorded, "equation", lambda _name: other)
+    assert recorded.source("(72)") != before
+
+
 def test_a_changed_verdict_differs() -> None:
     """Both the verdict and that on the corrected form count; a new name is not recorded."""
     verdicts = recorded.load()

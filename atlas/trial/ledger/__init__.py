@@ -27,6 +27,8 @@ _SECTIONS: Mapping[Section, tuple[str, ...]] = {
     "VII": ("particle",),
     "Atlas": ("theorems", "clebsch", "elliptic", "general", "separatrix", "closed", "top", "top_map"),
 }
+APPENDIX = 88
+"""Number of the last equation before the appendix, whose equations the published versions number (A1), (A2), ..."""
 _KINDS: Mapping[str, Kind] = {"text": "claim", "theorem": "theorem"}
 
 
@@ -61,11 +63,13 @@ _NUMBERS = [entry.number for entry in EQUATIONS.values() if entry.number is not 
 
 
 def find(word: str) -> tuple[Equation, ...]:
-    """Return the entries that a user means by 72, (72), a name, or a LaTeX label of the paper's source.
+    """Return the entries that a user means by 72, (72), A5, a name, or a LaTeX label of the paper's source.
 
     It is one, but for a label that stands twice in the source. AtlasError with the nearest name if there is none.
     """
     number = slug(word)
+    if number[:1] == "A" and number[1:].isdecimal() and f"({APPENDIX + int(number[1:4])})" in EQUATIONS:
+        number = str(APPENDIX + int(number[1:4]))
     name = f"({number})" if number.isdecimal() else word
     found = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
     if not found and number.isdecimal():

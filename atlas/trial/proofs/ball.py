@@ -257,12 +257,9 @@ TRIALS = {
     "text-linear-poisson": Trial(
         model=orthogonal_model,
         follows=r"$\det R = 1$",
-        slip="text-affirmation",
-        corrected_model=lambda: (orthogonal_model(), orthogonal_model(-1)),
-        corrected_tex=mended("text-linear-poisson", {r"-\frac{1}": r"-\frac{\boxed{\det R}}"}),
-        note="Said of all orthogonal matrices, it holds for the rotations; for the determinant $-1$ the sign changes. "
-        "With $R(0) = 1$ no such matrix occurs.",
-        false=Falsehood("The sign does not depend on the determinant", "-det(R)/I0", "-1/I0"),
+        note="It is tried for the rotations, to which $R(0) = 1$ keeps both systems; for the determinant $-1$ the sign "
+        "would change.",
+        false=Falsehood("It holds for the determinant $-1$ too", model=lambda: orthogonal_model(-1)),
     ),
     "(24)": Trial(
         signs={r"\mathbf{R}": "column[]"},
@@ -326,6 +323,10 @@ TRIALS = {
         solves=LINEAR,
         model=motion_model,
         follows="Rodrigues' formula for a rotation about a unit vector",
+        corrected_tex=r"R(t)=R_{\hat{\mathbf{B}}}(\boxed{-}\alpha t)\,R_{\hat{\mathbf{k}}}(\boxed{-}\gamma t)",
+        grade="wording",
+        note="Both turns go against the sense in which @(85) counts a rotation with a frequency about a vector: with "
+        r"$\alpha,\gamma>0$ they are left-handed about $\mathbf{B}$ and $\hat{\mathbf{k}}$.",
         false=Falsehood(
             r"The turn about $\mathbf{B}$ comes first, then the one about $\hat{\mathbf{k}}$",
             "about_B(-alpha*t)*about_k(-gamma*t)",

@@ -26,7 +26,7 @@ TRIALS = {
         signs={r"\varrho\ne\frac{(1-I)\hat B_3}{I},\ \frac{2(1-I)\hat B_3}{I}": ""},
         defines=("k",),
         solves="I*(b + k)*((1 - I)*hB3 - I*r) = -I*b*(1 - I)*hB3",
-        also=("I*(b + k)*(phi/k - r) = ((1 - I)*hB3 - I*r)*k + (2*(1 - I)*hB3 - I*r)*b",),
+        arrows={1: "I*(b + k)*(phi/k - r) = ((1 - I)*hB3 - I*r)*k + (2*(1 - I)*hB3 - I*r)*b"},
         note="The first equation is linear in $k$: one root, none where the coefficient of $k$ is 0. By the last one "
         r"$b + k$ is not 0 if $I$ differs from 1; $k$ is 0 for the second $\varrho$ that is left out.",
         false=Falsehood("The sense of precession is the other one", "k = -b*", "k = b*"),

@@ -51,6 +51,14 @@ def integrals_model() -> Model:
     return Model({**LETTERS, **letters, "X": X})
 
 
+def multipliers_model() -> Model:
+    """Model any M and K of a body with principal moments, any z and v, and the multiplier w of K^2/2."""
+    w = sympy.Symbol("w", real=True)
+    y = {n: D * moment - z * D / moment + w for n, moment in enumerate(MOMENTS, 1)}
+    letters = {**LETTERS, "H": energy(M), "F": clebsch(M), "w": w, "y": y, "a": [D / moment for moment in MOMENTS]}
+    return Model(letters, ranges={"i": (1, 2, 3)})
+
+
 def root_model(*, elliptic: bool = False) -> Model:
     """Model the same for v^2 = P, with the integrals at M, or at the elliptic motion's own."""
     momentum = LETTERS["elliptic"] if elliptic else M
@@ -75,6 +83,22 @@ def critical_model() -> Model:
     letters = {name: LETTERS[name] for name in ("z", "v", "D", "e2", "P1", "P2")} | {"b": b, "c": c, "P": v**2}
     letters["C"] = 4 * b**2 * v**2 - c / v * (LETTERS["P1"] ** 2 - 2 * v**2 * LETTERS["P2"])
     return Model(letters, flow={z: sympy.Integer(1), v: LETTERS["P1"] / (2 * v)})
+
+
+def free_model() -> Model:
+    """Model any field K in a free body with moments J_i and the angular momentum s K."""
+    K, s, moments = LETTERS["K"], sympy.Symbol("s", real=True), sympy.symbols("J1:4", positive=True)
+    letters = {"K": K, "s": s, **{f"J{n}": moment for n, moment in enumerate(moments, 1)}, "one": ONE}
+    spin = sympy.Matrix([s * x / moment for x, moment in zip(K, moments, strict=True)])
+    return Model(letters, flow=dict(zip(K, cross(K, spin), strict=True)))
+
+
+def bodies_model(sign: int = 1) -> Model:
+    """Model I_i = J_i (J_j + J_k + s), each J_i the sum of two moments of mass, with an s of one sign."""
+    (first, second, third), s = sympy.symbols("g1:4", positive=True), sympy.Symbol("s", positive=True)
+    moments = second + third, first + third, first + second
+    whole = sum(moments)
+    return Model({f"I{n}": J * (whole - J + sign * s * whole) for n, J in enumerate(moments, 1)})
 
 
 def linear_model() -> Model:
@@ -114,6 +138,28 @@ TRIALS = {
         r"it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
         false=Falsehood("The moments add, with no $z$", "z + D/I[1]", "D/I[1]"),
     ),
+    "theorem-free-body": Trial(
+        model=free_model,
+        follows="@(16) and @(35) by substitution",
+        defines=("Omega", "I1", "I2", "I3"),
+        solves="d(K) = cross(K,Omega); diag(I1,I2,I3)*d(Omega) = cross(diag(I1,I2,I3)*Omega,Omega)"
+        " - cross(((I1 + I2 + I3)*one - 2*diag(I1,I2,I3))*K,Omega)",
+        also=(
+            Part(
+                line="I1 > 0; I2 > 0; I3 > 0; I2 + I3 - I1 > 0; I1 + I3 - I2 > 0; I1 + I2 - I3 > 0", model=bodies_model
+            ),
+        ),
+        note=r"For $s>0$ the $I_i$ are moments of a body, as the $J_i$ are. For $s<0$ they have one sign if "
+        r"$-\min(J_j+J_k)<s$, where $\lvert s\rvert(J_j+J_k-J_i)\le2J_jJ_k$ for each $i$ is what a body asks, and if "
+        r"$s<-\max(J_j+J_k)$, where $\ge$ is. An elliptic motion whose $E_i-1$ have one sign has the constants "
+        "$1/(E_i-1)$ of a free body, which need not be moments of one.",
+        false=Falsehood(
+            "For every $s$ they are moments of a body",
+            "I2 + I3 - I1 > 0",
+            "I2 + I3 - I1 > 0",
+            lambda: bodies_model(-1),
+        ),
+    ),
     "theorem-splitting": Trial(
         model=root_model,
         follows="$H$ and $F$, and the characteristic polynomial of the linear flow",
@@ -152,6 +198,30 @@ TRIALS = {
             "lam^4*(lam^2 + C)",
             "lam^6",
         ),
+    ),
+    "theorem-critical": Trial(
+        model=multipliers_model,
+        follows="$H$ and $F$, differentiated",
+        signs={
+            r"\frac{\partial G}{\partial M_i}": "partial(G, M)[i]",
+            r"\frac{\partial G}{\partial K_i}": "partial(G, K)[i]",
+            "y_i": "y[i]",
+        },
+        defines=("G",),
+        also=(
+            "partial(F/2 + v*dot(M,K) + w/2*dot(K,K), M)[i] = M[i] + v*K[i]",
+            "partial(F/2 + v*dot(M,K) + w/2*dot(K,K), K)[i] = (w - D/I[i])*K[i] + v*M[i]",
+            "D*I[1] + 2*D^2/I[1]^2 - e2*D/I[1] = (D/I[1] - D/I[2])*(D/I[1] - D/I[3])",
+        ),
+        note="Where $dG=0$, $x_i$ times the second rate less $v$ times the first is $(x_iy_i-v^2)K_i=0$. Two "
+        r"components of $\mathbf{K}$ that are not 0 have different $x_i$, so that $w=z^2+ze_2$ and $v^2=P$, by the "
+        "last relation. If no $x_i$ is 0, the motion is that of @theorem-elliptic. If $x_k=0$, then $v=0$ and "
+        "$M_i=M_j=0$, and $y_k=(x_i-x_k)(x_j-x_k)$, the last of the further lines, is not 0; so $K_k=0$ and "
+        r"$(\mathbf{M},\mathbf{K})=0$. With one component $K_i$ that is not 0, an $M_j$ that is not 0 asks "
+        r"$v=x_j=0$, then $M_i=0$, and $(\mathbf{M},\mathbf{K})=0$ again: else it is a spin. Without $dH$ the "
+        r"first of the further lines leave $\mathbf{M}=-v\mathbf{K}$ with one component. This argument in words "
+        "joins the lines, which are what is tried.",
+        false=Falsehood("The multiplier of $\\mathbf{K}^2$ is free on the family", "(w - z^2 - z*e2)", "w"),
     ),
     "theorem-bifurcation": Trial(
         model=critical_model,

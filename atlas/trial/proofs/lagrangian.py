@@ -213,6 +213,7 @@ TRIALS = {
         also=("2*partial(L,lam[A,beta]) = dot(y[A] - y[1], y[beta] - y[1]) - a[A,beta]",),
         model=action_model,
         form=_equivalent,
+        arrows={1: ""},
         follows="the action @(1) for six particles, differentiated",
         false=Falsehood(
             "The constraints fix how far the further particles are from particle 1",

@@ -342,7 +342,7 @@ TRIALS = {
         false=Falsehood(r"$\mathbf{C}_\bot$ stays what it is", "Cperp - mu*Eperp*(omega0/omega)", "Cperp"),
     ),
     "text-first-two-terms": Trial(
-        signs={r"\implies": ""},
+        arrows={1: None},
         defines=("Cperp",),
         model=lambda: signed_model("origin"),
         follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",

@@ -125,6 +125,13 @@ def quadrature_model() -> Model:
     return Model(letters, where, flow, phases={Phi: (c1, s1), phi0: (c2, s2)})
 
 
+def free_constant_model(*, fixed: bool = False) -> list[Model]:
+    """Model any state with its E', and any f0, or, where it is fixed, 1 and -1."""
+    letters = state_model().letters
+    values = map(sympy.Integer, (1, -1)) if fixed else [sympy.Symbol("f0", real=True)]
+    return [Model({**letters, "f0": value}) for value in values]
+
+
 def initial_model() -> Model:
     """Model the cubic (47), (48) as proved, with its integrals at t = 0: Omega = omega, K = B'."""
     u, field = sympy.Symbol("Omega3", real=True), sympy.Matrix([0, B2, B3])
@@ -277,7 +284,16 @@ TRIALS = {
         r"\qquad\boxed{\rho^2=E'-I\Omega_3^2}",
         note=r"Where $\Omega_1 = \Omega_2 = 0$ the vector passes through zero, but the root does not change its sign: "
         r"with it the angle would have to jump by $\pi$. With a $\rho$ of either sign, which passes through zero too, "
-        "all is smooth. General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
+        "all is smooth. General for @(43) alone, see @text-free-constant.",
+    ),
+    "text-free-constant": Trial(
+        model=free_constant_model,
+        follows=r"@(45) and @(36), $\Omega_1$ and $\Omega_2$ squared and added",
+        corrected_tex=r"\Omega_1^2+\Omega_2^2=f_0^2(E'-I\Omega_3^2),\qquad\boxed{f_0^2=1}",
+        corrected_model=lambda: free_constant_model(fixed=True),
+        grade="wording",
+        note=r"@(43) is linear in $\Omega_1$ and $\Omega_2$ and leaves a factor free. But $E'$ in it is that of the "
+        "motion, and @(36) fixes the factor: another one solves @(43) and is no motion with these integrals.",
     ),
     "(46)": Trial(
         model=state_model,

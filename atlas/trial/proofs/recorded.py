@@ -1,8 +1,8 @@
 """The recorded verdicts, kept beside the proofs: a page is drawn from them and never waits for a proof.
 
 `source(name)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
-topic and the topics that it builds on, comments and blank lines aside, and the TeX that is shown. A recorded verdict is
-current if its fingerprint is.
+topic and the topics that it builds on, comments and blank lines aside, and all that the entry says: its TeX, its words,
+its quotation and its assumptions. A recorded verdict is current if its fingerprint is.
 """
 
 import hashlib
@@ -48,7 +48,8 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 
 def source(name: str) -> str:
     """Return the fingerprint of the proof of an entry of the ledger."""
-    parts = (_fingerprint(topic(name), MACHINERY), equation(name).tex)
+    entry = equation(name)
+    parts = (_fingerprint(topic(name), MACHINERY), entry.tex, entry.says, entry.quote, *entry.assumptions)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 

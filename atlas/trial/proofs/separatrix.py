@@ -35,10 +35,9 @@ def steady(rate: Value, leading: Value, double: Value = nu0) -> dict[str, Value]
 
 
 def any_model() -> Model:
-    """Model any constants of the quartic q with the root nu0; g is 2H - M3^2/I - b^2."""
-    rest = A * nu0**2 + (p - M3 * nu0) ** 2 / (1 - nu0**2)
-    letters = {"nu0": nu0, "A": A, "M3": M3, "p": p, "w": (p - M3 * nu0) / (1 - nu0**2)}
-    return Model({**letters, **functions("q", QUARTIC.xreplace({general.g: rest, general.A: A}), nu)})
+    """Model any constants of the quartic q, and any nu0; g is 2H - M3^2/I - b^2."""
+    letters = {"nu0": nu0, "A": A, "M3": M3, "p": p, "g": g, "w": (p - M3 * nu0) / (1 - nu0**2)}
+    return Model({**letters, **functions("q", QUARTIC.xreplace({general.g: g, general.A: A}), nu)})
 
 
 def precession_model() -> Model:
@@ -194,8 +193,15 @@ TRIALS = {
         signs={r"\hat B_3": "hB3"},
         follows=r"@theorem-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, and "
         "$q'$ then has the factor",
-        also=(Part(line="q(nu0) = 0; dq(nu0) = 2*(1 - nu0^2)*(M3*w - nu0*(w^2 + A))", model=any_model),),
-        note=r"With $|\nu_0| < 1$ the slope vanishes exactly if $M_3 w = \nu_0 (w^2 + A)$. ",
+        arrows={
+            1: Part(
+                line="q(nu0) = (1 - nu0^2)*(g - A*nu0^2 - w^2*(1 - nu0^2));"
+                " dq(nu0) = 2*(1 - nu0^2)*(M3*w - nu0*(w^2 + A)) - 2*nu0*q(nu0)/(1 - nu0^2)",
+                model=any_model,
+            )
+        },
+        note=r"With $|\nu_0| < 1$ the last lines say that $q$ and $q'$ vanish exactly if the two conditions hold; "
+        r"$g=2H-M_3^2/I-b^2$.",
         false=Falsehood("The condition is that of the free top", "nu0*(w^2 + A)", "nu0*w^2"),
     ),
     "theorem-nutation": Trial(

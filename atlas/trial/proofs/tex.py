@@ -9,8 +9,8 @@ and the next is a factor. What a letter means is said by a table, in TeX; withou
 A table may also say what a longer phrase means: an expression, a whole relation, other TeX, or nothing, where the
 model says it.
 Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names what
-the table says. On both sides of a double arrow stand statements that are tried alike, in a model where one side is
-built in; before a single one a premise, which the table must say, or a letter that the line defines.
+the table says. On both sides of an arrow stand statements of the line; `arrows` says where which arrow stands, and
+a trial must have said the same: what it builds in of a premise, and what tries the other direction of a double arrow.
 """
 
 import ast
@@ -28,7 +28,8 @@ _SILENT = {r"\left", r"\right", r"\Bigl", r"\Bigr", r"\bigl", r"\bigr", r"\displ
 _SAME = {r"\tfrac": r"\frac", r"\varepsilon": r"\epsilon", r"\boldsymbol": r"\mathbf", r"\equiv": "=", r"\;": r"\,"}
 _RELATES = re.compile("[=<>]")
 _ALIGNED = {r"\begin{aligned}", r"\end{aligned}"}
-_SEPARATORS = {",", ";", ":", r"\quad", r"\qquad", r"\\", r"\iff"} | {
+_ARROWS = {r"\iff", r"\implies"}
+_SEPARATORS = {",", ";", ":", r"\quad", r"\qquad", r"\\", *_ARROWS} | {
     rf"\text{{{words}}}" for words in ("where", "then", "or", "or, equivalently", "and")
 }
 _SIGNS: dict[str, type[ast.cmpop]] = {
@@ -102,15 +103,22 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
     for key, plain in signs.items():
         phrase = _tokens(key)
         stands = any(tokens[place : place + len(phrase)] == phrase for place in range(len(tokens))) if phrase else False
-        if stands and phrase[0] != r"\implies" and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
+        if stands and (not plain or (_RELATES.search(plain) and not plain.endswith("="))):
             phrases[key] = plain
     return phrases
+
+
+def arrows(tex: str, signs: Mapping[str, str]) -> list[tuple[int, str]]:
+    """Return the arrows of a formula outside what the table says, each with the number of statements before it."""
+    tokens = _said(_tokens(tex), _table(tuple(signs.items())))
+    found = [(place, mark) for place, mark in enumerate(tokens) if isinstance(mark, str) and mark in _ARROWS]
+    return [(len(_statements(tokens[:place])), mark) for place, mark in found]
 
 
 @cache
 def _read(tex: str, signs: tuple[tuple[str, str], ...]) -> tuple[str, frozenset[str]]:
     table = _table(signs)
-    readers = [_Formula(statement, table) for statement in _statements(tex, table)]
+    readers = [_Formula(statement, table) for statement in _statements(_said(_tokens(tex), table))]
     relations = [relation for reader in readers for relation in reader.relations()]
     if not relations:
         raise UnreadableError("nothing in the formula is to be read")
@@ -162,9 +170,8 @@ def _tokens(tex: str) -> list[str]:
     return kept
 
 
-def _statements(tex: str, table: _Table) -> list[list[_Token]]:
-    """Return the formulas between commas, spaces, ends of rows and words, each as tokens."""
-    tokens = _said(_tokens(tex), table)
+def _statements(tokens: list[_Token]) -> list[list[_Token]]:
+    """Return the formulas between commas, spaces, arrows, ends of rows and words, each as tokens."""
     statements: list[list[_Token]] = [[]]
     depth, row, ended = 0, False, False
     for mark in tokens:

@@ -267,6 +267,7 @@ TRIALS = {
         signs={"x^2": "z", r"\tau^2": "t2", "y_-": "ym", "y_+": "yp", r"\tau\le\frac{1}{2\sqrt2}": "8*t2 <= 1"},
         defines=("ym", "yp"),
         form=_and_only_there,
+        arrows={1: ""},
         elsewhere={5: lambda: places_model(within=False)},
         also=(
             Part(

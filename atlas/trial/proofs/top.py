@@ -73,11 +73,9 @@ def turns_model() -> Model:
 
 
 def quartic_model() -> Model:
-    """Model any constants of the quartic with a root at nu = r."""
-    w = (p - M3 * r) / (1 - r**2)
-    rest = 2 * a * r + A * r**2 + (p - M3 * r) ** 2 / (1 - r**2)
-    letters = {"nu0": r, "a": a, "A": A, "M3": M3, "p": p, "w": w, **functions("q", QUARTIC.xreplace({g: rest}), nu)}
-    return Model({**letters, "g": rest})
+    """Model any constants of the quartic, and any nu0."""
+    letters = {"nu0": r, "a": a, "A": A, "M3": M3, "p": p, "g": g, "w": (p - M3 * r) / (1 - r**2)}
+    return Model({**letters, **functions("q", QUARTIC, nu)})
 
 
 def precession_model() -> Model:
@@ -126,7 +124,13 @@ TRIALS = {
         model=precession_model,
         follows=r"@theorem-every-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, "
         r"and $q'(\nu_0)$ is then a multiple of the first",
-        also=(Part(line="q(nu0) = 0; dq(nu0) = -2*(1 - nu0^2)*(nu0*w^2 - M3*w + a + A*nu0)", model=quartic_model),),
+        arrows={
+            1: Part(
+                line="q(nu0) = (1 - nu0^2)*(g - 2*a*nu0 - A*nu0^2 - w^2*(1 - nu0^2));"
+                " dq(nu0) = -2*(1 - nu0^2)*(nu0*w^2 - M3*w + a + A*nu0) - 2*nu0*q(nu0)/(1 - nu0^2)",
+                model=quartic_model,
+            )
+        },
         false=Falsehood("The two rates are those of the heavy top", "a + A*nu0", "a"),
     ),
     "theorem-top-nutation": Trial(

@@ -53,13 +53,14 @@ def residue_model() -> list[Model]:
 
 TRIALS = {
     "theorem-cusp": Trial(
-        signs={r"\implies": ""},
+        arrows={1: None},
         model=cusp_model,
         follows=r"@theorem-every-top: the axis stops where $\dot\nu$ and $\dot\psi$ vanish together",
         defines=("p",),
         note=r"At a simple root $\nu - \nu_c$ begins with $q'(\nu_c) t^2/4$ and $\psi$ with $t^3$, unless $M_3 = 2 k_2 "
-        r"\nu_c$: a cusp along the meridian. For $k_2 = 0$, $\nu_c = p/M_3$, and Lagrange's top has cusps exactly if "
-        r"$g = 2 a p/M_3$.",
+        r"\nu_c$: a cusp along the meridian. Where $\dot\psi$ changes its sign inside the range of $\nu$ the trace "
+        r"has loops, where it has one sign throughout, waves. For $k_2 = 0$, $\nu_c = p/M_3$, and Lagrange's top "
+        "has cusps exactly if $g = 2 a p/M_3$.",
         false=Falsehood("The energy of a cusp does not depend on the coupling", " - k2^2*(1 - nuc^2)", ""),
     ),
     "theorem-focus": Trial(

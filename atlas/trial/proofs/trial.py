@@ -69,6 +69,9 @@ class Trial:
     defines    letters that the printed form defines
     solves     what must hold with these
     elsewhere  models of statements that are not of what `model` is about, by their place in the line
+    arrows     what stands at an arrow of the formula, by the number of statements before it: None at a single one,
+               whose premise the model has or the line defines; at a double one the line that tries it in both
+               directions, empty where `form` makes that of its two sides
     also       further lines that the claim needs: parts, or the lines alone where they are of the same model
     definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
     grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
@@ -89,6 +92,7 @@ class Trial:
     defines: tuple[str, ...] = ()
     solves: str = ""
     elsewhere: Mapping[int, Callable[[], Cases]] = field(default_factory=dict)
+    arrows: Mapping[int, Part | str | None] = field(default_factory=dict)
     also: tuple[Part | str, ...] = ()
     definition: bool = False
     grade: Grade = ""
@@ -123,6 +127,7 @@ class Trial:
             follows=self.follows,
             signs={**self.signs, **self.corrected_signs},
             form=self.form,
+            arrows=self.arrows,
             tex=self.corrected_tex,
             defines=self.defines if self.corrected_defines is None else self.corrected_defines,
             solves=self.solves if self.corrected_solves is None else self.corrected_solves,
@@ -149,7 +154,8 @@ class Trial:
             Part(line="; ".join(lines), model=model, defines=self.defines, solves=self.solves)
             for model, lines in statements.items()
         ]
-        further = [Part(line=line, model=self.model) if isinstance(line, str) else line for line in self.also]
+        lines = [line for line in (*self.arrows.values(), *self.also) if line]
+        further = [Part(line=line, model=self.model) if isinstance(line, str) else line for line in lines]
         return (*first, *further)
 
     @property
@@ -179,6 +185,9 @@ class Trial:
             parts, thin = self.parts, tex.thin(self.formula, self.signs)
         except (tex.UnreadableError, NoMeaningError) as reason:
             return Outcome("undecided", f"unreadable: {reason}")
+        tried = [(place, r"\implies" if line is None else r"\iff") for place, line in self.arrows.items()]
+        if tex.arrows(self.formula, self.signs) != tried:
+            return Outcome("undecided", "unreadable: its arrows are not those that are tried")
         for name in thin:
             if any(getattr(model.letters.get(name), "shape", ()) == (3, 1) for model in parts[0].cases):
                 return Outcome("undecided", f"unreadable: {name} is a vector, and is not bold")
