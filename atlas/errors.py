@@ -24,7 +24,7 @@ class AtlasWarning(UserWarning):
 
 
 class NearlySymmetricWarning(AtlasWarning):
-    """An inertia tensor two of whose principal moments differ by rounding alone: no symmetric body, and slow."""
+    """Two moments that differ by little: of a tensor they stay two, of points in a symmetric body they are joined."""
 
 
 class RelativisticWarning(AtlasWarning):

@@ -17,6 +17,7 @@ from atlas.bodies.inertia import (
     inertia_from_mass_matrix,
     mass_matrix_from_inertia,
     mass_matrix_of_points,
+    principal,
 )
 from atlas.errors import AtlasError, DomainError
 from atlas.viewers import notebook
@@ -389,7 +390,9 @@ class SymmetricBody:
         matrix, _ = diagonal_or_matrices(mass_matrix, "The mass matrix")
         if matrix.ndim > 2:
             raise AtlasError(f"A body has one mass matrix (3, 3) or diagonal (3,), not the shape {matrix.shape}.")
-        g, vectors = np.linalg.eigh(np.diag(matrix) if matrix.ndim == 1 else matrix)
+        g, axes = principal(np.diag(matrix) if matrix.ndim == 1 else matrix)
+        order = np.argsort(g, kind="stable")
+        g, axes = g[order], axes[order]
         largest = g[2]
         if not matrix.any():
             raise DomainError("The mass matrix is zero: all of the body is in one point, and has no rotation.")
@@ -409,7 +412,7 @@ class SymmetricBody:
                 f"where two must agree to {tolerance:g} of the largest."
             )
         across = float((first + second) / 2)
-        return cls(across + float(g[third]), 2 * across, _frame(vectors[:, third]))
+        return cls(across + float(g[third]), 2 * across, _frame(axes[third]))
 
 
 SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {

@@ -14,6 +14,9 @@ ROUNDING = 16 * float(np.finfo(float).eps)
 PRECISION = 320
 """Bits of principal values and axes before they are rounded, once."""
 
+MAX_EXACT_POINTS = 4096
+"""Point masses up to which the sums over them are rational: in some tenths of a second."""
+
 LARGEST = float(np.finfo(float).max) / 8
 """Sums of elements up to this are finite."""
 
@@ -52,9 +55,29 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
         raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
     if m.min() <= 0:
         raise DomainError(f"Every mass must be positive, but one is {m.min()}.")
+    if m.size <= MAX_EXACT_POINTS:
+        return real(_exact_mass_matrix(m.tolist(), x.T.tolist()), "The mass matrix")
     with np.errstate(over="ignore", invalid="ignore"):
         x = x - (m @ x) / m.sum()
         return real((m[:, None] * x).T @ x, "The mass matrix")
+
+
+def _exact_mass_matrix(m: list[float], columns: list[list[float]]) -> list[list[float]]:
+    """Return the mass matrix from sums of rational numbers, each element rounded once."""
+    from flint import fmpq
+
+    from atlas.arithmetic.numbers import nearest
+
+    masses, x, y, z = ([fmpq(*value.as_integer_ratio()) for value in column] for column in (m, *columns))
+    whole, moved = sum(masses, fmpq(0)), [[a * b for a, b in zip(masses, v, strict=True)] for v in (x, y, z)]
+    first = [sum(v, fmpq(0)) for v in moved]
+    return [
+        [
+            nearest(sum((a * b for a, b in zip(v, w, strict=True)), -p * q / whole))
+            for w, q in zip((x, y, z), first, strict=True)
+        ]
+        for v, p in zip(moved, first, strict=True)
+    ]
 
 
 def inertia_tensor(inertia: Any) -> FloatArray:

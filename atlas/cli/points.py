@@ -1,6 +1,7 @@
 """Columns of numbers of a CSV file with a heading; point masses and charges of one as the body of a command."""
 
 import csv
+import warnings
 from collections.abc import Mapping
 from fractions import Fraction
 from itertools import chain, islice
@@ -9,7 +10,7 @@ from typing import Any, NamedTuple
 
 import click
 
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, NearlySymmetricWarning
 from atlas.files import lines_of
 from atlas.measured import WANTED, heading, size
 
@@ -72,6 +73,10 @@ def points(path: Path) -> Any:
         )
     if read.charges is not None:
         _one_ratio(path, read.masses, read.charges)
+    if g[0, 0] != g[1, 1] or np.triu(g, 1).any():
+        off = max(abs(g[0, 0] - g[1, 1]), np.abs(np.triu(g, 1)).max()) / largest
+        joined = f"{path}: a body symmetric about z is taken, off by {off:.1g} of the largest moment."
+        warnings.warn(joined, NearlySymmetricWarning, stacklevel=2)
     across = (g[0, 0] + g[1, 1]) / 2
     return SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
 
@@ -81,7 +86,7 @@ def oblique_tensor(path: Path) -> Any:
     import numpy as np
 
     inertia = point_masses(path).inertia
-    return inertia if np.abs(np.triu(inertia, 1)).max() > SYMMETRIC * np.abs(inertia).max() else None
+    return inertia if np.triu(inertia, 1).any() else None
 
 
 def principal_moments(path: Path) -> tuple[float, float, float]:
@@ -89,7 +94,7 @@ def principal_moments(path: Path) -> tuple[float, float, float]:
     import numpy as np
 
     inertia = point_masses(path).inertia
-    if np.abs(np.triu(inertia, 1)).max() > SYMMETRIC * np.abs(inertia).max():
+    if np.triu(inertia, 1).any():
         moments, axes = np.linalg.eigh(inertia)
         axes *= np.linalg.det(axes)  # right-handed
         shown = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes.T)

@@ -1,5 +1,6 @@
 import inspect
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -163,6 +164,17 @@ def test_a_body_without_symmetry_is_refused() -> None:
         SymmetricBody.from_mass_matrix([1, 1 + 1e-6, 0.3])
     loose = SymmetricBody.from_mass_matrix([1, 1 + 1e-6, 0.3], tolerance=1e-5)
     assert abs(loose.I3 - (2 + 1e-6)) < 4 * EPS
+
+
+def test_sums_over_points_are_rounded_once() -> None:
+    """Points far from their centre and of very different masses have the mass matrix of rational arithmetic."""
+    rng = np.random.default_rng(5)
+    masses, positions = rng.uniform(1e-6, 1.0, 30), rng.normal(size=(30, 3)) + 1e6
+    m, columns = [Fraction(x) for x in masses.tolist()], [[Fraction(x) for x in v] for v in positions.T.tolist()]
+    centre = [sum(a * b for a, b in zip(m, v, strict=True)) / sum(m) for v in columns]
+    inside = [[x - c for x in v] for v, c in zip(columns, centre, strict=True)]
+    g = [[float(sum(a * b * c for a, b, c in zip(m, v, w, strict=True))) for v in inside] for w in inside]
+    assert mass_matrix_of_points(masses, positions).tolist() == g
 
 
 @pytest.mark.parametrize("axis", range(3))

@@ -17,6 +17,8 @@ from atlas.cli.app import atlas as command
 from atlas.cli.explore import started
 from atlas.cli.page import COMMANDS, ByOptions
 from atlas.cli.page import asked as page_asked
+from atlas.cli.points import oblique_tensor
+from atlas.errors import NearlySymmetricWarning
 from atlas.motions.register import FAMILIES as REGISTER
 from atlas.sweeps.families import FAMILIES
 
@@ -402,3 +404,14 @@ def test_a_file_after_a_vector_may_begin_with_a_digit(tmp_path: Path, monkeypatc
     words = "check --ratio 1.5 --omega 0.3 0.7 0.2 --field".split()
     assert "Omega1" in run(*words, "1,2", "3.csv")[1]
     assert run(*words, "1", "3.csv")[1].endswith("--field takes 2 numbers, B2 B3; found 1.\n")
+
+
+def test_points_are_symmetric_as_given_or_it_is_told(tmp_path: Path) -> None:
+    """Products of 1e-10 stay where the body may have three moments; where it must be symmetric it is said once."""
+    square = np.array([[1.0, 0, 0, 1], [-1, 0, 0, 1], [0, 1, 0, 1], [0, -1, 0, 1], [0, 0, 0.5, 1], [0, 0, -0.5, 1]])
+    words = "--field 1 2 --omega 0.1 0.2 0.3 --json".split()
+    assert "off by" not in run("motion", "--points", written(tmp_path, square, "x,y,z,mass"), *words)[1]
+    square[0, 1] = 1e-10
+    with pytest.warns(NearlySymmetricWarning, match=r"symmetric about z is taken, off by \de-1\d of the largest"):
+        assert run("motion", "--points", written(tmp_path, square, "x,y,z,mass"), *words)[0] == 0
+    assert oblique_tensor(Path(written(tmp_path, square, "x,y,z,mass")))[0, 1] == pytest.approx(-1e-10)
