@@ -5,6 +5,8 @@ rates. Its axis draws loops where it turns back, cusps where it stops, and waves
 where the energy is that of rest at the cosine nu = p/M3.
 """
 
+from typing import Any
+
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
@@ -61,7 +63,7 @@ def scene(
         caption=(
             r"Momentum and energy decide whether a top's axis waves or loops. "
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
-            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) in the plane of "
+            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) by "
             r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin, "
             r"loops above it, waves elsewhere."
         ),
@@ -87,32 +89,40 @@ def trace(top: TopMotion) -> str:
 
 
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
-    """Return the energies g over p: the least ones, those of the cusps, and the motions drawn."""
+    """Return the energies g, less those of the cusps' line, over p: the least ones and the motions drawn."""
     wells = Wells.of(tops[0])
     M3 = wells.M3
-    ends = np.array([wells.spin(end)[:2] for end in (1, -1)])
-    places = np.array([value(top, wells) for top in tops])
+
+    def level(points: Any) -> FloatArray:
+        """Return points (p, g) with the line of the cusps, g = 2 a p/M3, taken off."""
+        return np.asarray(points) - np.multiply.outer(np.asarray(points)[..., 0], [0.0, 2 * wells.a / M3])
+
+    ends = level([wells.spin(end)[:2] for end in (1, -1)])
+    places = level([value(top, wells) for top in tops])
     far = 1.35 * max(abs(M3), float(np.abs(places[:, 0]).max()))
     lines = [
-        np.stack([branch.p, branch.g], axis=1) for branch in wells.precessions(3 * far + 3 * np.sqrt(abs(wells.a)))
+        level(np.stack([branch.p, branch.g], axis=1))
+        for branch in wells.precessions(3 * far + 3 * np.sqrt(abs(wells.a)))
     ]
     inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines] + [ends, places])
-    low, high = float(inside[:, 1].min()), float(max(ends[:, 1].max(), places[:, 1].max()))
+    low, high = float(inside[:, 1].min()), float(places[:, 1].max())
+    high = max(high, -low)
     cusps = np.linspace(-1.0, 1.0, 65)
     layers: list[Layer] = [Curve(line, "main") for line in lines]
     layers += [
-        Curve(np.stack(wells.cusps(cusps), axis=1), "reference"),
+        Curve(level(np.stack(wells.cusps(cusps), axis=1)), "reference"),
         Points(ends, "point"),
         Points(places, "start"),
-        Label(np.array([-0.3 * far, 0.55 * high + 0.45 * low]), "loops", "note"),
-        *(Label(end, "spin", "note", (side, 0.0)) for end, side in zip(ends, (-8.0, 9.0), strict=True)),
+        Label(np.array([-0.3 * far, 0.5 * high]), "loops", "note"),
+        Label(np.array([0.0, 0.4 * low]), "waves", "note"),
+        *(Label(end, "spin", "note", (side, 0.0)) for end, side in zip(ends, (8.0, 9.0), strict=True)),
     ]
     beside = np.array([0.0, 0.08 * (high - low)])
     for name, top, place in zip("abc", tops, places, strict=False):
         side = -1 if trace(top) == "waves" else 1
         layers.append(Label(place + side * beside, name))
     return Plane(
-        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)", (-far, far), room((low, high), 0.12),
+        tuple(layers), f"$p$ (1/{unit})", f"$g-2ap/M_3$ (1/{unit}$^2$)", (-far, far), room((low, high), 0.12),
         title=f"({letter}) energies",
     )  # fmt: skip
 

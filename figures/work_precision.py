@@ -15,9 +15,7 @@ RECORDS = ("bench.json",)
 ROOM = (1.6, 0.5), (0.9, 0.5)
 
 
-def scene(
-    *, cases: tuple[str, ...] = ("elementary", "ball", "particle"), horizon: float = 100.0, columns: int = 1
-) -> Scene:
+def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, columns: int = 1) -> Scene:
     """Draw one panel for each of the cases, with all runs up to the time ``horizon``."""
     record = benchmark.read()
     return Scene(
