@@ -1,4 +1,4 @@
-"""What an object says of itself: one line here; its tables, pictures and data frames are made by `atlas.notebook`."""
+"""Representation of an object: one line here; tables, pictures and data frames are made by `atlas.notebook`."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -32,7 +32,7 @@ class Shown:
     arguments: Mapping[str, Any]
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Refuse another value of what it was made of, on which all else depends, and of what was computed from it."""
+        """Refuse to change an argument of the constructor, on which all else depends, or a value computed from it."""
         if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
         super().__setattr__(name, value)
@@ -124,12 +124,12 @@ class Shown:
 
 
 def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
-    """Return what a call makes, of a copy or in another process."""
+    """Return the object that a call makes, for a copy or in another process."""
     return make(**arguments)
 
 
 def called(name: str, arguments: Mapping[str, Any]) -> str:
-    """Return a call as it is typed; what was left out, None, is left out."""
+    """Return a call as text; arguments that are None are left out."""
     given = ", ".join(f"{key}={_typed(value)}" for key, value in arguments.items() if value is not None)
     return f"{name}({given})"
 

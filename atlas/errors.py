@@ -1,4 +1,4 @@
-"""What the atlas raises when an input has no answer: one sentence that says what, where, and what would be right."""
+"""Errors of the atlas for inputs that have no answer: one sentence with the fault, its place and the remedy."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -20,7 +20,7 @@ class NotCertifiedError(AtlasError):
 
 
 class AtlasWarning(UserWarning):
-    """What does not stop a calculation, but may not be what was meant."""
+    """Warning: the result is computed, but the input may not be the intended one."""
 
 
 class NearlySymmetricWarning(AtlasWarning):

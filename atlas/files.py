@@ -124,7 +124,7 @@ def lines_of(file: TextIO, name: str) -> Iterator[str]:
 
 
 def check(path: Path) -> None:
-    """Raise OSError if no file can be written there; what is there stays as it is."""
+    """Raise OSError if no file can be written there; an existing file is unchanged."""
     part = _unfinished(path, os.getpid())
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -214,7 +214,7 @@ def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, st
 
 
 def digest_of(path: Path) -> str | None:
-    """Return the digest of a file, None for what is none."""
+    """Return the digest of a file, None if there is no file."""
     if not path.is_file():
         return None
     with path.open("rb") as file:

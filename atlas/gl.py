@@ -95,7 +95,7 @@ def _vtk() -> str | None:
 
 
 def _candidates() -> tuple[str, ...]:
-    """Return what to try, best first."""
+    """Return the renderers to try, best first."""
     if _vtk() is None:
         return ()
     return tuple(WINDOWS) if sys.platform.startswith("linux") else ("native",)

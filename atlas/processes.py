@@ -15,7 +15,7 @@ SAFE = "PYTHONSAFEPATH"
 ENDING = (SIGINT, SIGTERM, SIGHUP)
 """Signals that end a command in order."""
 DRAWING = "atlas.book.building.loaded"
-"""The module that loads what figures are drawn with."""
+"""Module that imports the libraries that draw figures."""
 
 
 def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "spawn") -> ProcessPoolExecutor | None:

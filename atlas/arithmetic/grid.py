@@ -25,7 +25,7 @@ from atlas.arithmetic.words import middle
 from atlas.errors import AtlasError
 
 QUARTER_TURN, TAIL = nearest(QUARTER), np.array(LACKING)
-"""pi/2: a head of 27 bits and the rest."""
+"""pi/2 as a double, and the remainders of its head of 27 binary digits."""
 
 TIME_BITS = 26
 """Those of what is multiplied by the head."""

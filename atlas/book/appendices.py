@@ -1,4 +1,4 @@
-"""What a report shows of recorded results, as plain data: the trial of the ledger's entries, and tables by name.
+"""Recorded results as a report shows them, plain data: the trial of the ledger's entries, and tables by name.
 
 The floor above reads the records; this one sets them out and never runs what they record.
 """
@@ -11,7 +11,7 @@ from atlas.book.tables.table import Data
 
 @dataclass(frozen=True)
 class Finding:
-    """What the trial found on one entry of the ledger, in the plain letters of its record.
+    """Finding of the trial on one entry of the ledger, in the plain letters of its record.
 
     verdict         proved, refuted, undecided, definition, or supported, then with the count in `method`
     method          how it was decided, and `follows`: from what the printed form was derived

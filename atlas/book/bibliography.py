@@ -13,7 +13,7 @@ from atlas.book import pandoc
 from atlas.errors import AtlasError
 
 NAME = "references.bib"
-"""What the file is called beside the source of the PDF."""
+"""Name of the file beside the source of the PDF."""
 _MODES = ("AuthorInText", "NormalCitation")
 
 

@@ -1,4 +1,4 @@
-"""The bodies and fields of a report: the form in which they are given, what the kernels take of them, and in print."""
+"""The bodies and fields of a report: as records in its file, as arguments of kernels, and in print."""
 
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -24,7 +24,7 @@ DIMENSIONS = {
     "polar": ("polar semi-axis", "$c$", "m"),
     "charge": ("charge", "$e$", "C"),
 }
-"""What a body may be given beside its ratio: in words, its letter, its unit in SI."""
+"""Dimensions of a body: name in words, letter, unit in SI."""
 
 
 class Body(StrictStruct, frozen=True):
@@ -193,7 +193,7 @@ _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": 
 
 
 def _written_out(record: Body | Field) -> str:
-    """Write out what a record was given, with units."""
+    """Return the inputs of a record as text, with units."""
     units = _UNITS[getattr(record, "system", "SI")]
     parts = []
     for key in record.__struct_fields__:

@@ -1,4 +1,4 @@
-"""From a report file to what the templates see: blocks numbered, tables computed, texts and citations collected."""
+"""From a report file to the input of templates: blocks numbered, tables computed, texts and citations collected."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

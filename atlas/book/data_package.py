@@ -1,4 +1,4 @@
-"""The tables of a report and what its figures draw, as files to cite: CSV and Parquet, described by a Data Package.
+"""The data of a report's tables and figures, as files to cite: CSV and Parquet, described by a Data Package.
 
 The description, `datapackage.json`, is that of the Frictionless Data Package (version 1): for each file its columns
 with names, units and digits, the equations it comes from, its size and digest. The same report gives the same bytes.
@@ -41,7 +41,7 @@ _LETTER = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)|GREEK (PHI|THETA|EPSIL
 
 @dataclass(frozen=True)
 class Resource:
-    """One table: its name, what is said of it, its columns as a Data Package describes them, and its rows as texts."""
+    """One table: name, description, columns in the terms of a Data Package, and rows as texts."""
 
     name: str
     facts: Mapping[str, Any]
@@ -130,7 +130,7 @@ def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence
 
 
 def _figures(document: Document, texts: Sequence[str], drawn: Mapping[str, str]) -> Iterator[Resource]:
-    """Yield what the figures of a report draw, point by point; see `atlas.pictures.data`."""
+    """Yield the points that the figures of a report draw; see `atlas.pictures.data`."""
     views: list[FigureView] = document.listed("figure")
     for figure in views:
         if figure.id not in drawn:
@@ -162,7 +162,7 @@ def _csv(resource: Resource) -> bytes:
 
 
 def _parquet(resource: Resource) -> bytes:
-    """Write a table as Parquet, numbers as the doubles nearest to what is printed."""
+    """Write a table as Parquet, numbers as the doubles nearest to the printed digits."""
     pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     kinds: dict[str, tuple[Callable[[str], Any], Any]] = {
         "number": (float, pa.float64()),

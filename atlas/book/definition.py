@@ -1,4 +1,4 @@
-"""A report file as typed records: what a user may write, and nothing else; the blocks are in `atlas.book.blocks`."""
+"""A report file as typed records, which refuse unknown keys; the blocks are in `atlas.book.blocks`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -94,7 +94,7 @@ class Report(StrictStruct, frozen=True):
     source: Source = Source()
 
     def place(self, page: Page, block: int | None = None) -> str:
-        """Return what a message begins with: file, line, page, and the block of that number, from 0, with its kind."""
+        """Return the beginning of a message: file, line, page, and the block of that number, from 0, with its kind."""
         number = self.pages.index(page)
         line = self.source.lines.get((number,) if block is None else (number, block))
         there = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"

@@ -24,7 +24,7 @@ THEOREMS = {
     name: f"(T{number})"
     for number, name in enumerate((name for name, one in EQUATIONS.items() if one.kind == "theorem"), 1)
 }
-"""The numbers of what the paper does not have, in the order of the ledger."""
+"""Numbers of the results that are not in the paper, in the order of the ledger."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class Document:
             self.written = dict(zip(targets, texts, strict=True))
 
     def cite(self, target: Target) -> Callable[[str, str], Link]:
-        """Return the function that finds what a citation says and where it leads, given its name and place."""
+        """Return the function from the name and place of a citation to its text and target."""
 
         def link(name: str, where: str) -> Link:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
@@ -135,7 +135,7 @@ class Document:
         return link
 
     def from_beside(self, name: str) -> Link | None:
-        """Return what a citation in a report beside this one says and where it leads, None if the name is not here."""
+        """Return the text and target of a citation from another report, None if the name is not here."""
         folder, title = f"../{self.report.name}", self.report.title
         if name == f"report:{self.report.name}":
             return Link(title, f"{folder}/index.html", "page-index")

@@ -1,4 +1,4 @@
-"""Report files: which there are, and what their heads say."""
+"""Report files and their heads."""
 
 from pathlib import Path
 from typing import Any
@@ -53,7 +53,7 @@ def text_of(path: Path) -> str:
 
 
 def head(path: Path) -> dict[str, Any]:
-    """Return what stands above the pages of a report. Raises AtlasError for what is no TOML."""
+    """Return the keys above the pages of a report. Raises AtlasError for a file that is no TOML."""
     text = text_of(path)
     try:
         return toml.loads(text.split(f"\n{RULE}")[0].removeprefix(RULE) if path.suffix == ".md" else text)

@@ -32,11 +32,11 @@ MEANINGS = {
     "quadratic": (r"quadratic part of the potential, over $I_2$", "1/time^2^"), "z": ("the elliptic motion", ""),
     "branch": ("sign of $v$", ""),
 }  # fmt: skip
-"""What parameters are, by their names with or without the number, and their units; moments are in those of I2."""
+"""Meaning and unit of parameters, by their names with or without the number; moments are in units of I2."""
 
 
 ENDS = {float("inf"): "any time", -float("inf"): "nowhere"}
-"""What is said of a horizon that has no end, or no beginning."""
+"""Words for a horizon without an end, or without a beginning."""
 
 
 @dataclass(frozen=True)
@@ -72,12 +72,12 @@ class Fitted:
 
     @property
     def name(self) -> str:
-        """The name of its files, made of what was typed."""
+        """Name of its files, from the typed words."""
         return self.called or name_of(["fit", PurePath(self.words[1]).stem, *self.words[2:]])
 
     @property
     def _file(self) -> str:
-        """The name of the data's file, without what is Markdown."""
+        """Name of the data file, without characters of Markdown."""
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
     def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
@@ -117,7 +117,7 @@ class Fitted:
         }  # fmt: skip
 
     def _verdict(self) -> str:
-        """Say how good the fit is, what it does not tell, and what speaks against it."""
+        """Return sentences on the quality of the fit, on undetermined parameters, and the warnings."""
         fit = self.fit
         expected = f"where 1 ± {(2 / fit.nfree) ** 0.5:.2g} is expected"
         lines = [

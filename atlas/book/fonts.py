@@ -18,7 +18,7 @@ from atlas.libraries import carried, release
 
 ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "\u00a0\u2009\u202f\u2212\u2013\u2014\u2018\u2019\u201c\u201d\u2026"
 GROWING = "\u221a()[]{}|\u2016\u27e8\u27e9\u02c6\u02dc\u02d9\u00a8\u00af\u2032\u2033\u2044/"
-"""What a formula may hold although no character of the page shows it: the radical, above all."""
+"""Characters of formulas that do not stand in the text of the page, such as the radical."""
 ITALIC = "\N{PLANCK CONSTANT}" + "".join(map(chr, [*range(0x1D434, 0x1D468), *range(0x1D6E2, 0x1D71C)]))
 """The letters, Latin and Greek, in which a browser shows variables."""
 

@@ -218,7 +218,7 @@ def linear(mathml: str) -> str:
 
 
 def _line(node: ET.Element) -> str:
-    """Return what a node of MathML says."""
+    """Return a node of MathML in words."""
     tag = node.tag.rpartition("}")[2]
     if tag in {"annotation", "annotation-xml", "mspace"}:
         return ""

@@ -39,7 +39,7 @@ def report_keys() -> Data:
 
 
 def layers() -> Data:
-    """List what a recipe returns, a scene, and what it is made of."""
+    """List the classes of a scene, which a recipe returns, and of its parts."""
     from atlas.pictures import layers as made
 
     kinds = {f"`{kind.__name__}`": kind for kind in (made.Scene, made.Plane, made.Space, *get_args(made.Layer))}
@@ -48,7 +48,7 @@ def layers() -> Data:
 
 
 def _explained(first: str, kinds: Mapping[str, type], last: str, says: str) -> Data:
-    """Return a table of classes: name, first sentence, and what they hold, what is needed in bold."""
+    """Return a table of classes: name, first sentence, and attributes, the required ones in bold."""
     rows = [(name, _first(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
     return Data(heads(first, "What it is", last), tuple(rows), says)
 

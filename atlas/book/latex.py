@@ -131,7 +131,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
 
 
 def _references(document: Document) -> str:
-    """Return the bibliography: what the report cites from its own, and the atlas."""
+    """Return the bibliography: the works that the report cites, and the atlas."""
     own = f"""@software{{atlas,
   author  = {{{{The atlas developers}}}},
   title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
@@ -145,7 +145,7 @@ def _references(document: Document) -> str:
 
 
 def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> Iterator[str]:
-    """Yield the sections; what has no place in a paper is named in a comment.
+    """Yield the sections; blocks that have no place in a paper are named in a comment.
 
     Displays that follow one another are set together. They belong to the paragraph before them, and so does what goes
     on after them with a small letter. Of figures and tables that follow one another those that are `wide`, over both
@@ -265,7 +265,7 @@ def table_of(table: TableView, markdown: Sequence[str], texts: Sequence[str]) ->
 
 
 NARROW = r"\resizebox{\ifdim\width>\columnwidth\columnwidth\else\width\fi}{!}{"
-"""What makes a table smaller where it is wider than its column."""
+"""LaTeX commands that shrink a table that is wider than its column."""
 
 
 def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
@@ -309,7 +309,7 @@ def _plain_head(column: ColumnView, markdown: Sequence[str]) -> str:
 
 
 def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
-    """Return a cell: words, in braces in a column of numbers, or digits; a star marks what is not proven."""
+    """Return a cell: words, in braces in a column of numbers, or digits; uncertified values are starred."""
     if cell.text is not None:
         return f"{{{texts[cell.text]}}}" if numeric else texts[cell.text]
     number = value(cell, ())

@@ -50,7 +50,7 @@ def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) 
 
 
 def _consistent(report: Report, folder: Path) -> Report:
-    """Check what the types cannot: that names are unique and that what is called by name exists."""
+    """Check that names are unique and that every name refers to an existing item, which types cannot."""
     blocks = [((k, place), block) for k, page in enumerate(report.pages) for place, block in enumerate(page.blocks)]
     _unique((((k,), page.slug) for k, page in enumerate(report.pages)), "pages", "slug")
     _unique(((path, block.id) for path, block in blocks if isinstance(block, Figure)), "figures", "id")

@@ -22,12 +22,12 @@ from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import FAMILIES, Family
 
 MAX_NAME_LENGTH = 48
-"""Characters of the name of a page; what is longer ends with a digest."""
+"""Largest length of the name of a page; longer names end with a digest."""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a page is asked for.
+    """Request of a page.
 
     options   the options that say which object it is, each with what was typed, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
@@ -64,7 +64,7 @@ class Asked:
 
     @property
     def name(self) -> str:
-        """The name of its files, made of what was typed."""
+        """Name of its files, from the typed words."""
         return self.called or name_of(self.words)
 
     def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
@@ -72,7 +72,7 @@ class Asked:
         return {f"{self.name}.md": headed(self, written(definition(self, there)))}
 
     def changed(self, family: str, **options: Any) -> "Asked":
-        """Return what another object near it is asked for by; an option that is None is left out."""
+        """Return the request of another object near it; an option that is None is left out."""
         new = {name: _texts(value) for name, value in options.items() if value is not None}
         kept = {
             name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options

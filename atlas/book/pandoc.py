@@ -35,7 +35,7 @@ _WRITE = {
 }
 _MARK = {"html": "<!--{}-->", "typst": "//{}", "latex": "%{}"}
 SECONDS, SPEED, MEMORY = 8, 50_000, "1000m"
-"""What pandoc may take: seconds of a processor, one more for so many characters, and memory. A book takes a third."""
+"""Limits of pandoc: seconds of a processor, characters per further second, and memory. A book takes a third."""
 _HEAP = 251
 """Exit status of a program in Haskell that would need more memory."""
 _ENDLESS = "pandoc can't set the texts of the report with {}: brackets, braces or macros are nested too deeply."
@@ -54,7 +54,7 @@ class FormulaError(AtlasError):
 
 
 def release() -> str:
-    """Return what the output depends on besides the texts: the version of pandoc and how it reads and writes."""
+    """Return the dependencies of the output besides the texts: the version of pandoc and its options."""
     return json.dumps([libraries.release("pypandoc_binary"), MARKDOWN, _WRITE])
 
 
@@ -123,7 +123,7 @@ def _program() -> str:
 
 
 def _reason(message: str) -> str:
-    """Return what pandoc did not expect; the long list of what it did is left out."""
+    """Return the reason why pandoc refused a formula: it breaks off, or the unexpected token, as a clause."""
     matched = re.search(r"^(.*)\n( *)\^\nunexpected (.+)$", message, re.MULTILINE)
     if matched is None:
         return "it is no TeX"
@@ -198,7 +198,7 @@ def mend(math: str) -> str:
 
 
 def _mended(element: ET.Element) -> ET.Element:
-    """Return what stands in the place of one element."""
+    """Return the replacement of one element."""
     if element.get("mathvariant") == "bold-italic":
         del element.attrib["mathvariant"]
         element.text = "".join(map(_upright, element.text or ""))

@@ -37,7 +37,7 @@ def source(document: Document) -> str:
 
 
 class Compiler:
-    """Typst, for sources whose pictures are in one folder; what two sources have in common is laid out once."""
+    """Typst, for sources whose pictures are in one folder; parts that two sources share are laid out once."""
 
     def __init__(self, where: Path) -> None:
         import typst

@@ -38,7 +38,7 @@ def keys(block: Figure, report: Report) -> list[str]:
 
 
 def on_cards(report: Report) -> set[str]:
-    """Return the keys of the pictures that stand for pages: the first of each, or what its thumbnail names."""
+    """Return the keys of the pictures that stand for pages: the first of each, or its thumbnail."""
     figures = [(page.slug, block) for page in report.pages for block in page.blocks if isinstance(block, Figure)]
     named = {page.slug: page.thumbnail.figure for page in report.pages}
     wanted = [

@@ -1,4 +1,4 @@
-"""Tables of a report as typed records, and what is wrong with one that does not fit, in a sentence with its key."""
+"""Tables of a report as typed records, and errors for a table that does not fit, with its key."""
 
 import math
 import re
@@ -20,7 +20,7 @@ PATTERNS = {
     r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them",
     r"[a-z0-9]+(-[a-z0-9]+)*": "small letters and digits with hyphens between them",
 }
-"""What may become a file name, an anchor of a page and a label of the PDF; in words."""
+"""Pattern of names of files, anchors and labels, and the same in words."""
 MAX_VALUE_LENGTH = 40
 """Characters of a wrong value that a message shows."""
 
@@ -93,7 +93,7 @@ def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> No
 
 
 def _check_record(raw: dict[str, Any], kind: inspect.StructType, where: str) -> None:
-    """Check the keys of a table, and what they hold."""
+    """Check the keys of a table and their values."""
     fields = {field.encode_name: field for field in kind.fields if not isinstance(field.type, inspect.DataclassType)}
     for key, value in raw.items():
         if key in fields:
@@ -135,7 +135,7 @@ def _fits(raw: Any, kind: inspect.Type) -> bool:
 
 
 def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
-    """Say what a value of a type is."""
+    """Return a type in words."""
     match kind:
         case inspect.UnionType():
             return _words(next(inner for inner in kind.types if not isinstance(inner, inspect.NoneType)))

@@ -28,7 +28,7 @@ _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
 _COUNTED = {"Section", "Sections", "Part", "Volume", "Figure", "Table"}
 _COUNT = re.compile(r"\d|[IVX]+\b")
-"""Words, and the beginnings of what they count."""
+"""Words for kinds of numbered items, and the beginnings of the names of these items."""
 _UNIT = re.compile(r"(?:s|m|T|V|J|C|K|W|kg|mm|rad|[kM]?Hz|degrees|V/m|C/kg)\b[.,;:)]*")
 _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 """Where in a node of a tree its attributes are."""
@@ -129,7 +129,7 @@ class Texts:
         return self._recalled(keys)
 
     def _recalled(self, keys: Sequence[str]) -> list[str]:
-        """Return what was made of some sources."""
+        """Return the output of some sources."""
         self.used |= {key: self.memory[key] for key in keys}
         return [self.used[key] for key in keys]
 
@@ -165,7 +165,7 @@ def title_words(text: str) -> str:
 
 
 def citations(markdown: str) -> list[str]:
-    """Return the names that a text cites, in their order; what stands in code or in a formula is none."""
+    """Return the names that a text cites, in their order, without those in code or in formulas."""
     return [name for name in _CITED.findall(markdown) if name]
 
 
@@ -196,7 +196,7 @@ class _Checked:
         return _tied(found) if all(isinstance(node, dict) for node in found) else found
 
     def node(self, kind: str, content: Any) -> Tree:
-        """Return what stands in the place of a node."""
+        """Return the replacement of a node."""
         if kind in {"Image", "RawInline", "RawBlock"}:
             raise AtlasError(f"{self.text.where}: a text holds no pictures; make a figure block of it.")
         if kind == "Cite":

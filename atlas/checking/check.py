@@ -115,7 +115,7 @@ class Check:
         return heading, rows
 
     def drift_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return heading and rows of what should not change."""
+        """Return heading and rows of the conserved quantities."""
         heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
         rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
         return heading, rows
@@ -262,7 +262,7 @@ def check(
 
 
 def _arguments(motion: Any) -> dict[str, Any]:
-    """Return what a motion is made of, by the names of `check_file`."""
+    """Return the parameters of a motion by the names of `check_file`."""
     from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
 
     known = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)

@@ -1,4 +1,4 @@
-"""What a trajectory should conserve: the norm of its quaternion, orthogonality, the integrals of motion."""
+"""Conserved quantities of a trajectory: the norm of its quaternion, orthogonality, the integrals of motion."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ Deviation: TypeAlias = tuple[str, str, str, Any]
 
 
 class Drifts:
-    """What the columns of a trajectory allow to test, followed block by block."""
+    """Deviations of the conserved quantities that follow from the columns of a trajectory, block by block."""
 
     def __init__(self, deviations: Callable[[Mapping[str, FloatArray]], Iterable[Deviation]]) -> None:
         self._deviations, self._found = deviations, dict[str, Drift]()
@@ -148,7 +148,7 @@ def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
 
 
 def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
-    """Yield how far what is conserved is from its values at the start."""
+    """Yield the deviations of the conserved quantities from their initial values."""
     for (name, says, label, value, _), (_, _, _, true, size) in zip(values, start, strict=True):
         yield name, says, label, (value - true) / (size or 1)
 

@@ -45,7 +45,7 @@ def over_ratio(field: Field, omega2: float, cells: tuple[int, int] = (80, 54)) -
 
 
 def _mapped(x: FloatArray, ratio: float | Range, field: Field, omega2: float | Range, rows: int) -> ErrorMap:
-    """Make the table over what varies between the edges x, and over time."""
+    """Return the table over the varied parameter, between the edges x, and over time."""
     if field[0] == 0:
         raise DomainError("A map of errors needs B2 different from zero: (71) and (72) divide by it.")
     b = math.hypot(*field)

@@ -1,4 +1,4 @@
-"""Errors of a trajectory's columns against the true motion, and what is kept of them block by block."""
+"""Errors of a trajectory's columns against the true motion, and their summary, block by block."""
 
 import math
 from collections import Counter

@@ -116,7 +116,7 @@ class KernelTruth:
 
 
 def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
-    """Return what a motion is at arrays of times, Omega in this unit."""
+    """Return the reference values of a motion, a `Truth` or `KernelTruth`, with Omega in this unit."""
     if isinstance(motion, Placed):  # the matrices that turn it into the given axes are rounded
         bound = 4 * KERNELS
         return KernelTruth(motion, np.inf, bound, 0.0, bound, in_balls=False)

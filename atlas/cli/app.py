@@ -1,4 +1,4 @@
-"""The ``atlas`` command: its subcommands, and what becomes of an error."""
+"""The ``atlas`` command: its subcommands, and its exit status after an error."""
 
 import codecs
 import os
@@ -21,7 +21,7 @@ LONG = 400
 
 
 SUMMARIES = {one.command.name: one.command.summary for one in FAMILIES.values() if one.command and one.command.summary}
-"""What the commands that are made from the register do."""
+"""Help lines of the commands that are made from the register."""
 
 BESIDE = {"data": "report", "tex": "report"}
 """Commands that stand in the file of another one."""
@@ -206,7 +206,7 @@ def write_plainly() -> None:
 
 
 def _replaced(error: UnicodeError) -> tuple[str, int]:
-    """Return what is written in the place of the letters that can't be."""
+    """Return the replacement of characters that the console cannot show."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     from unicodedata import normalize

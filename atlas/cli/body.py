@@ -1,4 +1,4 @@
-"""The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
+"""The body and the field of a command: their options, and the arguments of kernels and certified classes."""
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -283,7 +283,7 @@ def in_one_system(options: Mapping[str, Any]) -> list[tuple[str, Typed]]:
 
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return what the units of times and rates are, where they are known."""
+    """Return the units of times and rates, where they are known."""
     known = options.get("magnetic") is not None and system_of(options) != "natural"
     return SECONDS if known or any(WANTED[name] in {RATE, "s"} for name, _ in measured(options)) else {}
 

@@ -56,7 +56,7 @@ OF_BODY: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "inertia": (body.chosen_moments, body.exact_moments),
     "field": (body.chosen_field, body.exact_field),
 }
-"""What kernels and balls take of body and field, from options of their own."""
+"""Arguments of kernels and certified classes from options of body and field."""
 
 ROUNDING = 1e-12
 """Turn in radians by rounding of the inputs above which the command line says so."""
@@ -70,7 +70,7 @@ UNITS = {
     "gaussian": {"1/time": "rad/s", "length/time": "cm/s", "length": "cm"},
     "si": {"1/time": "rad/s", "length/time": "m/s", "length": "m"},
 }
-"""Systems of units of a family with a speed of light, and what they call its units."""
+"""Systems of units of a family with a speed of light, and the names of their units."""
 
 units_option: Callable[[Any], Any] = click.option(
     "--units",
@@ -148,7 +148,7 @@ def family_of(words: Words) -> str:
 
 
 def _command_of(family: Family, described: Described) -> click.Command:
-    """Make the command of a family: its options, and what it does with them."""
+    """Return the command of a family, with its options and its action."""
     has_lines = any(s.matrix for s in family.sampled)
     decorators = [
         *object_options(family),
@@ -279,7 +279,7 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
 def _with_sigma(
     family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
 ) -> None:
-    """Print what numbers with uncertainties give."""
+    """Print the results of numbers with uncertainties."""
     if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
         raise click.UsageError("--digits, --decimal and --spectrum go with numbers without an uncertainty.")
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
@@ -384,7 +384,7 @@ def along_principal_axes(motion: Any, unit: str = "") -> Principal:
 
 
 def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
-    """Return what asks for an object of a family."""
+    """Return the request of an object of a family."""
     words, values = list[str](), dict[str, tuple[float, ...]]()
     rounded = any(x not in {-1, 0, 1} for x in axes.ravel())
     for p in family.parameters:
@@ -705,7 +705,7 @@ def _printout(
 
 
 def _units(family: Family, options: dict[str, Any]) -> dict[str, str]:
-    """Return what units are called, where they are known."""
+    """Return the names of units, where they are known."""
     if family.takes("coupling"):
         return top_units(options)
     if family.takes("c"):

@@ -164,7 +164,7 @@ def _check(names: tuple[str, ...]) -> None:
 
 
 def warned(figures: "list[Files]", renderer: str) -> int:
-    """Tell what was not drawn as it was asked for, and why; return the exit status."""
+    """Print the figures that were not drawn as requested, with the reasons; return the exit status."""
     for note in dict.fromkeys(figure.note for figure in figures if figure.note):
         click.echo(f"atlas: {note}", err=True)
     flat = [figure.name for figure in figures if figure.files and figure.renderer != renderer and not figure.note]

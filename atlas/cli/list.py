@@ -1,4 +1,4 @@
-"""``atlas list``: what there is to draw, to report and to give as a body."""
+"""``atlas list``: the figures, reports and bodies by name."""
 
 import textwrap
 from collections.abc import Callable
@@ -99,7 +99,7 @@ def _shown(name: str, record: dict[str, Any]) -> str:
 
 
 def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
-    """Read what has a name; where that fails, note why."""
+    """Read the item of a name, or note why that fails."""
     try:
         return read(name)
     except AtlasError as error:

@@ -101,6 +101,6 @@ def _moved(x: Typed, value: float, exact: Fraction | None) -> Typed:
 
 
 def _tell(param: click.Parameter, typed: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:
-    """Say what is taken in the place of what was typed."""
+    """Return a line that names the body that replaces the typed one."""
     was, taken = " ".join(x.text for x in typed), " ".join(f"{float(x):.10g}" for x in new)
     click.echo(f"atlas: --{param.name} {was}: {fault}, by its last digits; taken is {remedy}, {taken}", err=True)

@@ -45,12 +45,12 @@ class Printout:
 
 
 def explained(reasons: Sequence[Sequence[str]]) -> Printout:
-    """Return what says of each part of a build, by kind and name, why it was made or taken."""
+    """Return a table with the reason why each part of a build was made or taken from the cache."""
     return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
 
 
 def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
-    """Draw what was found into the file that was asked for, if one was, and say where it is."""
+    """Draw the result into the file that was asked for, if any, and print its path."""
     if file is None:
         return
     from atlas.pictures.drawing.files import save
@@ -114,7 +114,7 @@ def _notes(console: "Console", printout: Printout) -> Iterator[str]:
 
 
 def _text(console: "Console", shown: Any, **how: Any) -> str:
-    """Return as text for this console what it would print."""
+    """Return the output as text for this console."""
     with console.capture() as printed:
         console.print(shown, **how)
     return printed.get()
@@ -163,7 +163,7 @@ ROUNDED = {
     "points": "what follows from the points", "density": "a mass by its density",
     **dict.fromkeys(("heavy", "charged", "coat"), "the moments and couplings of the top"),
 }  # fmt: skip
-"""What is computed in doubles from an option before anything is proven, by the name of that option."""
+"""Words for the quantities that are computed in doubles from an option before certification, by its name."""
 
 PIECE = 600
 """Rows of a table that are laid out and printed at a time."""
@@ -199,7 +199,7 @@ def answer(
 
 
 def certificate(options: dict[str, Any]) -> str:
-    """Return the sentence under a table that says what its digits are worth."""
+    """Return the sentence under a table on the certainty of its digits."""
     return f"All digits printed are proven; inputs: {_inputs(options)}."
 
 
@@ -278,7 +278,7 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
 
 
 def _lines(title: str, every: float) -> Progress:
-    """Return what writes a line `every` so many seconds, none at first."""
+    """Return a function that prints a line at most once in `every` seconds, none at first."""
     start = last = monotonic()
 
     def tell(done: int, total: int, _: str) -> None:

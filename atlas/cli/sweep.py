@@ -224,7 +224,7 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
 
 
 def read(path: Path) -> Any:
-    """Return the sweep in a TOML file; click.UsageError says what is wrong with it."""
+    """Return the sweep in a TOML file. Raises click.UsageError for an error in the file."""
     import msgspec
 
     class Recipe(msgspec.Struct, forbid_unknown_fields=True):

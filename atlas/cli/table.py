@@ -13,7 +13,7 @@ CONVENTIONS = (
     "R takes the body to the laboratory, and so does the quaternion, whose scalar is qw",
     "Omega, K and b are along the axes of the body, w and m along those of the laboratory, as these were given",
 )
-"""What the columns are."""
+"""Conventions of the columns, as sentences."""
 
 out_option: Callable[[Any], Any] = click.option(
     "--out",

@@ -51,7 +51,7 @@ def given_otherwise(options: Mapping[str, Any]) -> bool:
 
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
-    """Return what the units of times and rates are: seconds in SI and in Gaussian units."""
+    """Return the units of times and rates: seconds in SI and in Gaussian units."""
     return SECONDS if given_otherwise(options) else units_of(options)
 
 
@@ -72,7 +72,7 @@ def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what was given, and what the top has from it."""
+    """Return the typed parameters and, under "top", the parameters of the top by these names."""
     top = chosen_top(options)
     typed = top_parameters(options) | given(options, ("omega", "spin", "direction"))
     return typed | {"top": {name: getattr(top, name) for name in names}}

@@ -26,7 +26,7 @@ NUMBER = re.compile(
 """Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
 
 LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/()±^*·° -]*")
-"""What was meant as a number, be it one or not."""
+"""Text that looks like a number, valid or not."""
 
 UNCERTAIN = re.compile(
     r"""(?P<size> [+-]? (?: \d+ (?: \. (?P<decimals> \d* ) )? | \. (?P<digits> \d+ ) ) )
@@ -66,7 +66,7 @@ class Typed(float):
         return number
 
     def moved(self, value: float, **about: Any) -> Self:
-        """Return another value, with what else is known of this one."""
+        """Return another value with the other attributes of this one."""
         new = float.__new__(type(self), value)
         vars(new).update(vars(self) | about)
         return new

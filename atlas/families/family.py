@@ -193,7 +193,7 @@ class Family:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """What is typed after `atlas`, before its parameters."""
+        """Words typed after `atlas`, before the parameters."""
         return (self.command.name,) if self.command else self.typed
 
     def case(self, thing: Any) -> str:

@@ -71,7 +71,7 @@ class Data:
     known: bool = True
     """Whether the standard errors were given."""
     notes: tuple[str, ...] = ()
-    """Sentences on what was left out."""
+    """Sentences on rows and columns that were left out."""
 
     def part(self, places: Any) -> "Data":
         """Return some of the data."""

@@ -16,7 +16,7 @@ RHO: Mapping[str, Callable[..., Any]] = {
     "linear": lambda z: z, "soft_l1": lambda z: 2 * (np.sqrt(1 + z) - 1),
     "huber": lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1), "cauchy": np.log1p, "arctan": np.arctan,
 }  # fmt: skip
-"""SciPy's losses: what they leave of a square."""
+"""SciPy's loss functions of a squared residual."""
 
 SCORE: Mapping[str, Callable[..., Any]] = {
     "linear": np.ones_like, "soft_l1": lambda z: 1 / np.sqrt(1 + z),

@@ -1,4 +1,4 @@
-"""Families of motions with their parameters by name: what a fit varies."""
+"""Families of motions with the parameters that a fit varies, by name."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -230,7 +230,7 @@ def model_of(family: Any) -> Model:
 
 
 def field_of(model: Model, p: Values) -> FloatArray:
-    """Return what `field_in_body` shows of a motion, in the laboratory."""
+    """Return the field whose components `field_in_body` are measured, in the laboratory."""
     return direction_of(p) if model.has_direction else vector(p, B)
 
 

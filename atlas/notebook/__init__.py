@@ -1,1 +1,1 @@
-"""What a notebook shows of objects, figures and plotters; it is loaded when one is shown, and needs no IPython."""
+"""Objects, figures and plotters in a notebook; loaded when one is shown, without IPython."""

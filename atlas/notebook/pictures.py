@@ -1,4 +1,4 @@
-"""The picture of an object, by a recipe that takes what it was made of."""
+"""The picture of an object, by a recipe that takes its parameters."""
 
 from dataclasses import replace
 from inspect import signature

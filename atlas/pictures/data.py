@@ -43,7 +43,7 @@ def table(scene: Scene) -> str:
 
 
 def _heading(scene: Scene) -> Iterator[str]:
-    """Return what is said of the figure before its data."""
+    """Return the lines on the figure that precede its data."""
     yield scene.title
     if scene.parameters:
         yield "; ".join(f"{name} = {value}" for name, value in scene.parameters.items())

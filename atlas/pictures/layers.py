@@ -1,4 +1,4 @@
-"""A figure as data: what is in it and which role each part plays, never how it is drawn.
+"""A figure as data: its layers and their roles, without colours and line styles.
 
 A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.pictures.drawing` draw it. Coordinates are those
 of the quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar

@@ -41,7 +41,7 @@ MEANINGS: Mapping[str, str] = {
     "count": "how many are drawn",
     "unit": "unit in the names of the axes",
 }
-"""What the parameters mean that have one meaning in all recipes."""
+"""Meaning of parameters that are common to all recipes."""
 
 MAX_VALUES = 40
 """Values in a list: each is a curve or a panel."""
@@ -98,7 +98,7 @@ def typed(value: Any) -> str:
 
 
 class _Unfit(Exception):  # noqa: N818  it carries what would be right, and never leaves this file
-    """What a value should have been."""
+    """Expected kind of value, in words."""
 
 
 def _kind(default: Any) -> Any:

@@ -61,7 +61,7 @@ class Recipe:
         return replace(scene, title=scene.title or self.title, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:
-        """Return what its parameters are annotated with; its file is run for it."""
+        """Return the annotations of its parameters; its file is run for them."""
         try:
             return _function(self.source)[1]
         except Exception as error:
@@ -99,7 +99,7 @@ def load(name: str) -> Recipe:
 
 
 def _stamp(source: Path) -> tuple[int, int]:
-    """Return what changes with a file: in a notebook a recipe is edited between two calls."""
+    """Return time and size of a file, which change when a recipe is edited between two calls."""
     status = source.stat()
     return status.st_mtime_ns, status.st_size
 
@@ -166,7 +166,7 @@ def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:
 
 
 def _function(source: Path) -> tuple[Callable[..., Scene], dict[str, Any]]:
-    """Run a recipe's file and return its function and what it is annotated with."""
+    """Run a recipe's file and return its function with the annotations of its parameters."""
     return _run(source, _stamp(source))
 
 

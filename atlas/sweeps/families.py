@@ -1,4 +1,4 @@
-"""What can be swept: the columns of a table over parameters of a family, by kernels and by balls."""
+"""Columns of a table over parameters of a family, by kernels and by balls."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -48,7 +48,7 @@ class Plan:
         digits: int | None = None,
         time: str = TIME,
     ) -> "Plan":
-        """Check what a user gave. Raises AtlasError for what is unknown, missing, not a number or not of one length."""
+        """Check the input. Raises AtlasError for unknown, missing, non-numeric or unequally long values."""
         if family not in FAMILIES:
             raise AtlasError(f"There is no family {family!r} to sweep; there is {', '.join(FAMILIES)}.")
         quantities = [quantities] if isinstance(quantities, str) else quantities

@@ -212,7 +212,7 @@ class Spans(Iterator[Span]):
 
     @property
     def long(self) -> bool:
-        """Whether what is left is worth processes of its own."""
+        """Whether the remaining work is worth processes of its own."""
         return self.left * self.pace > MIN_PARALLEL_SECONDS
 
 

@@ -1,4 +1,4 @@
-"""The kinds of blocks that a page may have: what a user writes, what the templates see of it, and their names.
+"""The kinds of blocks of a page: their keys in a report file, the records that templates read, and their names.
 
 A new kind is a file here with its record and its view, a line in the table below, and a template in `templates/html`
 and in `templates/typst`.

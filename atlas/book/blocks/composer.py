@@ -1,4 +1,4 @@
-"""What the blocks of a report share while they are gone through in order: counts, texts, names, uses."""
+"""State shared by the blocks of a report while they are composed in order: counts, texts, names, uses."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from atlas.trial.ledger.equation import slug
 
 @dataclass(frozen=True)
 class Use:
-    """A place of the report that cites an entry of the ledger: page, anchor, and what it is."""
+    """A place of the report that cites an entry of the ledger: page, anchor, and kind of place."""
 
     page: str
     file: str
@@ -59,7 +59,7 @@ class Composer:
         return int(self.document.texts.add(markdown, self.where, anchors=anchors))
 
     def caption(self, markdown: str, anchor: str, words: str) -> int:
-        """Take in a caption; what it cites is used by its figure or table."""
+        """Add a caption; its citations count as uses by its figure or table."""
         for name in citations(markdown):
             if name in EQUATIONS:
                 self.use(name, anchor, words)

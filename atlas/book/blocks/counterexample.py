@@ -60,13 +60,13 @@ class _Letters:
         self.vectors, self.primed = vectors, primed
 
     def value(self, name: str, value: str) -> str:
-        """Return what a letter is."""
+        """Return the value of a letter as TeX."""
         other = "any other " if name.startswith("any other ") else ""
         number = "1" if value == _ONE else value.replace("[", "(").replace("]", ")")
         return f"{other}${self.formula(name.removeprefix(other))}={number}$"
 
     def told(self, side: str) -> str:
-        """Return what a side is, a number, or what is said of a formula."""
+        """Return the value of a side as TeX: a number, or the sentence on a formula."""
         formula, says, rest = side.partition(" has ")
         return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{rest}"
 

@@ -16,7 +16,7 @@ from atlas.motions.register import FAMILIES
 _OBLIQUE, _STEP = (1.0, 89.0), 0.01
 """The angle between field and e2 in degrees, for which (71) has a pole and both asymptotes, and its step."""
 _PLANE = (-3.0, 3.0), (-5.0, 5.0)
-"""What the plane of omega2 and omega3 shows of them, in the script too."""
+"""Ranges of omega2 and omega3 in the plane, also in the script."""
 IN_SPACE = ("space", "body")
 
 Panel = Literal["plane", "space", "body", "frequencies", "portrait", "rosette"]

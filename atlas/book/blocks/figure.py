@@ -1,4 +1,4 @@
-"""A numbered figure: one picture, or two beside each other; of each what is drawn, and what became of it."""
+"""A numbered figure: one picture, or two side by side, each with its recipe and its files."""
 
 import shlex
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
 
 @dataclass
 class Picture:
-    """A picture that is drawn once for all the blocks that show it: what is wanted, and what became of it.
+    """A picture that is drawn once for all the blocks that show it: its recipe, and its files or failure.
 
     stem        its name among the files of the report
     recipe, renderer, parameters    what to draw: a name in figures/ or a file; `title` is that of the recipe
@@ -100,7 +100,7 @@ class FigureView:
 
     @property
     def remark(self) -> str:
-        """What the reader should know of how it was drawn, or nothing."""
+        """Remark for the reader on how the picture was drawn, or an empty string."""
         return next((picture.remark for picture in self.pictures if picture.remark), "")
 
 

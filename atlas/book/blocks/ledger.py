@@ -1,4 +1,4 @@
-"""The ledger of one section of the paper, and the errata: entries with what the trial found."""
+"""The ledger of one section of the paper, and the errata: entries with the findings of the trial."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -109,7 +109,7 @@ def _display(tex: str) -> str:
 
 
 class Ledger(StrictStruct, frozen=True, tag_field="kind", tag="ledger"):
-    """The entries of one section of the paper, each with what the trial found: "II", ..., "VII", or "Atlas"."""
+    """The entries of one section of the paper ("II", ..., "VII", or "Atlas"), each with its finding."""
 
     section: str
 

@@ -29,7 +29,7 @@ class Note(StrictStruct, frozen=True, tag_field="kind", tag="note"):
 
 
 class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
-    """A notebook of the folder ``reports/`` in MyST Markdown, as paragraphs and code; what a cell prints is in it."""
+    """A notebook of the folder ``reports/`` in MyST Markdown, as paragraphs and code with the output of its cells."""
 
     file: str
 

@@ -1,4 +1,4 @@
-"""What a reader looks up: the works that are cited, and public names of the package with what their docstrings say."""
+"""Reference pages: the works that are cited, and public names of the package with their docstrings."""
 
 import re
 from dataclasses import dataclass

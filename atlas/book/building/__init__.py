@@ -1,1 +1,1 @@
-"""Joins what is below: figures and reports, built only where something changed, written whole or not at all."""
+"""Building of figures and reports: only if an input changed, and written whole or not at all."""

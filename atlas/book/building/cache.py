@@ -24,7 +24,7 @@ from atlas.sources import digest
 
 DAY = 24 * 3600.0
 UNUSED = 90 * DAY
-"""Seconds after which an entry that nobody has read is removed; what a killed build left goes after a day."""
+"""Seconds after which an unread entry is removed; files of a killed build are removed after a day."""
 
 
 class Cache:
@@ -77,7 +77,7 @@ class Cache:
             shutil.rmtree(folder, ignore_errors=True)
 
     def prune(self) -> None:
-        """Remove what has not been used for long."""
+        """Remove entries that have not been used for long."""
         now = time.time()
         for path in (*self.folder.glob("??/*"), *self.folder.glob("??/.*"), *self.folder.glob("tmp/*")):
             with suppress(FileNotFoundError):  # another build has removed it

@@ -98,7 +98,7 @@ def build_data(
 
 TEX_OUT = Path("build/tex")
 TARGETS = ("aps", "aps-double")
-"""What the figures of a paper in REVTeX are made for: a column, or both."""
+"""Targets of the figures of a paper in REVTeX: one column, or both."""
 
 
 def build_tex(

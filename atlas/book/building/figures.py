@@ -1,4 +1,4 @@
-"""Figures: what each depends on, taken from the cache or drawn by worker processes side by side."""
+"""Figures with their dependencies, taken from the cache or drawn by worker processes in parallel."""
 
 import json
 import os
@@ -30,7 +30,7 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(eq=False)
 class FigureBuild:
-    """A figure that is wanted in some kinds of files, and what became of it.
+    """A figure to be made in some kinds of files, and its result.
 
     The recipe is a name, or the place of a file.
 
@@ -64,7 +64,7 @@ class FigureBuild:
 
     @property
     def name(self) -> str:
-        """The recipe's name and what distinguishes this figure, for people."""
+        """Title of this figure for messages: the recipe's name and the parameters that differ."""
         from atlas.book.digits import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
@@ -89,7 +89,7 @@ class FigureBuild:
 
 
 def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str, str]:
-    """Return what a figure depends on, each part as a digest under its name."""
+    """Return the dependencies of a figure: a digest of each by its name."""
     from atlas.pictures import recipes
 
     drawing = [path for path in (PACKAGE / "pictures" / "drawing").rglob("*") if path.suffix not in {".py", ".pyc"}]
@@ -110,7 +110,7 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
 
 
 def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str | None) -> None:
-    """Take from the cache what there is of some figures, and note why the rest must be drawn."""
+    """Read the cached files of some figures, and note why the others must be drawn."""
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
         figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}
@@ -125,7 +125,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
 
 
 def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Progress) -> None:
-    """Draw what is missing of some figures: a single one in this process, several by as many workers as `jobs`.
+    """Draw the missing files of some figures: a single one in this process, several by `jobs` workers.
 
     What is shaded is drawn first, for it takes longest. Raises OSError when the cache can't be written.
     """
@@ -188,7 +188,7 @@ def cores() -> int:
 
 @dataclass(frozen=True)
 class Files:
-    """What became of a figure by itself: its files, what drew them, a line for the user, and why; or its failure.
+    """Result of one figure: its files, their renderer, a line for the user, and the reason; or its failure.
 
     `edited` says which files stand beside those that were not written here, or edited since.
     """
@@ -240,7 +240,7 @@ def build_figures(
 
 
 def _put(figure: FigureBuild, out: Path) -> Files:
-    """Put the files of a figure in their places; what is there and is not as it was written stays."""
+    """Write the files of a figure to their places; files that the user edited are kept."""
     name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
@@ -293,7 +293,7 @@ def rows_of_costs(path: Path) -> list[list[str]]:
 
 
 def _costs(figure: FigureBuild) -> dict[str, Any]:
-    """Return the entry of one figure; what it cost when it was drawn, if it comes from the cache."""
+    """Return the record of one figure; from the cache, with its cost when it was drawn."""
     if figure.failure:
         return {"scene": figure.name, "from": "failed", "reason": figure.failure}
     drawn = "drawn" if figure.new else "cache"

@@ -67,7 +67,7 @@ def manifest_of(document: "Document") -> bytes:
 def _pages(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
 ) -> dict[str, bytes]:
-    """Return the pages of a report with what belongs to them, by their places."""
+    """Return the pages of a report with their files, as a dictionary of contents by path."""
     from atlas.book import fonts, html
 
     code = sources.closure([PACKAGE / "book" / "fonts.py"])

@@ -1,4 +1,4 @@
-"""What multiprocessing's fork server imports once for all workers that draw figures."""
+"""Modules that multiprocessing's fork server imports once for all workers that draw figures."""
 
 import gc
 import sys

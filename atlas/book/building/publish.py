@@ -74,14 +74,14 @@ def replace(place: Path, contents: Mapping[str, bytes]) -> None:
 
 
 def _foreign(place: Path, lines: set[str], names: set[str]) -> list[str]:
-    """Return what a folder holds beside these files that is not ours."""
+    """Return the paths in a folder, other than these files, that the build did not write."""
     there = (path.relative_to(place).as_posix() for path in place.rglob("*"))
     return sorted(name for name in there if name not in {WRITTEN, *names} and files.edited(place, name, lines))
 
 
 @contextmanager
 def _work(out: Path) -> Iterator[Path]:
-    """Give a folder to write to, on the disk of `out` and in its turn; what a killed process left is removed."""
+    """Yield a folder to write to, on the disk of `out`, under a lock; files of a killed process are removed."""
     out.mkdir(parents=True, exist_ok=True)
     with files.turn(out):
         for left in out.glob(f"{UNFINISHED}*"):
@@ -108,7 +108,7 @@ def _place(work: Path, out: Path, names: Iterable[str]) -> None:
 
 
 def _remove_others(folder: Path, stay: set[str]) -> None:
-    """Remove what a folder holds beside these files."""
+    """Remove all other files from a folder."""
     for old in sorted(folder.rglob("*"), reverse=True):
         if old.is_dir() and not old.is_symlink():
             if not any(old.iterdir()):

@@ -37,7 +37,7 @@ _SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
 
 
 def gather(report: Report) -> Appendices:
-    """Read what the blocks of a report show, and nothing else."""
+    """Read the records that the blocks of a report show, and no others."""
     blocks = [block for page in report.pages for block in page.blocks]
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     wanted = {block.source for block in blocks if isinstance(block, Recorded)}
@@ -50,7 +50,7 @@ def gather(report: Report) -> Appendices:
 
 
 def _findings() -> dict[str, Finding]:
-    """Return what the trial recorded on each entry."""
+    """Return the finding of the trial on each entry, by its name."""
     from atlas.trial.proofs import recorded
 
     modules, scripts = _modules(), recorded.scripts()
@@ -184,7 +184,7 @@ def _machines() -> dict[str, Data]:
 
 
 def title(name: str) -> str:
-    """Return the Markdown of a quantity or a regime of the stress runs: what is letters and numbers in it as TeX."""
+    """Return the Markdown of a quantity or a regime of the stress runs, with letters and numbers as TeX."""
     pieces = re.split(r"(, | )", name)
     formulas = [bool(_FORMULA.fullmatch(piece)) for piece in pieces]
     found = ""
@@ -227,7 +227,7 @@ def _words(text: str) -> str:
 
 
 def described() -> dict[str, Described]:
-    """Return what there is to know of each public name, with the public members of classes, inherited ones too."""
+    """Return the arguments and docstring of each public name, with the public and inherited members of classes."""
     names = [name for name in atlas.__all__ if not name.startswith("_")]
     return {name: _described(getattr(atlas, name), _members(getattr(atlas, name))) for name in names}
 
@@ -250,7 +250,7 @@ def _described(thing: Any, members: Mapping[str, Described], *, called: bool = T
 
 
 def _arguments(thing: Any) -> str:
-    """Return the arguments of what can be called, with their defaults; nothing for an exception."""
+    """Return the arguments of a class or function with their defaults, as text; empty for an exception."""
     if inspect.isclass(thing) and issubclass(thing, BaseException):
         return ""
     signature = inspect.signature(thing)

@@ -1,4 +1,4 @@
-"""One report from its TOML file to pages and PDF: only what depends on something new is made, and all is written whole.
+"""One report from its TOML file to pages and PDF: only changed parts are made, and all is written whole.
 
 The order: is anything new at all; which figures are missing; draw them; compute the tables and set the texts; set the
 pages and the PDF; write them beside their places, and rename them.
@@ -118,7 +118,7 @@ def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: 
 
 
 def _noted(name: str, out: Path) -> str:
-    """Return the name under which the cache notes what was built in a folder."""
+    """Return the cache key of the record of a build in a folder."""
     return f"report {name} in {out.resolve()}"
 
 
@@ -193,7 +193,7 @@ def _build(
 def document_of(
     report: "Report", file: Path, drawings: "Mapping[str, Picture]", drawn: "Mapping[FigureBuild, Picture]"
 ) -> "Document":
-    """Return a report with its tables computed and what its figures say, some of them drawn."""
+    """Return a report with its tables computed, and its figures with their captions, some of them drawn."""
     from atlas.book import bibliography
     from atlas.book.building.records import gather
     from atlas.book.compose import compose
@@ -205,7 +205,7 @@ def document_of(
 
 
 def outlines(report: "Report") -> "dict[str, Document]":
-    """Return the reports beside this one in outline: the numbers and places of what they have."""
+    """Return the reports beside this one in outline: the numbers and places of their figures, tables and entries."""
     from atlas.book.compose import compose
     from atlas.book.load import load
     from atlas.book.pictures import pictures
@@ -265,7 +265,7 @@ def _figures(
 
 
 def describe(figure: "FigureBuild", picture: "Picture") -> None:
-    """Let a report know what a figure says and how large it is, or why there is none."""
+    """Set the caption and size of a figure in a report, or its failure."""
     from atlas.book.digits import shown
 
     picture.failure = figure.failure

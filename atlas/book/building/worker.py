@@ -1,4 +1,4 @@
-"""What a worker process does: it computes the scene of a figure, draws it, and puts the files into the cache."""
+"""Work of one process: it computes the scene of a figure, draws it, and puts the files into the cache."""
 
 import gzip
 import json
@@ -102,7 +102,7 @@ def _draw(task: Task) -> None:
 
 
 def _beside(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
-    """Return what was asked for beside pictures: what turns a scene or moves it in a page, and its points."""
+    """Return the files other than pictures: the scene and its movement for the viewer of a page, and its points."""
     contents = {}
     if "scene" in task.keys:
         from atlas.pictures.drawing import viewer
@@ -142,7 +142,7 @@ def counted(scene: Scene) -> dict[str, int]:
 
 
 def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
-    """Return what is noted of a figure, and the file, from its entry in the cache."""
+    """Return the facts on a figure, and its file, from its entry in the cache."""
     facts, _, content = entry.partition(b"\n")
     return json.loads(facts), content
 

@@ -1,4 +1,4 @@
-"""Bodies that could exist: their charge, frequencies and radiation, and what it does that the field magnetises them."""
+"""Real bodies: their charge, frequencies and radiation, and the effect of their magnetisation by the field."""
 
 from math import atan2, hypot, inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING, cast
@@ -207,7 +207,7 @@ class CoatParameters(StrictStruct, frozen=True):
 
 
 def coats(asked: CoatParameters) -> Data:
-    """Return what it changes that the charge is spread otherwise than the mass, in units of the body's e/m."""
+    """Return the gyromagnetic factors of bodies whose charge is not spread like the mass, in units of e/m."""
     rows: list[tuple[str | Number, ...]] = []
     for coat in asked.coats:
         body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
@@ -267,5 +267,5 @@ def swings(request: Request, asked: DiamagnetismParameters) -> Data:
 
 
 def _three(value: float) -> str | Number:
-    """Return a number of three digits, or a dash for what there is not."""
+    """Return a number of three digits, or a dash for None."""
     return Number(f"{value:.2e}") if value and isfinite(value) else "–"

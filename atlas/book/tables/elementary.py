@@ -11,11 +11,11 @@ from atlas.book.tables.table import RATE, Column, Data, Request, certified, colu
 from atlas.errors import AtlasError
 
 NONE = "–"
-"""What stands where a body has no such quantity."""
+"""Text of a cell where a body has no such quantity."""
 
 
 class Quantity(NamedTuple):
-    """A quantity of one body: what it is, its letter, a number or a word, the unit of a number."""
+    """A quantity of one body: meaning, letter, value as a number or a word, unit of a number."""
 
     name: str
     symbol: str
@@ -58,7 +58,7 @@ def quadric(request: Request) -> Data:
 
 
 def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
-    """Return what belongs to the quadric of a body in a field: along or across the axis its kind alone."""
+    """Return the quantities of the quadric of a body in a field; along or across the axis its type alone."""
     from flint import arb
 
     from atlas.surfaces.certified import Quadric
@@ -171,7 +171,7 @@ def motion(request: Request, asked: Motion) -> Data:
 
 
 def of_motion(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
-    """Return what belongs to a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
+    """Return the quantities of a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 

@@ -32,7 +32,7 @@ def quantities() -> Data:
 
 
 def _rows(family: Family) -> Iterator[Row]:
-    """Go through parameters, quantities, and what there is at a time."""
+    """Yield parameters, quantities, and functions of time."""
     for p in family.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
     for q in family.quantities:
@@ -70,7 +70,7 @@ def _sizes(target: Target) -> tuple[str, ...]:
 
 
 def roles() -> Data:
-    """List the roles of layers, each with its look and what sets it."""
+    """List the roles of layers, each with its look and the settings that change it."""
     from atlas.pictures.style import LINES, STYLES
 
     looks: dict[tuple[str, ...], list[str]] = {}

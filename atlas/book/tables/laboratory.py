@@ -22,10 +22,10 @@ MIN_COMPONENT = 1e-3
 """Part of the least amplitude of a line below which a component of it is none."""
 
 NOT_SEEN = 1e-7
-"""Part of the largest singular value below which a combination of parameters has no effect on what is observed."""
+"""Ratio to the largest singular value below which a combination of parameters has no observable effect."""
 
 RECORDED = {"found": ".0f", "within": ".1f", "seconds": ".2f"}
-"""What is shown of a record of fits, and how."""
+"""Columns of a record of fits, and their format."""
 
 
 class Dipole(StrictStruct, frozen=True):

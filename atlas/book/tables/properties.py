@@ -41,7 +41,7 @@ class Thing:
 
     @classmethod
     def of(cls, request: Request) -> "Thing":
-        """Read the family and its parameters. Raises AtlasError for what is unknown or missing."""
+        """Read the family and its parameters. Raises AtlasError for unknown or missing names."""
         rest = dict(request.parameters)
         name, described = rest.pop("family", None), rest.pop("given", True)
         units = {"time": str(rest.pop("time", "time"))} | _units(rest.pop("units", None))
@@ -71,7 +71,7 @@ class Thing:
 
     @property
     def says(self) -> str:
-        """What the object is, in plain words that begin a sentence; a body without a field is free."""
+        """Description of the object as the beginning of a sentence; a body without a field is free."""
         says = self.family.says
         if not any(self.given.get("field", (1.0,))):
             says = says.replace("charged ", "free ")
@@ -97,7 +97,7 @@ class Thing:
 
 
 def _units(name: Any) -> dict[str, str]:
-    """Return what the units of a system are called, SI or Gaussian. Raises AtlasError for another one."""
+    """Return the names of the units of a system, SI or Gaussian. Raises AtlasError for another one."""
     if name is None:
         return {}
     from atlas.bodies.units import system
@@ -132,7 +132,7 @@ def properties(request: Request, thing: Thing) -> Data:
 
 
 def _rows_given(thing: Thing) -> Iterator[Row]:
-    """Go through what is given, a component a row."""
+    """Yield the inputs, a row for each component."""
     for p in thing.family.parameters:
         value = thing.given[p.name]
         parts = value if p.columns else (value,)
@@ -170,7 +170,7 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
 
 
 def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
-    """Return the certified texts of a quantity, or what the kernels have where balls have none."""
+    """Return the certified texts of a quantity, or the values of the kernels where there are none."""
     from atlas.arithmetic.certified_digits import certified
 
     if not (q.certified or q.printed or q.checked):

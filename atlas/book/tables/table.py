@@ -36,7 +36,7 @@ class Data:
 
 @dataclass(frozen=True)
 class Request:
-    """What a table block asks for: bodies in a field, further parameters, significant digits."""
+    """Request of a table block: bodies in a field, further parameters, significant digits."""
 
     cases: Sequence[BodyAndField]
     parameters: Mapping[str, Any]

@@ -85,7 +85,7 @@ def _of_top(numbers: tuple[float, ...]) -> str:
 
 
 def monodromy(asked: MonodromyParameters) -> Data:
-    """Return what becomes of the basis of periods on loops round unstable spins, theorem-residue."""
+    """Return the change of the basis of periods on loops round unstable spins, theorem-residue."""
     from atlas.maps.monodromy import around, on_loop
     from atlas.maps.wells import Wells
 

@@ -1,4 +1,4 @@
-"""What the explorer answers: the picture of a subject, its numbers with how sure each is, and its command."""
+"""Answers of the explorer: the picture of a subject, its numbers with their certainty, and its command."""
 
 import math
 import re
@@ -28,7 +28,7 @@ FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
 
 
 def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
-    """Return the values of the sliders, their starts for those not given. Raises AtlasError for what is no number."""
+    """Return the values of the sliders, by default their starts. Raises AtlasError for a value that is no number."""
     known = {slider.name: slider for slider in subject.sliders}
     values = {name: slider.start for name, slider in known.items()}
     for name, text in typed.items():
@@ -107,7 +107,7 @@ def _certified(q: Quantity, motion: Any) -> tuple[str, str]:
 
 
 def _double(q: Quantity, motion: Any, ulps: float) -> tuple[str, str]:
-    """Return a quantity as doubles give it, and what is promised of it."""
+    """Return a quantity in doubles, and its error bound in words."""
     text = _joined(q, _written(q.value(motion)))
     if not re.search(r"\d", text):
         return text, EXACT

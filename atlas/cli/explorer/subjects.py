@@ -30,7 +30,7 @@ class OfFamily:
 
     @property
     def title(self) -> str:
-        """What it is, in a few words."""
+        """Title of the subject."""
         return self.family.says
 
     @property

@@ -159,7 +159,7 @@ class _Drawing:
         self.ink.append((around.reshape(-1, 2), 4.0))
 
     def _area(self, edge: Edge, colour: str, opacity: float, height: float = _TINT) -> None:
-        """Fill what an edge encloses."""
+        """Fill the area inside an edge."""
         points, codes = edge
         if len(points):
             path = Path(self.view.on_paper(points), codes)

@@ -63,7 +63,7 @@ class View(Held):
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        """What can hide something."""
+        """Surfaces that can hide other layers."""
         return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
 
     def on_paper(self, points: FloatArray) -> FloatArray:

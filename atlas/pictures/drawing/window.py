@@ -38,7 +38,7 @@ class ScenePlotter(pv.Plotter):
     scene: Scene | None = None
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """Return what a notebook shows."""
+        """Return the representations for a notebook."""
         return mimebundle(self.scene)
 
 
