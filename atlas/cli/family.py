@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache, partial
 from itertools import chain
 from math import hypot, isfinite, pi
@@ -342,7 +343,7 @@ class Principal(NamedTuple):
 
     family: Family
     options: list[str]
-    values: dict[str, tuple[float, ...]]
+    values: dict[str, tuple[float | Fraction, ...]]
     axes: str
     is_rounded: bool
 
@@ -385,7 +386,7 @@ def along_principal_axes(motion: Any, unit: str = "") -> Principal:
 
 def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
     """Return the request of an object of a family."""
-    words, values = list[str](), dict[str, tuple[float, ...]]()
+    words, values = list[str](), dict[str, tuple[float | Fraction, ...]]()
     rounded = any(x not in {-1, 0, 1} for x in axes.ravel())
     for p in family.parameters:
         value: Any = arguments.get(p.name)
@@ -395,7 +396,9 @@ def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) 
         elif value is not None:
             words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts_of(value))]
         if value is not None:
-            values[p.name] = tuple(map(float, parts_of(value)))
+            values[p.name] = tuple(
+                Fraction(*x.as_integer_ratio()) if isinstance(x, Given) else float(x) for x in parts_of(value)
+            )
             rounded |= any(isinstance(x, Given) for x in parts_of(value))
     return Principal(family, words, values, axes_text(axes), rounded)
 

@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -199,9 +200,14 @@ def _meant(family: str, names: set[str]) -> str:
     return "general" if "omega1" in names else "elementary"
 
 
-def _body(options: dict[str, Any]) -> dict[str, float]:
+def _plain(x: float | Fraction) -> float | Fraction:
+    """Return a number that was typed as a float, and one that no float holds as it is."""
+    return x if isinstance(x, Fraction) else float(x)
+
+
+def _body(options: dict[str, Any]) -> dict[str, float | Fraction]:
     """Return what the options of body, field and start say, by the names of a table; a tensor along principal axes."""
-    three, found = "tensor" in options, dict[str, float]()
+    three, found = "tensor" in options, dict[str, float | Fraction]()
     if three and body.given_tensor(options) is not None:
         principal = along_principal_axes(motion_in_given_axes(options))
         click.echo(principal.note, err=True, nl=bool(principal.note))
@@ -216,7 +222,7 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
             found["ratio"] = float(getattr(chosen, "ratio", chosen))
     weighed = ("mass", "density") if options["shape"] is None else ()
     if given(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
-        found |= zip(("B1", "B2", "B3")[not three :], map(float, body.chosen_field(options)), strict=True)
+        found |= zip(("B1", "B2", "B3")[not three :], map(_plain, body.chosen_field(options)), strict=True)
     start = body.start_of(options, needed=False)
     if start is not None:
         found |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -74,28 +75,34 @@ class Swept:
         values = []
         for p in self.family.parameters:
             parts: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
-            values.append((np.stack(parts, -1) if p.last else parts) if p.columns else parts[0])
+            if p.last:
+                parts = (np.stack(np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in parts)), -1),)
+            values.append(parts if p.columns and not p.last else parts[0])
         return (self.family.balls if exact else self.family.kernels)()(*values)
 
-    def columns(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str]) -> dict[str, NDArray[Any]]:
-        """Return the quantities of rows of parameters, arrays of floats or of text."""
+    def columns(
+        self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], exact: dict[str, Fraction]
+    ) -> dict[str, NDArray[Any]]:
+        """Return the quantities of rows of parameters, arrays of floats or of text; of `exact` ones in all rows."""
         size, at_once = next(iter(parameters.values())).size, self.family.at_once
         pieces: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
         for start in range(0, size, at_once):
             rows = {name: x[start : start + at_once] for name, x in parameters.items()}
-            motions, count = self.make(rows), min(at_once, size - start)
+            motions, count = self.make(rows | exact), min(at_once, size - start)
             for name, column in pieces.items():
                 values = np.broadcast_to(self.quantities[name].of(motions, rows), count)
                 column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
         return self._explained({name: np.concatenate(column) for name, column in pieces.items()})
 
-    def digits(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int) -> dict[str, Any]:
+    def digits(
+        self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int, exact: dict[str, Fraction]
+    ) -> dict[str, Any]:
         """Return the quantities as text with certified digits, row by row."""
         from atlas.arithmetic.certified_digits import certified
 
         texts: dict[str, list[str]] = {name: [] for name in names}
         for values in zip(*(x.tolist() for x in parameters.values()), strict=True):
-            row = dict(zip(parameters, values, strict=True))
+            row = dict(zip(parameters, values, strict=True)) | exact
             for name, text in certified(partial(self._balls, row, names), digits).items():
                 texts[name].append(text)
         return self._explained({name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()})

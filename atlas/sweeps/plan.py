@@ -2,7 +2,8 @@
 
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from fractions import Fraction
 from math import prod
 from typing import Any
 
@@ -26,7 +27,8 @@ class Plan:
 
     `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
     one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
-    time in headings. `first` is the number in the whole table of the first row.
+    time in headings. `first` is the number in the whole table of the first row. `exact` has those of one value that no
+    float holds, as fractions: the quantities are of these.
     """
 
     family: str
@@ -36,6 +38,7 @@ class Plan:
     digits: int | None = None
     time: str = TIME
     first: int = 0
+    exact: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -66,7 +69,10 @@ class Plan:
                     raise AtlasError(f"{name} has {array.size} values, but the list has {count} rows.")
         if digits is not None and digits < 1:
             raise AtlasError(f"A number has at least one digit, not {digits}.")
-        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time)
+        exact = {
+            name: x.as_integer_ratio() for name, x in parameters.items() if isinstance(x, Fraction) and float(x) != x
+        }
+        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time, exact=exact)
         if not 0 < plan.count <= MAX_ROWS:
             raise AtlasError(f"A table has from one row to {MAX_ROWS:.0e}, not {plan.count}.")
         return plan
@@ -96,7 +102,7 @@ class Plan:
         arrays = {
             name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
         }
-        return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start)
+        return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start, self.exact)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
         """Return the table or some rows of it. An AtlasError names the first that it is in, and its parameters."""
@@ -129,10 +135,11 @@ class Plan:
         parameters, family = self._parameters(np.arange(start, stop)), FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
         full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | parameters
+        exact = {name: Fraction(*pair) for name, pair in self.exact.items()}
         quantities = (
-            family.columns(full, self.quantities)
+            family.columns(full, self.quantities, exact)
             if self.digits is None
-            else family.digits(full, self.quantities, self.digits)
+            else family.digits(full, self.quantities, self.digits, exact)
         )
         return {name: quantities[name] if name in quantities else parameters[name] for name in self.names}
 

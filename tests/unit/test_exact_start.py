@@ -18,6 +18,7 @@ from atlas.cli.app import atlas as command
 from atlas.errors import NearlySymmetricWarning, NotCertifiedError
 from atlas.motions.frames import turned_by
 from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.sweeps.plan import Plan
 
 EPS = 2.0**-52
 RATIO = 0.7157322617930502
@@ -232,3 +233,18 @@ def test_a_symmetric_tensor_turned_in_floats_is_told_when_it_is_made() -> None:
     assert "differ by" in m.agreement
     with pytest.raises(NotCertifiedError, match=r"up to \|t\| = 128\. .*SymmetricBody"):
         m.rotation(1e4)
+
+
+def test_a_sweep_evaluates_the_product_that_was_typed(tmp_path: Any) -> None:
+    """B' of --magnetic and mu stays exact in doubles at t = 1e9; rows as a list, which a worker gets, have it too."""
+    words = "--ratio 0.873 --magnetic -1.429 1.091 --mu 1.5 --omega -0.1972 -0.7 1.0000000000000002"
+    table = tmp_path / "t.csv"
+    rest = ["--set", "t=1e9,5", "--quantity", "R33", "--out", str(table)]
+    assert CliRunner().invoke(command, ["sweep", "general", *words.split(), *rest]).exit_code == 0
+    found = float(table.read_text().splitlines()[1].split(",")[-1])
+    m = atlas.GeneralMotion(0.873, (Fraction(-1.429) * 3 / 4, Fraction(1.091) * 3 / 4), (-0.1972, -0.7, 1 + EPS))
+    assert abs(found - m.rotation(1e9)[2, 2]) <= 16 * EPS
+    parameters = {"ratio": 0.873, "B2": Fraction(-1.429) * 3 / 4, "B3": Fraction(1.091) * 3 / 4}
+    parameters |= {"omega1": -0.1972, "omega2": -0.7, "omega3": 1 + EPS, "t": [5.0, 1e9]}
+    plan = Plan.of("general", parameters, ["R33"])
+    assert plan.list_of(1, 2).rows()["R33"][0] == pytest.approx(found, abs=16 * EPS)
