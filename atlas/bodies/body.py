@@ -408,8 +408,8 @@ class SymmetricBody:
         first, second = (g[1], g[2]) if third == 0 else (g[0], g[1])
         if second - first > tolerance * largest:
             raise DomainError(
-                f"The body is not symmetric: its principal mass moments {g} are all different, "
-                f"where two must agree to {tolerance:g} of the largest."
+                f"The body is not symmetric: of its principal mass moments {g} the closest two differ by "
+                f"{(second - first) / largest:.3g} of the largest, more than the tolerance {tolerance:g}."
             )
         across = float((first + second) / 2)
         return cls(across + float(g[third]), 2 * across, _frame(axes[third]))

@@ -131,8 +131,10 @@ class ChargeMoments:
         symmetric = np.diag([moments[0, 0], moments[0, 0], moments[2, 2]])
         size = np.abs(e) @ np.einsum("nk,nk->n", x, x)
         if np.abs(moments - symmetric).max() > SYMMETRY_TOLERANCE * size:
+            mixed = np.abs(moments[~np.eye(3, dtype=bool)]).max()
             raise DomainError(
-                "The charges are not symmetric about e3, the body's axis: their moments J1 and J2 must be equal and "
-                "those off the diagonal zero, to 1e-9 of the largest."
+                "The charges are not symmetric about e3, the body's axis: J1 and J2 differ by "
+                f"{abs(moments[0, 0] - moments[1, 1]):.3g} and elements off the diagonal reach {mixed:.3g}, more than "
+                f"{SYMMETRY_TOLERANCE * size:.3g} (1e-9 of the largest) for rounding."
             )
         return cls(float(moments[0, 0] + moments[1, 1]) / 2, float(moments[2, 2]))

@@ -132,8 +132,13 @@ def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]
     if tensor.ndim == 1:
         return tensor, tensor.sum()
     size = np.abs(tensor).max(axis=(-2, -1))
-    if (np.abs(tensor - tensor.swapaxes(-2, -1)).max(axis=(-2, -1)) > ROUNDING * size).any():
-        i, j = np.unravel_index(np.argmax(np.abs(tensor - tensor.swapaxes(-2, -1)).reshape(-1, 9).max(axis=0)), (3, 3))
-        element, other = tensor.reshape(-1, 3, 3)[0][[i, j], [j, i]]
-        raise AtlasError(f"{name} must be symmetric, but has {element:.6g} and {other:.6g} across its diagonal.")
+    difference = np.abs(tensor - tensor.swapaxes(-2, -1))
+    excess = difference - ROUNDING * size[..., None, None]
+    if (excess > 0).any():
+        index = np.unravel_index(excess.argmax(), excess.shape)
+        i, j = int(index[-2]) + 1, int(index[-1]) + 1
+        raise AtlasError(
+            f"{name} must be symmetric, but its elements ({i}, {j}) and ({j}, {i}) differ by {difference[index]:.3g}: "
+            "give one value for both."
+        )
     return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]

@@ -146,7 +146,7 @@ def _block(piece: Piece) -> dict[str, Any]:
 
 
 def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]:
-    """Return a copy of nested values without some keys."""
+    """Return the values. Raises LineError for one of `keys`, which the Markdown gives outside of the TOML."""
     for key in values.keys() & {*keys}:
         raise LineError(piece.line, f"this block takes no key {key!r}: the file says it outside of the TOML.")
     return values

@@ -124,7 +124,15 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: ROUND.rotation_grid(0.0, 1.0, 10**15), "(1000000000000000, 3"),
     (lambda: atlas.motion((1, 1, 5.0), (0, 0, 1), (0, 0, 1)), "5 exceeds 1 + 1 by 3"),
     (lambda: atlas.motion((1, 2), (0, 0, 1), (0, 0, 1)), "three moments"),
-    (lambda: atlas.motion([[1, 0.2, 0], [0, 1, 0], [0, 0, 1]], SPIN, SPIN), "has 0.2 and 0 across its diagonal"),
+    (lambda: atlas.motion([[1, 0.2, 0], [0, 1, 0], [0, 0, 1]], SPIN, SPIN), "elements (1, 2) and (2, 1) differ by 0.2"),
+    (
+        lambda: atlas.motion([[1, 0.1, 0], [0.1 + 1e-12, 1, 0], [0, 0, 1]], SPIN, SPIN),
+        "elements (1, 2) and (2, 1) differ by 1e-12: give one value",
+    ),
+    (
+        lambda: atlas.SymmetricBody.from_mass_matrix((1.0, 1.0 + 6e-9, 3.0)),
+        "the closest two differ by 2e-09 of the largest",
+    ),
     (lambda: atlas.motion(-np.eye(3), (0, 0, 1), (0, 0, 1)), "must be positive"),
     (lambda: atlas.motion(1.5, (0, 1), (0, 0, 1)), "The field must have the 3 components (B1, B2, B3)"),
     (lambda: atlas.motion(1.5, SPIN, (0, 1)), "The angular velocity must have"),
