@@ -69,8 +69,9 @@ def started(args: list[str]) -> tuple[str, str]:
 
     Raises click.UsageError for what is no such option.
     """
+    from atlas.cli.axes import in_principal_axes, motion_in_given_axes
     from atlas.cli.family import command as made
-    from atlas.cli.family import family_of, in_principal_axes, motion_in_given_axes, values_of
+    from atlas.cli.family import family_of, values_of
 
     if not args[0].startswith("--"):
         raise click.UsageError(f"{args[0]} has no options here: those of atlas motion stand alone, without a name.")

@@ -3,17 +3,16 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
-from dataclasses import replace
-from fractions import Fraction
-from functools import cache, partial
+from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import chain
 from math import hypot, isfinite, pi
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
 
-from atlas.arithmetic.given import Given
 from atlas.cli import body
+from atlas.cli.axes import OWN_AXES, axes_text, motion_in_given_axes
 from atlas.cli.options import chosen_times, examples, given, numbers, output_options, stack, times_options
 from atlas.cli.present import (
     NOT_ASKED,
@@ -28,6 +27,7 @@ from atlas.cli.present import (
     samples,
     show,
 )
+from atlas.cli.spectrum import check_spectrum, recorded, show_lines, spectrum_of, spectrum_options
 from atlas.cli.table import out_option, write_table
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.cli.typed import exactly, measured, parts_of
@@ -35,6 +35,7 @@ from atlas.cli.uncertain import mapped, spread, uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.families.family import RATE, TIME
+from atlas.lazy import cached_property
 from atlas.motions.register import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.motions.register import Command as Described
 
@@ -65,7 +66,6 @@ ROUNDING = 1e-12
 SHORT = 6.0
 """Phase below which an exponential of the largest rate does not take rounding to 1e-12."""
 
-OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
 UNITS = {
     "natural": {},
     "gaussian": {"1/time": "rad/s", "length/time": "cm/s", "length": "cm"},
@@ -79,15 +79,6 @@ units_option: Callable[[Any], Any] = click.option(
     help="c = 1; statvolt/cm, gauss, cm, esu, g; volt/m, tesla, m, C, kg (no factor c). SI where a charge is given, "
     "else natural.",
 )
-
-spectrum_options = stack(
-    click.option(
-        "--spectrum", type=click.Choice(["axis", "rotation", "angular_velocity", "field"]), is_flag=False,
-        flag_value="axis", metavar="[OF]",
-        help="Lines of the axis, or of the rotation, angular_velocity or field in the body: frequencies, amplitudes.",
-    ),
-    numbers("least", "Least amplitude, of the whole.", default="1e-3", show_default=True),
-)  # fmt: skip
 
 charge_options = stack(
     numbers("mass", "Mass, with --charge."),
@@ -160,53 +151,87 @@ def _command_of(family: Family, described: Described) -> click.Command:
     ]
 
     def run(**options: Any) -> None:
-        _check_spectrum(options)
+        check_spectrum(options)
         body.check_speeds(options)
         times = chosen_times(options) if family.sampled else []
-        sampled = [s for s in family.sampled if s.printed]
+        Question(family, described, options, times).show()
 
-        def floats() -> dict[str, Any]:
-            motion = _kernel(family, options)
-            lines = _recorded(_spectrum(motion, options))
-            return named | _answers(family, motion, times, sampled) | lines | _input_error(family, motion, times)
+    texts = {"help": described.help, "epilog": examples(*described.examples)}
+    return click.command(described.name, cls=Command, carries=True, **texts)(stack(*decorators)(run))
 
-        @cache
-        def near() -> list[Any]:
-            """Return the quaternions in doubles, which have a sign; none where that is not known."""
-            try:
-                motion = motion_in_given_axes(options) if family.in_given_axes else None
-                return list(along((motion or _kernel(family, options)).quaternion, times))
-            except NotCertifiedError:
-                return [None for _ in times]
 
-        def balls(times: Sequence[float], quantities: Family) -> dict[str, Any]:
-            motion = _balls(family, options)
-            moments = [exactly(t, options) for t in times]
-            values = {s.name: [sample(s, motion, t, best) for t in moments] for s in sampled if not s.uncertified}
-            if moments and not best:
-                raise NotCertifiedError(best.reason)
-            if options["as_json"] and "R" in values:
-                values["q"] = [_quaternion(motion, *row) for row in zip(moments, values["R"], near(), strict=True)]
-            columns = {s.name: values[s.name] for s in sampled if s.name in values}
-            return named | _quantities(quantities, motion, times, columns, exact=True)
+class Best(dict[tuple[str, Any], Any]):
+    """What was certified at the highest precision that it can be had with, by name and time; and why no higher one."""
 
-        best, named = Best(), {"family": family.name} if described.name == "motion" else {}
+    reason = ""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What the command of a family is asked: which object, by the options, and what it has at times."""
+
+    family: Family
+    described: Described
+    options: dict[str, Any]
+    times: Sequence[float]
+    best: Best = field(default_factory=Best)
+
+    @property
+    def named(self) -> dict[str, str]:
+        """Name of the family, where the command has several."""
+        return {"family": self.family.name} if self.described.name == "motion" else {}
+
+    @property
+    def sampled(self) -> list[Sampled]:
+        """Functions of time that are printed."""
+        return [s for s in self.family.sampled if s.printed]
+
+    def floats(self) -> dict[str, Any]:
+        """Return what the object in doubles has."""
+        family, times = self.family, self.times
+        motion = _kernel(family, self.options)
+        lines = recorded(spectrum_of(motion, self.options))
+        return self.named | _answers(family, motion, times, self.sampled) | lines | _input_error(family, motion, times)
+
+    @cached_property
+    def near(self) -> list[Any]:
+        """Quaternions in doubles, which have a sign; none where that is not known."""
+        try:
+            motion = motion_in_given_axes(self.options) if self.family.in_given_axes else None
+            return list(along((motion or _kernel(self.family, self.options)).quaternion, self.times))
+        except NotCertifiedError:
+            return [None for _ in self.times]
+
+    def balls(self, times: Sequence[float], quantities: Family) -> dict[str, Any]:
+        """Return what the object in balls has at some of the times, with the quantities of a family."""
+        motion, options, best = _balls(self.family, self.options), self.options, self.best
+        moments = [exactly(t, options) for t in times]
+        values = {s.name: [sample(s, motion, t, best) for t in moments] for s in self.sampled if not s.uncertified}
+        if moments and not best:
+            raise NotCertifiedError(best.reason)
+        if options["as_json"] and "R" in values:
+            values["q"] = [_quaternion(motion, *row) for row in zip(moments, values["R"], self.near, strict=True)]
+        columns = {s.name: values[s.name] for s in self.sampled if s.name in values}
+        return self.named | _quantities(quantities, motion, times, columns, exact=True)
+
+    def show(self) -> None:
+        """Print the answers."""
+        family, described, options, times = self.family, self.described, self.options, self.times
         parameters = _parameters(family, options)
         if _shown_otherwise(family, described, options, parameters, times):
             return
         first, spare = times if options["as_json"] else times[:AT_ONCE], SPARE if described.undecided else 1 << 16
-        texts = answer(options, parameters, floats, partial(balls, first, family), spare)
-        if texts is not None:
-            texts["samples"] = chain(
-                texts.get("samples", []), _later(balls, family, times[len(first) :], options, spare)
-            )
-            says, rounding = _in_hertz(family, texts, options), _of_rounding(family, options, times)
-            printout = _printout(family, described, texts, options, certificate(options), says)
-            show(replace(printout, notes=chain(printout.notes, rounding)))
-            _show_lines(family, options)
-
-    texts = {"help": described.help, "epilog": examples(*described.examples)}
-    return click.command(described.name, cls=Command, carries=True, **texts)(stack(*decorators)(run))
+        texts = answer(options, parameters, self.floats, partial(self.balls, first, family), spare)
+        if texts is None:
+            return
+        later = _later(self.balls, family, times[len(first) :], options, spare)
+        texts["samples"] = chain(texts.get("samples", []), later)
+        says, rounding = _in_hertz(family, texts, options), _of_rounding(family, options, times)
+        printout = _printout(family, described, texts, options, certificate(options), says)
+        show(replace(printout, notes=chain(printout.notes, rounding)))
+        if options.get("spectrum"):
+            unit = _units(family, options).get(RATE, RATE)
+            show_lines(spectrum_of(_kernel(family, options), options), unit)
 
 
 def _write_table(family: Family, options: dict[str, Any], times: Sequence[float]) -> None:
@@ -320,94 +345,6 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     return parameters
 
 
-def motion_in_given_axes(options: dict[str, Any]) -> Any:
-    """Return the motion of a body in other axes than its class has them, None for one that is along these.
-
-    So is a body whose axes are not principal ones, one that starts from an attitude, and a symmetric one in a field of
-    three components. It is in doubles: a certified twin has principal axes, and R(0) = 1.
-    """
-    tensor, attitude = body.given_tensor(options), body.given_attitude(options)
-    J = body.chosen_moments(options) if tensor is None else tensor
-    if tensor is None and attitude is None and len({*map(float, J)}) == len(J):
-        return None
-    from atlas.motions.any_body import motion
-
-    return motion(J, body.chosen_field(options), body.start_of(options), attitude)
-
-
-class Principal(NamedTuple):
-    """A motion in the axes of its class: the family, the options that say which, and these axes in those given.
-
-    `is_rounded` tells whether numbers along these axes are rounded to floats.
-    """
-
-    family: Family
-    options: list[str]
-    values: dict[str, tuple[float | Fraction, ...]]
-    axes: str
-    is_rounded: bool
-
-    @property
-    def note(self) -> str:
-        """Sentence on these axes, where they are not those of the body."""
-        if self.axes == OWN_AXES:
-            return ""
-        rounded = "; numbers along them are rounded to floats" * self.is_rounded
-        return f"The axes are principal ones: {self.axes} in those of the body that were given{rounded}."
-
-
-def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
-    """Return what asks for a motion in given axes in those of its class, rates in a unit.
-
-    Where floats do not hold what the class is made of, or its field has three components, the family is that of any
-    three moments; not for a motion that was fitted, which is rounded.
-    """
-    family, arguments, axes = FAMILIES[motion.family], dict(motion.own.arguments), motion.axes
-    if family.in_plane and (fitted or not float([0.0, *arguments["field"]][-3])):
-        arguments, turn = family.in_plane(arguments)
-        axes = axes if turn is None else turn @ axes
-    parts = [x for value in arguments.values() for x in parts_of(value)]
-    typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in parts)
-    if not (family.command and (fitted or typed)):
-        return along_principal_axes(motion, unit)
-    return _principal(family, arguments, axes, unit)
-
-
-def along_principal_axes(motion: Any, unit: str = "") -> Principal:
-    """Return what asks for a motion in given axes as that of a body with three moments, rates in a unit."""
-    from atlas.motions.start import start_of
-
-    start = start_of(**motion.arguments)
-    moments, axes = start.body.moments.tolist(), start.body.axes
-    field, omega = start.along(axes)
-    arguments = {"inertia": tuple(moments), "field": tuple(field), "omega": tuple(omega)}
-    return _principal(FAMILIES["asymmetric"], arguments, axes, unit)
-
-
-def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
-    """Return the request of an object of a family."""
-    words, values = list[str](), dict[str, tuple[float | Fraction, ...]]()
-    rounded = any(x not in {-1, 0, 1} for x in axes.ravel())
-    for p in family.parameters:
-        value: Any = arguments.get(p.name)
-        if p.name == "ratio" and hasattr(value, "I2"):
-            words += ["--inertia", repr(float(value.I2)), repr(float(value.I3))]
-            value = value.ratio
-        elif value is not None:
-            words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts_of(value))]
-        if value is not None:
-            values[p.name] = tuple(
-                Fraction(*x.as_integer_ratio()) if isinstance(x, Given) else float(x) for x in parts_of(value)
-            )
-            rounded |= any(isinstance(x, Given) for x in parts_of(value))
-    return Principal(family, words, values, axes_text(axes), rounded)
-
-
-def axes_text(axes: Any) -> str:
-    """Return axes, the rows of a matrix, as text."""
-    return ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)
-
-
 def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]) -> None:
     """Print a motion in given axes, which is certified in no twin but that of any body."""
     from atlas.motions.start import body_of
@@ -415,7 +352,7 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
     family = FAMILIES[motion.family]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     record = {"family": family.name} | _answers(family, motion, times, sampled)
-    record |= _recorded(_spectrum(motion, options))
+    record |= recorded(spectrum_of(motion, options))
     if options["as_json"]:
         known = body_of(motion.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
@@ -430,7 +367,8 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
             printout = replace(printout, notes=chain([says], printout.notes))
         printout = replace(printout, notes=chain(printout.notes, _of_rounding(family, options, times, motion)))
         show(printout)
-        _show_lines(family, options, motion)
+        if options.get("spectrum"):
+            show_lines(spectrum_of(motion, options), _units(family, options).get(RATE, RATE))
 
 
 def _input_error(family: Family, motion: Any, times: Sequence[float]) -> dict[str, float]:
@@ -490,55 +428,6 @@ def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Seque
     I2 = getattr(motion.own.arguments.get("ratio"), "I2", 1.0) if placed else 1.0
     columns |= {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}
     return _quantities(family, motion, times, columns, exact=False)
-
-
-def _check_spectrum(options: dict[str, Any]) -> None:
-    """Raise click.UsageError for lines of a motion with proven digits, and for a least amplitude out of range."""
-    if options.get("spectrum") and not 0 < options["least"] < 1:
-        raise click.UsageError(f"--least is a part of the whole, between 0 and 1, not {options['least'].text}.")
-    if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
-        raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
-
-
-def _spectrum(motion: Any, options: dict[str, Any]) -> Any:
-    """Return the lines of a motion that are asked for, None where they are not."""
-    if not options.get("spectrum"):
-        return None
-    return motion.spectrum(options["spectrum"], least=options["least"])
-
-
-def _recorded(lines: Any) -> dict[str, Any]:
-    """Return lines for JSON: an amplitude as its real and its imaginary part."""
-    if lines is None:
-        return {}
-    each = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
-    keys = "frequency", "combination", "amplitude"
-    return {"spectrum": {
-        "of": lines.of, "rates": dict(zip(lines.names, lines.rates, strict=True)), "mean_square": lines.mean_square,
-        "lines": [dict(zip(keys, (f, c, {"real": a.real, "imaginary": a.imag}), strict=True)) for f, c, a in each],
-    }}  # fmt: skip
-
-
-def _show_lines(family: Family, options: dict[str, Any], motion: Any = None) -> None:
-    """Print lines that are asked for, one a row, those of negative frequencies left out."""
-    if not options.get("spectrum"):
-        return
-    lines = _spectrum(motion or _kernel(family, options), options)
-    unit = _units(family, options).get(RATE, RATE)
-    rows = [
-        [*map(str, c), f"{f:.10g}", f"{size:.6g}"]
-        for f, c, size in zip(lines.frequencies, lines.combinations, lines.power**0.5, strict=True)
-        if f >= 0
-    ]
-    show(Printout(
-        f"spectrum of the {lines.of.replace('_', ' ')}",
-        [Line(name, "rate", f"{rate:.10g}", unit) for name, rate in zip(lines.names, lines.rates, strict=True)],
-        [*lines.names, f"frequency [{unit}]", "amplitude"], rows,
-        [
-            "In doubles. Each line stands for the opposite frequency, with the conjugate amplitude, too.",
-            "An amplitude is the norm of the complex ones of all components: one swings by twice the size of its own.",
-        ],
-    ))  # fmt: skip
 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:
@@ -601,12 +490,6 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
         else:
             value = body.start_of(options) if p.name == "omega" and "spin" in options else options[p.name]
             yield exactly(value, options) if exact else value
-
-
-class Best(dict[tuple[str, Any], Any]):
-    """What was certified at the highest precision that it can be had with, by name and time; and why no higher one."""
-
-    reason = ""
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:

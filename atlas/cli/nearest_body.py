@@ -80,8 +80,8 @@ def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any
 
 
 def _exact(x: Typed) -> Fraction:
-    """Return what was typed in SI, exactly; the double where it has pi in it."""
-    return Fraction(float(x)) if x.unit and x.exact is None else x.exactly()
+    """Return what was typed in SI, exactly; the double where it has pi in it, or a standard deviation."""
+    return Fraction(float(x)) if x.sigma or (x.unit and x.exact is None) else x.exactly()
 
 
 def _unit(x: Typed) -> Fraction:

@@ -12,12 +12,11 @@ import click
 from atlas import files
 from atlas.cli import body
 from atlas.cli.app import GONE
+from atlas.cli.axes import in_principal_axes, motion_in_given_axes
 from atlas.cli.family import (
     family_of,
     in_field,
     in_plane,
-    in_principal_axes,
-    motion_in_given_axes,
     object_options,
     values_of,
 )

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import click
 
 from atlas.cli import body
-from atlas.cli.family import along_principal_axes, motion_in_given_axes
+from atlas.cli.axes import along_principal_axes, motion_in_given_axes
 from atlas.cli.options import Place, examples, given, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar

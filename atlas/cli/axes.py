@@ -1,0 +1,101 @@
+"""A motion in axes that were given, and the options that ask for it in those of its class, or in principal ones."""
+
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from atlas.arithmetic.given import Given
+from atlas.cli import body
+from atlas.cli.typed import parts_of
+from atlas.families.family import RATE
+from atlas.motions.register import FAMILIES, Family
+
+OWN_AXES = "(1, 0, 0), (0, 1, 0), (0, 0, 1)"
+"""Principal axes that are those of the body."""
+
+
+def motion_in_given_axes(options: dict[str, Any]) -> Any:
+    """Return the motion of a body in other axes than its class has them, None for one that is along these.
+
+    So is a body whose axes are not principal ones, one that starts from an attitude, and a symmetric one in a field of
+    three components. It is in doubles: a certified twin has principal axes, and R(0) = 1.
+    """
+    tensor, attitude = body.given_tensor(options), body.given_attitude(options)
+    J = body.chosen_moments(options) if tensor is None else tensor
+    if tensor is None and attitude is None and len({*map(float, J)}) == len(J):
+        return None
+    from atlas.motions.any_body import motion
+
+    return motion(J, body.chosen_field(options), body.start_of(options), attitude)
+
+
+class Principal(NamedTuple):
+    """A motion in the axes of its class: the family, the options that say which, and these axes in those given.
+
+    `is_rounded` tells whether numbers along these axes are rounded to floats.
+    """
+
+    family: Family
+    options: list[str]
+    values: dict[str, tuple[float | Fraction, ...]]
+    axes: str
+    is_rounded: bool
+
+    @property
+    def note(self) -> str:
+        """Sentence on these axes, where they are not those of the body."""
+        if self.axes == OWN_AXES:
+            return ""
+        rounded = "; numbers along them are rounded to floats" * self.is_rounded
+        return f"The axes are principal ones: {self.axes} in those of the body that were given{rounded}."
+
+
+def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
+    """Return what asks for a motion in given axes in those of its class, rates in a unit.
+
+    Where floats do not hold what the class is made of, or its field has three components, the family is that of any
+    three moments; not for a motion that was fitted, which is rounded.
+    """
+    family, arguments, axes = FAMILIES[motion.family], dict(motion.own.arguments), motion.axes
+    if family.in_plane and (fitted or not float([0.0, *arguments["field"]][-3])):
+        arguments, turn = family.in_plane(arguments)
+        axes = axes if turn is None else turn @ axes
+    parts = [x for value in arguments.values() for x in parts_of(value)]
+    typed = len(parts_of(arguments.get("field", 0.0))) < len("123") and not any(isinstance(x, Given) for x in parts)
+    if not (family.command and (fitted or typed)):
+        return along_principal_axes(motion, unit)
+    return _principal(family, arguments, axes, unit)
+
+
+def along_principal_axes(motion: Any, unit: str = "") -> Principal:
+    """Return what asks for a motion in given axes as that of a body with three moments, rates in a unit."""
+    from atlas.motions.start import start_of
+
+    start = start_of(**motion.arguments)
+    moments, axes = start.body.moments.tolist(), start.body.axes
+    field, omega = start.along(axes)
+    arguments = {"inertia": tuple(moments), "field": tuple(field), "omega": tuple(omega)}
+    return _principal(FAMILIES["asymmetric"], arguments, axes, unit)
+
+
+def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
+    """Return the request of an object of a family."""
+    words, values = list[str](), dict[str, tuple[float | Fraction, ...]]()
+    rounded = any(x not in {-1, 0, 1} for x in axes.ravel())
+    for p in family.parameters:
+        value: Any = arguments.get(p.name)
+        if p.name == "ratio" and hasattr(value, "I2"):
+            words += ["--inertia", repr(float(value.I2)), repr(float(value.I3))]
+            value = value.ratio
+        elif value is not None:
+            words += [f"--{p.name}", *(repr(float(x)) + unit * (p.unit == RATE) for x in parts_of(value))]
+        if value is not None:
+            values[p.name] = tuple(
+                Fraction(*x.as_integer_ratio()) if isinstance(x, Given) else float(x) for x in parts_of(value)
+            )
+            rounded |= any(isinstance(x, Given) for x in parts_of(value))
+    return Principal(family, words, values, axes_text(axes), rounded)
+
+
+def axes_text(axes: Any) -> str:
+    """Return axes, the rows of a matrix, as text."""
+    return ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes)

@@ -1,0 +1,62 @@
+"""The lines of a motion's spectrum on the command line: the options, a table, and a record for JSON."""
+
+from typing import Any
+
+import click
+
+from atlas.cli.options import numbers, stack
+from atlas.cli.present import Line, Printout, show
+
+spectrum_options = stack(
+    click.option(
+        "--spectrum", type=click.Choice(["axis", "rotation", "angular_velocity", "field"]), is_flag=False,
+        flag_value="axis", metavar="[OF]",
+        help="Lines of the axis, or of the rotation, angular_velocity or field in the body: frequencies, amplitudes.",
+    ),
+    numbers("least", "Least amplitude, of the whole.", default="1e-3", show_default=True),
+)  # fmt: skip
+
+
+def check_spectrum(options: dict[str, Any]) -> None:
+    """Raise click.UsageError for lines of a motion with proven digits, and for a least amplitude out of range."""
+    if options.get("spectrum") and not 0 < options["least"] < 1:
+        raise click.UsageError(f"--least is a part of the whole, between 0 and 1, not {options['least'].text}.")
+    if options.get("spectrum") and (options["digits"] is not None or options["decimal"]):
+        raise click.UsageError("--spectrum is computed in doubles: it goes without --digits and --decimal.")
+
+
+def spectrum_of(motion: Any, options: dict[str, Any]) -> Any:
+    """Return the lines of a motion that are asked for, None where they are not."""
+    if not options.get("spectrum"):
+        return None
+    return motion.spectrum(options["spectrum"], least=options["least"])
+
+
+def recorded(lines: Any) -> dict[str, Any]:
+    """Return lines for JSON: an amplitude as its real and its imaginary part."""
+    if lines is None:
+        return {}
+    each = zip(lines.frequencies, lines.combinations, lines.amplitudes, strict=True)
+    keys = "frequency", "combination", "amplitude"
+    return {"spectrum": {
+        "of": lines.of, "rates": dict(zip(lines.names, lines.rates, strict=True)), "mean_square": lines.mean_square,
+        "lines": [dict(zip(keys, (f, c, {"real": a.real, "imaginary": a.imag}), strict=True)) for f, c, a in each],
+    }}  # fmt: skip
+
+
+def show_lines(lines: Any, unit: str) -> None:
+    """Print lines with frequencies in a unit, one a row, those of negative frequencies left out."""
+    rows = [
+        [*map(str, c), f"{f:.10g}", f"{size:.6g}"]
+        for f, c, size in zip(lines.frequencies, lines.combinations, lines.power**0.5, strict=True)
+        if f >= 0
+    ]
+    show(Printout(
+        f"spectrum of the {lines.of.replace('_', ' ')}",
+        [Line(name, "rate", f"{rate:.10g}", unit) for name, rate in zip(lines.names, lines.rates, strict=True)],
+        [*lines.names, f"frequency [{unit}]", "amplitude"], rows,
+        [
+            "In doubles. Each line stands for the opposite frequency, with the conjugate amplitude, too.",
+            "An amplitude is the norm of the complex ones of all components: one swings by twice the size of its own.",
+        ],
+    ))  # fmt: skip
