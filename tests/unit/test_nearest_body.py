@@ -98,3 +98,10 @@ def test_a_tensor_of_single_precision_is_a_body() -> None:
         assert outcome.exit_code == 0, outcome.output
         told += "taken is the plane body next to it" in outcome.stderr
     assert told
+
+
+@pytest.mark.parametrize("body", [["--ratio", "1.5(1)"], ["--ratio", "1.5+-0.1"], ["--inertia", "1", "1", "1.3(1)"]])
+def test_uncertain_bodies_are_no_printed_digits(body: list[str]) -> None:
+    """Numbers with a standard deviation are taken as typed."""
+    outcome = run(*body, "--field", "0", "1", "2", "--omega", "0.3", "0.7", "0.2", "--times", "0")
+    assert (outcome.exit_code, outcome.stderr) == (0, ""), outcome.stderr
