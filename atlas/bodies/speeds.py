@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.arithmetic.inputs import scaled
+from atlas.arithmetic.inputs import FloatArray, scaled
 from atlas.bodies.units import SPEED_OF_LIGHT, System
 from atlas.errors import DomainError, RelativisticWarning
 
@@ -67,4 +67,9 @@ def fastest_point(shape: str, sizes: Mapping[str, float], omega: Any) -> float:
         return float(np.linalg.norm(np.cross(w, np.diag(axes)), 2))
     half = float(sizes.get("height", sizes.get("length", 0.0))) / 2
     rim = np.stack([r * np.cos(RIM), r * np.sin(RIM), np.full_like(RIM, half)], -1)
-    return float(np.linalg.norm(np.cross(w, rim), axis=-1).max())
+    return fastest_of(rim, w)
+
+
+def fastest_of(points: FloatArray, omega: Any) -> float:
+    """Return the largest speed |[Omega, x]| of some points (..., 3)."""
+    return float(np.linalg.norm(np.cross(np.array(omega, dtype=float), points), axis=-1).max())

@@ -9,7 +9,7 @@ import click
 
 from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
 from atlas.cli.options import FILE, given, numbers, stack
-from atlas.cli.points import oblique_tensor, points, principal_moments, ratio_of_points
+from atlas.cli.points import oblique_tensor, point_masses, points, principal_moments, ratio_of_points
 from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured
 from atlas.errors import nearest
 from atlas.measured import RATE, WANTED
@@ -363,16 +363,19 @@ def exact_field(options: dict[str, Any]) -> Any:
     return [factor * rational(B, "B") for B in options["magnetic"]]
 
 
-def check_speeds(options: Mapping[str, Any]) -> None:
-    """Warn of speeds above a tenth of that of light, where units are known: of a charge, and of a shape at t = 0.
+def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = None) -> None:
+    """Warn of speeds above a tenth of that of light, where units are known: of a charge, and of a body at t = 0.
+
+    `start` is the angular velocity of a body where options do not say it.
 
     Raises DomainError where the drift in crossed fields is not below the speed of light.
     """
     known = options.get("magnetic") is not None and system_of(options) != "natural"
-    charge, shape = "electric" in options and known, options.get("shape") is not None and units_of(options)
-    if not (charge or ("electric" not in options and shape)):
+    charge, shape = "electric" in options and known, options.get("shape")
+    extended = (shape is not None or options.get("points") is not None) and units_of(options)
+    if not (charge or ("electric" not in options and extended)):
         return
-    from atlas.bodies.speeds import check_drift, fastest_point, speed_of_light, warn_of
+    from atlas.bodies.speeds import check_drift, fastest_of, fastest_point, speed_of_light, warn_of
     from atlas.bodies.units import system
 
     units = system(system_of(options)) if known else system("SI")
@@ -380,9 +383,12 @@ def check_speeds(options: Mapping[str, Any]) -> None:
         check_drift(options["electric"] or (0, 0, 0), options["magnetic"], units)
         speed, what = hypot(*map(float, options["velocity"] or (0, 0, 0))), "the velocity at t = 0"
     else:
-        start = options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
+        start = start or options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
         sizes = {name: float(size) for name, size in given(options, SIZES).items()}
-        speed, what = fastest_point(options["shape"].replace("-", "_"), sizes, start), "the surface at t = 0"
+        if shape is None:
+            speed, what = fastest_of(point_masses(options["points"]).places, start), "a point of the body at t = 0"
+        else:
+            speed, what = fastest_point(shape.replace("-", "_"), sizes, start), "the surface at t = 0"
     warn_of(what, speed / speed_of_light(units))
 
 

@@ -24,9 +24,10 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 
 
 class Masses(NamedTuple):
-    """Point masses, their mass matrix (3, 3) about their centre of mass, and their charges, if the file has any."""
+    """Point masses, their places (N, 3) and mass matrix (3, 3) about their centre, and charges, if the file has any."""
 
     masses: Any
+    places: Any
     matrix: Any
     charges: Any | None
 
@@ -49,8 +50,13 @@ def point_masses(path: Path) -> Masses:
         raise click.UsageError(f"{path} must have the columns x, y, z, mass and may have charge; it has "
                                f"{', '.join(columns)}.")  # fmt: skip
     m = np.array(columns["mass"])
-    g = mass_matrix_of_points(m, np.transpose([columns[name] for name in "xyz"]))
-    return Masses(m, g, np.array(columns["charge"]) if "charge" in columns else None)
+    x = np.transpose([columns[name] for name in "xyz"])
+    return Masses(
+        m,
+        x - m @ x / m.sum(),
+        mass_matrix_of_points(m, x),
+        np.array(columns["charge"]) if "charge" in columns else None,
+    )
 
 
 def points(path: Path) -> Any:

@@ -137,12 +137,15 @@ def swept(
     columns, units = _listed(family, listing) if listing else ({}, set())
     in_seconds = any(map(split, typed)) or bool(units)
     _once([*columns, *parameters], f"{listing} and elsewhere")
+    reached = columns | parameters
+    start = [max((abs(float(x)) for x in _several(reached.get(f"omega{i}", 0.0))), default=0.0) for i in (1, 2, 3)]
+    body.check_speeds(options, start if any(start) else None)
     if out is None:
         raise click.UsageError("--out is missing: name the file that the table goes to.")
     with bar("sweep", every=60) as tell:
         path = sweep(
             family,
-            columns | parameters,
+            reached,
             quantities,
             out,
             listed=listing is not None,
@@ -198,6 +201,11 @@ def _meant(family: str, names: set[str]) -> str:
     if "I1" in names:
         return "asymmetric"
     return "general" if "omega1" in names else "elementary"
+
+
+def _several(values: Any) -> Any:
+    """Return the values of a parameter, one or several."""
+    return [values] if isinstance(values, float | int | Fraction) else values
 
 
 def _plain(x: float | Fraction) -> float | Fraction:

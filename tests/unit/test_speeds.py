@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -96,3 +97,19 @@ def test_the_fastest_point_of_a_body_is_the_fastest_of_many(shape: str, sizes: d
     for omega in ((0.0, 0.0, 2.0), (0.3, -0.7, 0.4), (1.0, 0.0, 0.0)):
         fastest = np.linalg.norm(np.cross(omega, x), axis=1).max()
         assert fastest_point(shape, sizes, omega) == pytest.approx(fastest, rel=2e-3)
+
+
+def test_points_and_sweeps_know_their_speed_too(tmp_path: Path) -> None:
+    """The point farthest from the axis counts, and of a sweep the largest angular velocity, in one line."""
+    points = tmp_path / "p.csv"
+    square = ["1,0,0,1,1", "-1,0,0,1,1", "0,1,0,1,1", "0,-1,0,1,1", "0,0,9,1,1", "0,0,-9,1,1"]
+    points.write_text("\n".join(["x,y,z,mass,charge", *square]) + "\n", encoding="utf-8")
+    field, out = "--magnetic 1 2", f"--quantity kind --out {tmp_path / 's.csv'}"
+    status, errors = run(f"motion --points {points} {field} --spin 1e8")
+    assert (status, errors.count("\n")) == (0, 1)
+    assert "a point of the body at t = 0 is 0.334 times" in errors
+    sphere = f"sweep general --shape sphere --radius 1 --mass 1 --charge 1 {field} {out} --set omega1=0 omega2=0"
+    status, errors = run(f"{sphere} omega3=1,1e8,-2e8")
+    assert (status, errors.count("\n")) == (0, 1)
+    assert "the surface at t = 0 is 0.667 times" in errors
+    assert run(f"{sphere} omega3=1,2 --jobs 1") == (0, "")
