@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike, StyleLike
 from atlas.arithmetic.inputs import kept
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, nearest
 from atlas.viewers import notebook
 
 if TYPE_CHECKING:
@@ -32,10 +33,23 @@ class Shown:
     arguments: Mapping[str, Any]
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Refuse to change an argument of the constructor, on which all else depends, or a value computed from it."""
+        """Refuse to change an argument of the constructor or a value computed from it, and unknown public names."""
         if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
+        known = name[0] == "_" or name in self.__dict__ or hasattr(type(self), name)
+        if "arguments" in self.__dict__ and not known:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{nearest(name, self.arguments)}.")
         super().__setattr__(name, value)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are made by the same call of the same numbers."""
+        if type(other) is not type(self):
+            return NotImplemented
+        return bool(_key(self) == _key(other))
+
+    def __hash__(self) -> int:
+        """Return a hash of the call and its numbers."""
+        return hash(_key(self))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Let it be copied, and sent to another process, as the call that makes it."""
@@ -123,6 +137,19 @@ class Shown:
         return table
 
 
+def _key(value: Any) -> Any:
+    """Return what tells a value of an argument from another: numbers by value, in arrays and sequences alike."""
+    if isinstance(value, Shown):
+        return type(value).__name__, value.made_by, *((name, _key(x)) for name, x in value.arguments.items())
+    if isinstance(value, np.ndarray | np.generic):
+        return _key(value.tolist())
+    if isinstance(value, tuple | list):
+        return tuple(map(_key, value))
+    if is_dataclass(value) and not isinstance(value, type):
+        return type(value).__name__, *(_key(getattr(value, field.name)) for field in fields(value) if field.compare)
+    return value
+
+
 def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
     """Return the object that a call makes, for a copy or in another process."""
     return make(**arguments)
@@ -143,7 +170,7 @@ def _typed(value: Any) -> str:
         return f"({', '.join(map(_typed, value))}{',' * (len(value) == 1)})"
     if isinstance(value, list):
         return f"[{', '.join(map(_typed, value))}]" if len(value) <= MAX_SHOWN_NUMBERS else f"<list of {len(value)}>"
-    return repr(value)
+    return repr(value).partition("  # ")[0]  # a field says beside what B' it is
 
 
 def _kind(shown: Shown) -> str:

@@ -46,10 +46,10 @@ class TopHyperbola(Shown):
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: float, quadratic: float) -> None:
         linear, quadratic = number(linear, "linear", ENERGY), number(quadratic, "quadratic", ENERGY)
         self._top = [number(x, "A parameter") for x in inputs_of_top(inertia, coupling, direction, linear, quadratic)]
-        self.arguments = arguments_of(self._top)
         I2, I3, k2, k3, n2, n3, *_ = self._top
         self.given = (I2, I3), (k2, k3), (n2, n3), linear, quadratic
         self.quadric = TopQuadric(*self.given)
+        self.arguments = arguments_of(self._top)
         self._exact = Exact(*self.given)
 
     @property
