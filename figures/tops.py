@@ -13,13 +13,15 @@ from atlas.pictures.captions import plain, spelt, tex, tex_vector
 
 SIZE = 44.0
 
+FIELD, WEIGHT = (r"$\mathbf{B}$", "field"), (r"$-\mathbf{g}$", "direction")
 TOPS = (
-    ("paper's body", (1.0, 1.0), 0.0, 0.0),
-    ("charge outside", (1.0, 2.5), 0.0, 0.0),
-    ("heavy top", (0.0, 0.0), 1.0, 0.0),
-    ("magnetised", (0.0, 0.0), 0.0, -2.0),
+    ("paper's body", FIELD, (1.0, 1.0), 0.0, 0.0),
+    ("charge outside", FIELD, (1.0, 2.5), 0.0, 0.0),
+    ("heavy top", WEIGHT, (0.0, 0.0), 1.0, 0.0),
+    ("magnetised", FIELD, (0.0, 0.0), 0.0, -2.0),
 )
-"""Name, coupling k2/(I2 b) and k3/(I3 b), linear and quadratic part of the potential over I2 b^2."""
+"""Name, the cause and its role, coupling k2/(I2 b) and k3/(I3 b), linear and quadratic part of the potential over
+I2 b^2."""
 
 
 def scene(
@@ -34,25 +36,24 @@ def scene(
     """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential."""
     if not larmor > 0:
         raise DomainError(f"figure tops needs a positive larmor, which scales coupling and potential, not {larmor}.")
-    motions = [_motion(ratio, direction, omega, larmor, *what) for _, *what in TOPS]
+    motions = [_motion(ratio, direction, omega, larmor, *what) for _, _, *what in TOPS]
     panels = tuple(
         axis_trace.sphere(
             f"({letter}) {name}", direction, motion.third_axis, nutations * motion.period,
-            max(16, round(12 * nutations)), label=r"$\mathbf{n}$", elevation=elevation,
-            role="direction",
+            max(16, round(12 * nutations)), label=label, elevation=elevation, role=role,
         )
-        for letter, (name, *_), motion in zip("abcd", TOPS, motions, strict=True)
+        for letter, (name, (label, role), *_), motion in zip("abcd", TOPS, motions, strict=True)
     )  # fmt: skip
     return Scene(
         caption=(
             r"Whatever turns it, the axis of a top nutates by one formula. "
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega={tex_vector(omega)}$, "
-            rf"over {spelt(nutations)} of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
+            rf"over {spelt(nutations)} of nutation, the cause upright: (a) one charge-to-mass ratio throughout "
             r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start."
         ),
         alt=(
             f"Four unit spheres with traces of a body's axis, I = {plain(ratio)}: waves or loops between two parallels "
-            "around n, another pattern for each top."
+            "around the field or the vertical, another pattern for each top."
         ),
         panels=panels,
         columns=len(panels),

@@ -180,12 +180,12 @@ def test_the_code_of_a_page_gives_its_numbers(made: Path) -> None:
 
 @pytest.mark.slow
 def test_the_code_of_a_page_asks_for_no_number_that_there_is_not(tmp_path: Path) -> None:
-    """At rest there are no angles of a period, no modulus and no nome."""
+    """At rest the mean rates are zero; there are no angles of a period, no modulus and no nome."""
     made = Path(page("--ratio 1.5 --field 0 0 --omega 0 0 0", tmp_path)[0])
     (code,) = reader.fromstring(made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
     with redirect_stdout(StringIO()) as out:
         exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
-    assert out.getvalue().splitlines() == ["at rest", "(0.0, 0.0)", "inf"]
+    assert out.getvalue().splitlines() == ["at rest", "(0.0, 0.0)", "inf", "0.0", "0.0"]
 
 
 @pytest.mark.slow
