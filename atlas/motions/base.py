@@ -239,6 +239,37 @@ class Motion(Shown, Generic[Single]):
             quaternions = self._placement.quaternions(quaternions, t)
         return np.roll(quaternions, 1, axis=-1) if scalar_first else quaternions
 
+    def euler_angles(self, t: RealArrayLike, seq: str, *, degrees: bool = False) -> FloatArray:
+        """Euler angles of R(t), by the letters of SciPy's `Rotation.as_euler`.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, as for `rotation`.
+        seq : str
+            Axes of the three turns: "ZXZ" for axes that turn with the body, "zxz" for those of the laboratory.
+        degrees : bool
+            True for degrees in place of radians.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Angles in the order of `seq`; where only a sum of two is determined, SciPy warns and sets the third to 0.
+
+        Raises
+        ------
+        AtlasError
+            For other letters, and for times that `rotation` refuses.
+        """
+        from scipy.spatial.transform import Rotation as Rotations
+
+        R = self.rotation(t)
+        try:
+            angles = Rotations.from_matrix(R.reshape(-1, 3, 3)).as_euler(seq, degrees=degrees)
+        except ValueError as error:
+            raise AtlasError(f"seq is three letters of X, Y, Z or of x, y, z, not {seq!r}: {error}") from error
+        return np.asarray(angles.reshape(*R.shape[:-2], 3))
+
     def angular_velocity(self, t: RealArrayLike) -> FloatArray:
         """Angular velocity Omega(t) along the axes of the body.
 

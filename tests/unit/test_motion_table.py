@@ -55,3 +55,17 @@ def test_a_table_that_cannot_be_is_refused(tmp_path: Path, more: tuple[str, ...]
     outcome = CliRunner().invoke(program, [*COMMANDS["general"].split(), *more, "--out", str(tmp_path / "att.csv")])
     assert re.search(words, str(outcome.exception) + outcome.output)
     assert not (tmp_path / "att.csv").exists()
+
+
+@pytest.mark.parametrize("seq", ["ZXZ", "zyx", "XYZ"])
+def test_euler_angles_are_those_of_the_matrix(seq: str) -> None:
+    """Turned back by SciPy they give R(t), for one time and for several motions at several."""
+    motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, [0.7, 0.8], 0.2))
+    t = np.array([0.3, 1.0, 2.5])[:, None]
+    angles = motion.euler_angles(t, seq)
+    assert angles.shape == (3, 2, 3)
+    R = Rotation.from_euler(seq, angles.reshape(-1, 3)).as_matrix().reshape(3, 2, 3, 3)
+    assert np.allclose(R, motion.rotation(t), rtol=0, atol=1e-14)
+    assert np.allclose(motion.euler_angles(1.0, seq, degrees=True), np.rad2deg(angles[1]), rtol=1e-13)
+    with pytest.raises(atlas.AtlasError, match="three letters"):
+        motion.euler_angles(t, "Zab")
