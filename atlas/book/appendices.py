@@ -23,6 +23,7 @@ class Finding:
     false           a false sentence near a claim in words, which the trial refutes
     script          plain SymPy that shows it, or the line that says why there is none
     said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed
+    not_read        clauses of its assumptions that the trial does not hold against its model
     """
 
     verdict: str
@@ -38,6 +39,7 @@ class Finding:
     false: str = ""
     script: str = ""
     said: Mapping[str, str] = field(default_factory=dict)
+    not_read: str = ""
 
 
 @dataclass(frozen=True)

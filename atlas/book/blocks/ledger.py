@@ -35,6 +35,7 @@ class EntryView:
     quote: int | None
     false: int | None
     said: int | None
+    not_read: int | None
 
     @property
     def name(self) -> str:
@@ -86,6 +87,7 @@ def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
         quote=words(f"“{entry.quote}”" if entry.quote else ""),
         false=words(f"“{finding.false}.”" if finding.false else ""),
         said=words("; ".join(_reading(*pair) for pair in finding.said.items())),
+        not_read=words(finding.not_read),
     )
 
 

@@ -69,6 +69,7 @@ def _findings() -> dict[str, Finding]:
             verdict.false if verdict.false_verdict == "refuted" else "",
             scripts.get(name, ""),
             verdict.said,
+            verdict.not_read,
         )
         for name, verdict in recorded.load().items()
     }

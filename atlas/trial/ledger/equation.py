@@ -8,7 +8,7 @@ Section = Literal["II", "III", "IV", "V", "VII", "Atlas"]
 
 ASSUMPTIONS = {
     "symmetric": r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-    "field": r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+    "field": r"$\mathbf{B}' = (0, B'_2, B'_3)$, $B'_2 > 0$, $B'_3 > 0$",
     "off the lines": r"$\omega_2$ differs from $-B'_2$",
 }
 """Assumptions of entries in several files, by the words that stand for them there."""

@@ -162,6 +162,7 @@ TRIALS = {
     ),
     "theorem-splitting": Trial(
         model=root_model,
+        apart=("$x_iM_i=-vK_i$",),
         follows="$H$ and $F$, and the characteristic polynomial of the linear flow",
         signs={r"\det(\lambda-\Lambda)": "char", r"\lambda": "lam"},
         defines=("C",),

@@ -133,6 +133,7 @@ def sigma_model() -> Model:
 
 TRIALS = {
     "theorem-top": Trial(
+        apart=(r"$p = (\mathbf{M}, \mathbf{K})/b$",),
         model=top_model,
         follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
         defines=("q",),

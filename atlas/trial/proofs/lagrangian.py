@@ -288,6 +288,7 @@ TRIALS = {
         "electric field is gone already here. The vectors of the last two terms lack the index that the others have.",
     ),
     "(6)": Trial(
+        apart=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$",),
         signs={
             "E": "E[]",
             r"\ddot R_{ik}g_{kj}": "ddRg[i,j]",

@@ -21,7 +21,7 @@ from atlas.trial.proofs.verdict import Verdict
 FOLDER = Path(__file__).resolve().parent
 VERDICTS = FOLDER / "verdicts.json"
 SCRIPTS = FOLDER / "scripts.json"
-MACHINERY = ("notation", "tex", "model", "identity", "decide", "trial")
+MACHINERY = ("notation", "tex", "model", "identity", "decide", "assumed", "trial")
 
 
 @cache

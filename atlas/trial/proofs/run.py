@@ -88,6 +88,7 @@ def try_one(name: str) -> Verdict:
         follows=case.follows,
         printed=_lines(case.parts),
         said=case.said,
+        not_read="; ".join(case.assumed.left),
         grade=case.grade,
         slip=case.slip,
         corrected=_lines(case.corrected_parts),

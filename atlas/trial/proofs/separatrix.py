@@ -258,6 +258,7 @@ TRIALS = {
         false=Falsehood("It reaches half as far", "4*nu0/(1 + 4", "2*nu0/(1 + 4"),
     ),
     "theorem-axis-stable": Trial(
+        apart=(r"$p = (\mathbf{M}, \mathbf{K})/b$", "$M_1 = M_2 = 0$"),
         model=axis_model,
         follows=r"@theorem-top; $p - M_3 = M_1 n_1 + M_2 n_2 - M_3 (1 - \nu)$",
         defines=("D",),
@@ -270,6 +271,7 @@ TRIALS = {
         ),
     ),
     "theorem-axis-escape": Trial(
+        apart=("$M_3 = I c_3$",),
         model=escape_model,
         follows="@theorem-top and @theorem-cayley-klein by substitution, $p = M_3$, $T = S/C$",
         signs={r"\lvert M_3\rvert": "size"},

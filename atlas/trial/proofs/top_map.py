@@ -65,6 +65,7 @@ TRIALS = {
     ),
     "theorem-focus": Trial(
         model=spin_model,
+        apart=(r"$g = 2 \sigma a + A$",),
         follows=r"@theorem-every-top, where $g - 2a\nu - A\nu^2 = M_1^2 + M_2^2$, the square of the axis's velocity "
         "but for the turn by $-k_2$",
         defines=("D",),

@@ -6,6 +6,7 @@ from functools import cache
 
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.proofs import tex
+from atlas.trial.proofs.assumed import Read, held
 from atlas.trial.proofs.decide import Outcome, decide
 from atlas.trial.proofs.model import COMMON, Model, Value
 from atlas.trial.proofs.notation import NoMeaningError, Reader, parse, sides
@@ -19,6 +20,14 @@ def _made(model: Callable[[], Cases]) -> Sequence[Model]:
     """Return the models of a line, made once for all that is tried in them."""
     models = model()
     return [models] if isinstance(models, Model) else models
+
+
+@cache
+def _assumed(
+    assumptions: tuple[str, ...], signs: tuple[tuple[str, str], ...], model: Callable[[], Cases], apart: tuple[str, ...]
+) -> Read:
+    """Return what became of assumptions in a model, once for all forms that are tried."""
+    return held(assumptions, dict(signs), _made(model), apart)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +78,7 @@ class Trial:
     defines    letters that the printed form defines
     solves     what must hold with these
     elsewhere  models of statements that are not of what `model` is about, by their place in the line
+    apart      clauses of its assumptions whose letters are not those of `model`: they are named as not read
     arrows     what stands at an arrow of the formula, by the number of statements before it: None at a single one,
                whose premise the model has or the line defines; at a double one the line that tries it in both
                directions, empty where `form` makes that of its two sides
@@ -92,6 +102,7 @@ class Trial:
     defines: tuple[str, ...] = ()
     solves: str = ""
     elsewhere: Mapping[int, Callable[[], Cases]] = field(default_factory=dict)
+    apart: tuple[str, ...] = ()
     arrows: Mapping[int, Part | str | None] = field(default_factory=dict)
     also: tuple[Part | str, ...] = ()
     definition: bool = False
@@ -128,6 +139,7 @@ class Trial:
             signs={**self.signs, **self.corrected_signs},
             form=self.form,
             arrows=self.arrows,
+            apart=self.apart,
             tex=self.corrected_tex,
             defines=self.defines if self.corrected_defines is None else self.corrected_defines,
             solves=self.solves if self.corrected_solves is None else self.corrected_solves,
@@ -143,6 +155,12 @@ class Trial:
     def said(self) -> dict[str, str]:
         """What of the printed and of the corrected form is not read, with the lines that are tried in its place."""
         return tex.said(self.formula, self.signs) | (self.true_form.said if self.true_form else {})
+
+    @property
+    def assumed(self) -> Read:
+        """What became of the assumptions in the model of the true form."""
+        case = self.true_form or self
+        return _assumed(EQUATIONS[self.name].assumptions, tuple(case.signs.items()), case.model, self.apart)
 
     @property
     def parts(self) -> tuple[Part, ...]:
@@ -188,6 +206,8 @@ class Trial:
         tried = [(place, r"\implies" if line is None else r"\iff") for place, line in self.arrows.items()]
         if tex.arrows(self.formula, self.signs) != tried:
             return Outcome("undecided", "unreadable: its arrows are not those that are tried")
+        if self.assumed.broken:
+            return Outcome("undecided", f"assumed, and not so in the model: {'; '.join(self.assumed.broken)}")
         for name in thin:
             if any(getattr(model.letters.get(name), "shape", ()) == (3, 1) for model in parts[0].cases):
                 return Outcome("undecided", f"unreadable: {name} is a vector, and is not bold")

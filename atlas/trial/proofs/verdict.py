@@ -26,6 +26,7 @@ class Verdict:
     follows         from what the printed form was derived
     printed         the printed form in plain letters, as it was tried, read from its TeX
     said            the phrases of it, in TeX, that are not read, with the lines in their place; empty if assumed
+    not_read        the clauses of its assumptions that are not held against the model
     corrected       the true form where the printed one is refuted, and its TeX; it has been proved if
                     `corrected_verdict` says so
     counterexample  values of the letters that break the printed form, and what its two sides then are
@@ -45,6 +46,7 @@ class Verdict:
     follows: str
     printed: str
     said: dict[str, str] = field(default_factory=dict)
+    not_read: str = ""
     grade: Grade = ""
     slip: str = ""
     corrected: str = ""

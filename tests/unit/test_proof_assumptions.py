@@ -1,0 +1,65 @@
+r"""What an entry assumes is held against the model of its trial: a changed definition or domain is noticed."""
+
+from dataclasses import replace
+
+import pytest
+from changes import changes
+
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.proofs import recorded
+from atlas.trial.proofs import trial as trials
+from atlas.trial.proofs.assumed import formulas, held
+from atlas.trial.proofs.run import trial
+
+ANY = (r"\text{const}", r"\omega_0 = 0")
+"""In formulas whose letters are independent in the model: the claim is tried for all their values."""
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "wrong"),
+    [
+        ("theorem-quadric-lines", "$0 < I < 1$", "$I > 1$"),
+        ("theorem-band", "$0<I<1$", "$1<I<2$"),
+        ("theorem-band", "$0<I<1$", "$0<I<2$"),
+        ("theorem-edge", r"$I_1\le I_3$", r"$I_1\ge I_3$"),
+        ("theorem-stable-short", r"$1\le I\le2$", r"$0\le I\le2$"),
+        ("(42)", "differs from 0", "is 0"),
+        ("(55)", r"$1 < I \le 2$", r"$0 < I \le 2$"),
+        ("(57)", "$0 < I < 1$", "$0 < I < 2$"),
+        ("(53)", r"B'_3/(I B'_2)", r"B'_2/(I B'_3)"),
+        ("theorem-every-top", "A_0 + k_3^2/I - k_2^2", "A_0 - k_3^2/I + k_2^2"),
+        ("theorem-elliptic", "I_1 I_2 I_3$", "I_1 + I_2 + I_3$"),
+        ("theorem-splitting", "I_1I_2+I_1I_3+I_2I_3", "I_1I_2+I_1I_3-I_2I_3"),
+    ],
+)
+def test_a_changed_assumption_is_not_proved(name: str, right: str, wrong: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A domain that the model does not cover, or a definition that it does not have, leaves the entry undecided."""
+    entry = EQUATIONS[name]
+    other = replace(entry, assumptions=tuple(words.replace(right, wrong, 1) for words in entry.assumptions))
+    assert other != entry
+    monkeypatch.setattr(trials, "EQUATIONS", {**EQUATIONS, name: other})
+    assert trial(name).of_printed().decision == "undecided"
+
+
+@pytest.mark.parametrize("name", [name for name, entry in EQUATIONS.items() if entry.assumptions])
+def test_a_definition_that_is_changed_does_not_hold(name: str) -> None:
+    """Each equation that is read and holds, changed by a sign, number, letter or index, holds no longer."""
+    case = trial(name)
+    models = trials._made((case.true_form or case).model)
+    pairs = [pair for words in EQUATIONS[name].assumptions for pair in formulas(words)]
+    for clause, formula in pairs:
+        if "=" not in formula or any(mark in formula for mark in ANY):
+            continue
+        if held([clause], case.signs, models, case.apart).kept:
+            for other, what in changes(formula, most=3, seed=name):
+                again = held([f"${other}$"], case.signs, models, case.apart)
+                assert again.broken or not again.kept, (formula, what)
+
+
+def test_what_is_not_read_is_on_record() -> None:
+    """Clauses of an entry that are not held against its model stand in its record, and no others do."""
+    for name, entry in EQUATIONS.items():
+        left = trial(name).assumed.left
+        assert recorded.load()[name].not_read == "; ".join(left)
+        assert set(left) <= {clause for words in entry.assumptions for clause, _ in formulas(words)}
+    assert r"$1 < I \le 2$" not in recorded.load()["(55)"].not_read
