@@ -358,7 +358,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
 
 
 def _within(threshold: float, floor: float) -> None:
-    """Raise AtlasError for a threshold beyond what is known of a motion, to `floor`."""
+    """Raise AtlasError for a threshold beyond the accuracy `floor` of the reference motion."""
     if 10.0**-threshold <= 2 * floor:
         raise AtlasError(
             f"The threshold may be {-math.log10(2 * floor) - 0.05:.1f} digits at most for this motion at these times, "

@@ -122,7 +122,7 @@ class Errors:
 
 
 class Grade:
-    """What is kept of a column: how often each count of digits came, the worst row, the first that fails."""
+    """Summary of a column: counts of rows by correct digits, the worst row, the first row that fails."""
 
     def __init__(self, name: str, threshold: float, errors: Errors) -> None:
         self.name, self._errors, self._limit = name, errors, 10.0**-threshold

@@ -1,4 +1,4 @@
-"""Headings of a table: which columns a trajectory has, in which units, and what is asked about names nearly right."""
+"""Headings of a table: the columns of a trajectory, their units, and questions on misspelt names."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -37,7 +37,7 @@ QUESTIONS = {
     ".as_quat()",
     r"t.*|.*time.*|.*sec.*": "the time is called t, with its unit, as t [ms]",
 }
-"""Patterns of names that are nearly those of columns, with what is said of them."""
+"""Patterns of misspelt names of columns, with the sentence on each."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def _canonical(names: Sequence[str], more: Sequence[str]) -> dict[int, str]:
 
 
 def _hint(name: str) -> str:
-    """Return what is said of a name that is nearly that of a column, nothing about others."""
+    """Return the sentence on a misspelt name of a column, an empty string for other names."""
     bare = re.sub(r"[\s_.]+", "", name).lower()
     if re.fullmatch(r"[wmbk][123]|omega[123]|theta|phi|psi", name, re.IGNORECASE):
         return ""  # of the atlas's own tables: rates and momenta in the laboratory, the field in the body, angles

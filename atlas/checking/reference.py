@@ -80,7 +80,7 @@ def reference(written: Mapping[str, tuple[float, ...]], given: Given, file: str)
 
 
 def _in_given_axes(motion: Any) -> Reference:
-    """Return a motion of `atlas.motion`: with what it was given, and its integrals in these axes."""
+    """Return a motion of `atlas.motion` with its arguments, and its integrals in the given axes."""
     tensor, field, R, omega = motion.given
     K = np.vecmat(field, R)
     parts = {"inertia": tensor, "field": field, "omega": omega, "attitude": R}

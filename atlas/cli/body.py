@@ -228,7 +228,7 @@ def exact_moments(options: dict[str, Any]) -> Any:
 
 
 def exact_body(options: dict[str, Any]) -> Any:
-    """Return the body of `chosen_body` for the certified floor: what was typed, nothing rounded."""
+    """Return the body of `chosen_body` for certified classes, from the typed decimals without rounding."""
     from atlas.bodies.certified_body import Moments, shape_moments
 
     body = chosen_body(options)
@@ -299,7 +299,7 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
 
 
 def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> Any:
-    """Return the ratio of `charge_to_mass_of` for the certified floor: what was typed, nothing rounded."""
+    """Return the ratio of `charge_to_mass_of` for certified classes, from the typed decimals without rounding."""
     from atlas.arithmetic.certified_inputs import rational
 
     charge_to_mass_of(options, needs)  # says what is wrong with it
@@ -351,7 +351,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
 
 
 def exact_field(options: dict[str, Any]) -> Any:
-    """Return the field of `chosen_field` for the certified floor: what was typed, nothing rounded."""
+    """Return the field of `chosen_field` for certified classes, from the typed decimals without rounding."""
     if options["decimal"] and (options["field"] is None or isinstance(options["field"], Inclined)):
         raise click.UsageError("--decimal goes with --field and its components, not with --magnetic or --angle.")
     field = chosen_field(options)

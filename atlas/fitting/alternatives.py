@@ -125,7 +125,7 @@ def warnings_of(
 
 @dataclass(frozen=True)
 class _Turned:
-    """What is seen of a motion with R -> S R S'; the arrays are those of the motion at the times of the data."""
+    """Data of a motion with R -> S R S'; the arrays are those of the motion at the times of the data."""
 
     seen: Mapping[str, FloatArray]
     left: FloatArray

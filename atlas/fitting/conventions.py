@@ -41,7 +41,7 @@ def others(
 
 
 def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatArray]]:
-    """Yield words and rotations for what matrices or quaternions may be, but for what they were taken for."""
+    """Yield the other conventions of matrices or quaternions, each in words with the rotations that they give."""
     if not quaternions:
         yield "as matrices that are transposed, for R takes the body to the laboratory", R.swapaxes(1, 2)
         return
@@ -51,7 +51,7 @@ def _readings(R: FloatArray, *, quaternions: bool) -> Iterator[tuple[str, FloatA
 
 
 def lead_to(problem: Problem) -> Iterator[FloatArray]:
-    """Yield what the first starts lead to, if anything."""
+    """Yield the vectors of varied parameters to which the first starts lead, if any."""
     for centre, there, start, count in tries_about(problem, 0):
         try:
             x = grown(there, start, count)

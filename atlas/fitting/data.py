@@ -33,10 +33,10 @@ LEAST = 5
 """Times that a fit needs."""
 
 STEP = 1e-6
-"""Step of differences, in the natural unit of what is changed."""
+"""Step of differences, in the natural unit of the varied quantity."""
 
 NO_ROTATION = 1.1
-"""An entry of what an integration lost, in the place of a rotation."""
+"""Value that marks the entries of a rotation that the integration lost."""
 
 NEARLY_OPPOSITE = -0.99999
 """Cosine of an angle below which the axis of a turn is not its skew part."""
@@ -83,7 +83,7 @@ class Data:
         return 1.0 if self.kind in ("rotation", "axis") else float(self.values.std(0).max()) or 1.0
 
     def of(self, motion: Any, t: FloatArray) -> FloatArray:
-        """Return what would be seen of a motion without noise, of an axis all of R; of each motion of a `Flow`."""
+        """Return the noise-free data of a motion, for an axis all of R; of each motion of a `Flow`."""
         if self.kind == "angular_velocity":
             return np.asarray(motion.angular_velocity(t))
         if self.kind == "field_in_body":

@@ -79,7 +79,7 @@ class Crowd:
         return r, J
 
     def _cost(self, r: FloatArray) -> FloatArray:
-        """Return the sums of squares, of what the loss leaves of them."""
+        """Return the sums of the loss function of the squared residuals."""
         return np.asarray(RHO[self.problem.loss](r * r).sum(-1))
 
     def refine(self, places: Any, rounds: int, decrement: float = 0.0) -> None:

@@ -27,7 +27,7 @@ HEIGHT = 1.0
 """Nutation in standard errors of the data from which on one that is good is the one."""
 
 BEYOND = 14.0
-"""By how much chi square tells a nutation from noise, beyond what the best of so many frequencies takes off."""
+"""Decrease of chi square that tells a nutation from noise, beyond that of the best of all tried frequencies."""
 
 PHASE_STEP = 1.0
 """Radians at the end between nutations that are tried."""

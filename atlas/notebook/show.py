@@ -60,7 +60,7 @@ def rows(shown: Shown) -> Sequence[Row]:
 
 
 def body(shown: SymmetricBody) -> str:
-    """Return the moments of a body and a small picture of a cylinder that has them; of an array, what it holds."""
+    """Return the moments of a body with a small picture of such a cylinder as HTML; for an array, a summary."""
     if hasattr(shown.I2, "shape"):
         return f"<pre>{escape(repr(shown))}</pre>"
     lines = [("I<sub>2</sub>, across the axis", shown.I2), ("I<sub>3</sub>, along it", shown.I3)]

@@ -131,7 +131,7 @@ def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float])
 
 
 def _words(panel: Panel) -> tuple[float, float]:
-    """Return the room beside and below a panel for what does not shrink with it."""
+    """Return the room beside and below a panel for labels, which do not shrink with the panel."""
     return _AXES if isinstance(panel, Plane) else _NAMES
 
 

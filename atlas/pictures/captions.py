@@ -65,7 +65,7 @@ def body_name(ratio: Any) -> str:
 
 
 def body_role(ratio: Any) -> str:
-    """Return the role of what belongs to a body where several are compared: each kind has a colour of its own."""
+    """Return the role of a body's layers where several bodies are compared: each kind has its colour."""
     return f"{body_name(ratio).partition(' ')[0]}_body"
 
 

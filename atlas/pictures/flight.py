@@ -104,7 +104,7 @@ def carried(
 
 
 def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how what is fixed in the body flies: its centre goes along, and it turns."""
+    """Return the rigid motions x -> R x + d of layers fixed in the body: R (N, 3, 3) and d (N, 3) at the times t."""
     start = flight.particle.position(np.zeros(1))[0]
     turns = flight.rotation(t)
     return turns, flight.particle.position(t) - turns @ start

@@ -37,7 +37,7 @@ MIN_PART_ROWS, EQUAL_PARTS = 4096, 64
 """Rows that are one part in any case, unless they have certified digits; twice as many after so many parts each, so
 that a table has hundreds of parts, whatever the time of a row is believed to be."""
 PARTS_AHEAD = 4
-"""Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
+"""Parts in progress for each worker, few so that results not yet written take little memory."""
 CODE = ("arithmetic", "bodies", "surfaces", "motions", "families", "sweeps")
 """Folders of the code that computes rows and writes them."""
 MIN_PARALLEL_SECONDS = 1.0

@@ -173,7 +173,7 @@ class Table:
         return Path(self.parts.address, name)
 
     def whole_parts(self) -> dict[Span, str]:
-        """Return the parts that are there and whole, by their rows, in order; what else is among them goes.
+        """Return the complete parts by their rows, in order; other files among them are removed.
 
         Those of a data set may be in its place already, if a sweep was stopped in its last steps.
         """
@@ -245,7 +245,7 @@ class Table:
             os.close(lock)
 
     def _record(self) -> dict[str, Any] | None:
-        """Return what the lock says of its holder, nothing while it is empty; None for a file of another kind."""
+        """Return the record of the lock's holder, empty while the lock is empty; None for a file of another kind."""
         try:
             record = json.loads(self.lock.read_text(encoding="utf-8") or json.dumps({MARK: ""}))
         except FileNotFoundError:

@@ -67,7 +67,7 @@ PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array
 
 
 def write(out: Path, plan: Plan, parts: Parts) -> Mapping[str, str]:
-    """Write a table from its parts into its place, or beside what is there, see `atlas.files.settle`."""
+    """Write a table from its parts to its path, or next to an existing file, see `atlas.files.settle`."""
     with unfinished(out) as file:
         WRITERS[out.suffix[1:]](file, plan, parts)
         with turn(out.parent):

@@ -92,7 +92,7 @@ class Moving(FuncAnimation):
 
 
 def _extents(scene: Scene) -> Iterator[Extent]:
-    """Yield what decides the view of each panel; limits that the recipe leaves open are Matplotlib's."""
+    """Yield the extent of each panel, which decides its view; limits left open are Matplotlib's."""
     free = any(isinstance(one, Plane) and not (one.x_limits and one.y_limits) for one in scene.panels)
     drawn = [axes for axes, _ in laid_out(scene)[1]] if free else [None] * len(scene.panels)
     for panel, axes in zip(scene.panels, drawn, strict=True):

@@ -115,7 +115,7 @@ class _Drawing:
             self.line(line, style_of("silhouette"))
 
     def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
-        """Draw a polyline: what is seen in its own style, what is hidden thin and dashed, or not at all."""
+        """Draw a polyline: visible parts in its own style, hidden parts thin and dashed, or not at all."""
         for piece, seen in split(points, self.view.surfaces, self.view.towards):
             length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
             if length < _SPECK or not (seen or look.hidden):
@@ -196,7 +196,7 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
 
 
 def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
-    """Yield what names should not cover in a shaded picture, with its weight."""
+    """Yield the points that names should not cover in a shaded picture, with their weights."""
     for layer in view.panel.layers:
         if isinstance(layer, Curve):
             yield along(view.on_paper(layer.points)), 3.0

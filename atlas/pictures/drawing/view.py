@@ -31,7 +31,7 @@ _BEYOND = 4.5
 
 @dataclass(frozen=True)
 class Held:
-    """The scale of a panel, and where its origin is on paper: what all pictures of one movement share.
+    """The scale of a panel and the place of its origin on paper, which all pictures of one movement share.
 
     A panel is in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one; ``scale`` is in
     printer's points per unit of these, ``shift`` (2,) the place on paper of their origin.
