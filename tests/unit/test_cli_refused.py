@@ -281,7 +281,7 @@ CASES = [
     ("report nosuchreport", "nosuchreport"),
     ("verify 999", "999"),
     ("fit {place}/one.csv", "5 times"),
-    ("fit {place}/parts.csv", "four columns"),
+    ("fit {place}/parts.csv", "of a quaternion qw is the scalar"),
     ("fit {place}/letters.csv", "not a number"),
     ("fit {place}/partly.csv", "no columns"),
     ("fit {place}/still.csv --of axis", "no columns of axis"),
