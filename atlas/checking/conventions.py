@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.checking.grades import Errors
@@ -55,6 +54,8 @@ def quaternion_readings(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
 
 def _of_quaternions(q: FloatArray) -> Iterator[tuple[str, FloatArray]]:
     """Yield words and matrices of the readings of quaternions, none where one is zero."""
+    from scipy.spatial.transform import Rotation
+
     if (np.linalg.norm(q, axis=-1) > 0).all():
         for words, p in quaternion_readings(q):
             yield (
@@ -70,6 +71,8 @@ def _of_attitudes(readings: Mapping[str, FloatArray], R: FloatArray, limit: floa
     for words, M in readings.items():
         if _apart(M, R) <= limit:
             return [f"{words} fits"]
+    from scipy.spatial.transform import Rotation
+
     for words, M in readings.items():
         start = M[0] @ R[0].T
         if _apart(start.T @ M, R) <= limit:

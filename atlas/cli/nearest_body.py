@@ -6,7 +6,6 @@ from fractions import Fraction
 from typing import Any
 
 import click
-import numpy as np
 
 from atlas.cli.typed import Typed
 from atlas.measured import split
@@ -54,6 +53,8 @@ def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
     """Return a typed tensor I11 I22 I33 I12 I13 I23, moved to that of a plane body if it is next to it."""
     if value is None:
         return None
+    import numpy as np
+
     a, b, c, d, e, f = map(float, value)
     tensor = np.array([[a, d, e], [d, b, f], [e, f, c]])
     spread, axes = np.linalg.eigh(np.trace(tensor) / 2 * np.eye(3) - tensor)
