@@ -163,7 +163,8 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
     for S, right in product([one] if kind in IN_BODY else group, group):
         if changes(S, right, 3) or changes(S, right, data.t.size):
             continue
-        for turned in _turned(problem, values, S, right, omega):
+        candidates = [*_turned(problem, values, S, right, omega), *_with_field_reversed(problem, motion, values)]
+        for turned in candidates:
             if any(_same(problem, turned, other) for other in known):
                 continue
             known.append(turned)
@@ -174,6 +175,20 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
                 if _same(problem, full, turned):
                     found.append(Alternative(redchi, full, equal=True, family=problem.model.name))
     return found
+
+
+def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
+    """Yield an elementary motion in the opposite field whose axis goes the same way, if the axis alone is seen."""
+    if problem.model.name != "elementary" or problem.data.kind != "axis":
+        return
+    new = dict(values) | {name: -values[name] for name in (*B, "omega2")}
+    t = problem.data.t
+    try:
+        moved = problem.model.make(new).third_axis(t) - motion.third_axis(t)
+    except AtlasError:
+        return
+    if abs(moved).max() < SAME_DATA:
+        yield new
 
 
 def _turned(

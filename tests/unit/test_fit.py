@@ -767,3 +767,14 @@ def test_few_axes_of_unknown_noise_are_followed_by_the_least_squares() -> None:
     for name, truth in zip(("B1", "B2", "B3"), B, strict=True):
         assert abs(found.params[name].value - truth) < 4 * found.params[name].stderr
     assert found.alternatives
+
+
+def test_the_sign_of_an_elementary_field_is_not_seen_on_the_axis() -> None:
+    """In the opposite field, with the opposite omega2, the axis goes the same way: both are named as equal."""
+    t, rng = np.linspace(0, 20, 200), np.random.default_rng(3)
+    axis = atlas.ElementaryMotion(1.4, (0.9, 1.2), 0.5).third_axis(t) + 1e-3 * rng.normal(size=(200, 3))
+    found = atlas.fit(t, family="elementary", sigma=1e-3, axis=axis)
+    (other,) = (one for one in found.alternatives if one.equal)
+    for name in ("B2", "B3", "omega2"):
+        assert other.values[name] == -found.params[name].value
+    assert any("omega2" in warning for warning in found.warnings)
