@@ -281,7 +281,7 @@ CASES = [
     ("figure hyperbola --set field=1e308,1e308 --out {place}/new", "field must be two numbers"),
     ("report nosuchreport", "nosuchreport"),
     ("verify 999", "999"),
-    ("motion --points {place}/oblique.csv --field 0 0 1 --omega 1 1 1 --digits 9 --decimal", "--decimal goes with --tensor"),
+    ("motion --points {place}/oblique.csv --field 0 0 1 --omega 1 1 1 --digits 9 --decimal", "--decimal goes with"),
     ("motion --ratio 1.5 --field 1 2 --omega2 .7 --out {place}/out.csv", "give one of them"),
     ("motion --ratio 1.5 --field 1 2 --omega2 .7 --times 1 --json --out {place}/out.csv", "a table in doubles"),
     ("fit {place}/one.csv", "5 times"),
