@@ -3,7 +3,6 @@
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from atlas.arithmetic.given import Given
 from atlas.cli import body
 from atlas.cli.typed import parts_of
 from atlas.families.family import RATE
@@ -55,6 +54,8 @@ def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> P
     Where floats do not hold what the class is made of, or its field has three components, the family is that of any
     three moments; not for a motion that was fitted, which is rounded.
     """
+    from atlas.arithmetic.given import Given
+
     family, arguments, axes = FAMILIES[motion.family], dict(motion.own.arguments), motion.axes
     if family.in_plane and (fitted or not float([0.0, *arguments["field"]][-3])):
         arguments, turn = family.in_plane(arguments)
@@ -79,6 +80,8 @@ def along_principal_axes(motion: Any, unit: str = "") -> Principal:
 
 def _principal(family: Family, arguments: dict[str, Any], axes: Any, unit: str) -> Principal:
     """Return the request of an object of a family."""
+    from atlas.arithmetic.given import Given
+
     words, values = list[str](), dict[str, tuple[float | Fraction, ...]]()
     rounded = any(x not in {-1, 0, 1} for x in axes.ravel())
     for p in family.parameters:

@@ -99,7 +99,7 @@ CASES = [
         "fit turns.csv --sigma 0.01",
         "flint msgspec numpy scipy",
     ),
-    Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
+    Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing numpy"),  # SymPy itself loads the next two
     Case(
         "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
     ),

@@ -115,7 +115,7 @@ def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple
         columns.append({"unit": narrow / 2.5, "oblique": 0.41421 + 0.58579 * narrow / 2.5}.get(domain, values))
     with np.errstate(all="ignore"):
         tables = [
-            [np.broadcast_to(np.real_if_close(x), (POINTS,)) for x in sympy.lambdify(symbols, both)(*columns)]
+            [np.broadcast_to(np.real_if_close(x), (POINTS,)) for x in sympy.lambdify(symbols, both, "numpy")(*columns)]
             for _, *both in rows
         ]
         inside = np.all([value >= 0 for value, _ in tables], axis=0)
