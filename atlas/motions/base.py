@@ -71,8 +71,6 @@ class Motion(Shown, Generic[Single]):
 
     _rows: Any = None
     """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
-    _few: int = 0
-    """Number of motions up to which each is made by itself, since arrays cost more to set up."""
     _placement: Placement | None = None
     """Where the motion stands, if not along the axes of its class with R(0) = 1."""
 
@@ -665,8 +663,7 @@ class Motion(Shown, Generic[Single]):
         full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), target(out, full + shape)
         own = (1,) * (len(full) - len(self.shape)) + self.shape
-        count = prod(self.shape)
-        if count > self._few and times.size < MIN_SINGLE_TIMES * count and self._rows is not None:
+        if times.size < MIN_SINGLE_TIMES * prod(self.shape) and self._rows is not None:
             self._evaluate_rows(function, times, own, out.reshape(times.size, *shape))
             return out
         for i, index in enumerate(np.ndindex(own)):

@@ -1,7 +1,6 @@
 """Nutating motions: matrices from the pair (alpha, beta), and the scalars of a period."""
 
 from collections.abc import Callable, Container, Sequence
-from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -38,7 +37,6 @@ class NutatingMotion(Motion[Nutation]):
     _blocks_of: type[Blocks] = Blocks
     _motions_of: type[MotionsAtTimes] = MotionsAtTimes
     _scalars_of: type[Scalars] = Scalars
-    _few = 8
 
     @cached_property
     def _blocks(self) -> Blocks:
@@ -192,7 +190,7 @@ class NutatingMotion(Motion[Nutation]):
         self, name: str, value: Callable[[Any], Value], shown: Callable[[Any], Any] = np.asarray
     ) -> Value | NDArray[Any]:
         """Return one value for each motion: a scalar or an array; uncertain entries come from balls."""
-        if 0 < prod(self.shape) <= self._few or name not in self._in_arrays:
+        if not self.shape or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
         values, certain = self._scalars[name]
         rows = np.moveaxis(shown(values), -1, 0)
