@@ -208,7 +208,7 @@ def _precise(function: Callable[[], Any]) -> Any:
     while True:
         with workprec(precision):
             value = function()
-        balls = [arb(x) for x in numbers(value)]
+            balls = [arb(x) for x in numbers(value)]
         size = max((float(abs(x).mid()) for x in balls if x.is_finite()), default=0.0)
         if all(x.is_finite() and float(x.rad()) <= size * 2.0**-BITS for x in balls):
             return value

@@ -61,7 +61,7 @@ UNTIED = {
     **{
         f"{name}Motion.{what}": "the rotation, tied or checked, in another form: test_quaternion, test_motion"
         for name in ("Elementary", "Free", "Ball", "General", "Top", "Elliptic", "Asymmetric")
-        for what in ("angular_velocity_in_laboratory", "in_laboratory", "quaternion")
+        for what in ("angular_velocity_in_laboratory", "euler_angles", "in_laboratory", "quaternion")
         if (name, what) != ("Elementary", "quaternion")
     },
     **{
@@ -115,7 +115,9 @@ UNTIED = {
         f"AsymmetricMotion.{name}": "compared with the certified motion and with laws, in test_clebsch_theta"
         for name in ("accuracy", "agreement", "frequencies", "on_torus", "riemann_matrix")
     },
-    **dict.fromkeys(("EllipticMotion.places", "GeneralMotion.places", "TopMotion.places"), AXES),
+    **{
+        f"{name}Motion.{what}": AXES for name in ("Elliptic", "General", "Top") for what in ("places", "turning_axis")
+    },
     **dict.fromkeys(
         ("EllipticMotion.cancelled", "GeneralMotion.cancelled", "TopMotion.cancelled"), "a count of digits"
     ),

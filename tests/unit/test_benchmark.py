@@ -92,7 +92,7 @@ def test_the_best_run_at_each_horizon_is_drawn() -> None:
         (panel,) = drawn.panels
         assert places(panel) == {(horizon, error) for (of, _, horizon), error in best.items() if of == case}
         worst = max(error for (of, method, _), error in best.items() if of == case and method in OURS)
-        assert f"The largest of the atlas is ${tex(float(f'{worst:.1e}'))}$" in drawn.caption
+        assert f"the atlas's largest is ${tex(float(f'{worst:.1e}'))}$" in drawn.caption
 
 
 def test_every_method_of_the_record_has_a_name_and_a_look() -> None:

@@ -52,6 +52,7 @@ BODIES = {
 }
 
 
+@pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 @pytest.mark.parametrize("name", BODIES)
 def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
     """Attitude, both angular velocities, field in the body, quaternion, momentum, in the axes that were given."""
@@ -117,6 +118,7 @@ def test_the_class_that_fits_is_found() -> None:
         assert np.array_equal(m.angular_velocity(0.0), np.asarray(given[2], dtype=float))
 
 
+@pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 def test_a_disk_is_a_body_in_any_axes() -> None:
     """The rounding of its tensor makes I3 more than I1 + I2, or I2 other than I1: it moves as the disk does."""
     for turn in Rotation.random(3, random_state=1).as_matrix():

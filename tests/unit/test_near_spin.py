@@ -72,6 +72,7 @@ def test_principal_moments_of_a_tensor_have_all_digits(moments: tuple[float, flo
     assert abs(axes @ J - I[:, None] * axes).max() < 1e-15
 
 
+@pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 def test_moments_that_differ_as_given_stay_different() -> None:
     """By one digit of the last place, as moments and as a tensor, along the axes and beside them."""
     near = 1.0 + 2.0**-52

@@ -305,12 +305,12 @@ def test_the_code_of_a_page_has_the_names_of_the_class(unbuilt: Callable[[str], 
 
 
 def test_no_heading_stands_above_closed_motions_that_there_are_not(unbuilt: Callable[[str], dict[str, Any]]) -> None:
-    """A body without a field turns once in each nutation: there is no fraction, and a sentence says why."""
+    """The axis of a body without a field goes round a circle: there is no fraction, and a sentence says why."""
     texts = [
         block.get("text", "") for block in unbuilt("--ratio 1.5 --field 0 0 --omega 0.3 0.7 0.2")["pages"][0]["blocks"]
     ]
     assert "## Nearest closed motions" not in texts
-    assert "The nearest closed motions: The turns in one nutation are a whole number" in texts[-1]
+    assert "The nearest closed motions: Without a field the axis goes round a circle" in texts[-1]
 
 
 @pytest.mark.parametrize(

@@ -26,6 +26,8 @@ def closed(request: Request, thing: Thing) -> Data:
     exact = thing.balls()
     if elementary and exact.k == 0:
         raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
+    if not elementary and exact.kind == "free body":
+        raise DomainError("Without a field the axis goes round a circle: its trace closes in each turn.")
     value = certified(
         lambda: arb(exact.phi) / arb(exact.k) if elementary else exact.precession_per_period / (2 * arb.pi()),
         request.digits,

@@ -75,7 +75,8 @@ class SingleAsymmetric:
         closed, known = self._first
         if closed is None or isinstance(closed, SingleElliptic):
             return closed, known
-        count = DIRECT_CHECKS if closed.made_of[1].is_long else len(CHECK_TIMES)
+        on_torus = self.exact.on_torus
+        count = DIRECT_CHECKS if on_torus is not None and on_torus.torus.is_long else len(CHECK_TIMES)
         times = [t / self.size for t in (CHECK_TIMES[:count] if closed.proved is None else CHECK_TIMES[-1:])]
         differences: list[float] = []
         for t in times:

@@ -88,7 +88,7 @@ def try_one(name: str) -> Verdict:
         follows=case.follows,
         printed=_lines(case.parts),
         said=case.said,
-        not_read="; ".join(case.assumed.left),
+        not_read="; ".join(_unread(case)),
         grade=case.grade,
         slip=case.slip,
         corrected=_lines(case.corrected_parts),
@@ -102,6 +102,15 @@ def try_one(name: str) -> Verdict:
         seconds=round(time.process_time() - start, 2),
         source=recorded.source(name),
     )
+
+
+def _unread(case: Trial) -> Iterable[str]:
+    """Return the assumptions that the trial does not read; one sentence if the model takes longer than `LIMIT`."""
+    try:
+        with limit(LIMIT):
+            return case.assumed.left
+    except OverTimeError:
+        return (f"no assumption was read in {LIMIT:.0f} s",)
 
 
 def _lines(parts: Iterable[Part]) -> str:
