@@ -179,8 +179,7 @@ def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bo
 
 def _with_field_reversed(problem: Problem, motion: Any, values: Values) -> Iterator[dict[str, float]]:
     """Yield an elementary motion in the opposite field whose axis goes the same way, if the axis alone is seen."""
-    names = problem.model.names
-    if "omega2" not in names or "omega1" in names or problem.data.kind != "axis":
+    if not problem.model.is_on_hyperbola or problem.data.kind != "axis":
         return
     new = dict(values) | {name: -values[name] for name in (*B, "omega2")}
     t = problem.data.t

@@ -115,7 +115,7 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
         coupling, potential = several(("k2", "k2", "k3")), several(("linear", "quadratic"))
         field = several(DIRECTION)
         field = field / np.linalg.norm(field, axis=-1, keepdims=True)
-    elif "omega2" in parameters:
+    elif model.is_on_hyperbola:
         omega = _on_hyperbola(moments[:, 2], K.T, parameters["omega2"]).T
     elif "z" in parameters:
         z, D = parameters["z"][:, None], moments.prod(-1, keepdims=True)
@@ -146,6 +146,11 @@ class Model:
     def has_direction(self) -> bool:
         """Whether the forces come from a direction n, of which only the direction is seen, not from a field B."""
         return set(DIRECTION) <= set(self.names)
+
+    @property
+    def is_on_hyperbola(self) -> bool:
+        """Whether omega2 alone gives the angular velocity, on the hyperbola (67)."""
+        return "omega2" in self.names and "omega1" not in self.names
 
     @property
     def is_any_motion(self) -> bool:
@@ -251,7 +256,7 @@ def state(model: Model, kind: str, p: Values, R: FloatArray, omega: FloatArray) 
         **_named(ATTITUDE, Rotation.from_matrix(R).as_rotvec()),
     }
     return (
-        parameters | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])} if "omega2" in model.names else parameters
+        parameters | {"omega2": float((in_plane(R.T @ field)[1] @ omega)[1])} if model.is_on_hyperbola else parameters
     )
 
 
