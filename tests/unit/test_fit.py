@@ -7,7 +7,7 @@ from contextlib import nullcontext
 from copy import copy, deepcopy
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -467,12 +467,12 @@ def test_the_command_ends_with_one_where_solutions_are_equal(tmp_path: Path) -> 
 def test_the_command_knows_the_families() -> None:
     """Its names, which it lists without loading them, are those of the fit."""
     from atlas.cli import fit
-    from atlas.fitting import LOSSES
+    from atlas.fitting import FittedFamily, Loss
     from atlas.fitting.data import KINDS
 
-    assert set(fit.FAMILIES) == set(MODELS)
+    assert set(fit.FAMILIES) == set(MODELS) == {*get_args(FittedFamily)}
     assert set(fit.KINDS) == {*KINDS, "signal"}
-    assert fit.LOSSES == LOSSES
+    assert fit.LOSSES == get_args(Loss)
 
 
 def test_other_families_are_found() -> None:
@@ -751,8 +751,8 @@ def test_an_epoch_is_a_number(epoch: float) -> None:
 
 def test_a_cell_is_named_as_its_file_has_it(tmp_path: Path) -> None:
     """By the name of the column that is written."""
-    (tmp_path / "q.csv").write_text("time,w,X,y,z\n0,1,0,0,0\n1,1,nan,0,0\n", encoding="utf-8")
-    with pytest.raises(AtlasError, match="line 3, column X: the cell is nan"):
+    (tmp_path / "q.csv").write_text("time,w,X,y,z\n0,1,0,0,0\n1,1,inf,0,0\n", encoding="utf-8")
+    with pytest.raises(AtlasError, match="line 3, column X: the cell is inf"):
         of_file(tmp_path / "q.csv", None)
 
 
