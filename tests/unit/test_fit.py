@@ -472,7 +472,7 @@ def test_the_command_knows_the_families() -> None:
 
     assert set(fit.FAMILIES) == set(MODELS) == {*get_args(FittedFamily)}
     assert set(fit.KINDS) == {*KINDS, "signal"}
-    assert fit.LOSSES == get_args(Loss)
+    assert get_args(Loss) == fit.LOSSES
 
 
 def test_other_families_are_found() -> None:
