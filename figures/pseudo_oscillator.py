@@ -64,7 +64,7 @@ def scene(
     start = np.array([oscillator.omega3 - zero, (oscillator.omega1 * oscillator.B2) ** 2])
     return Scene(
         caption=(
-            r"$\Omega_3$ moves where $Q$ is not negative, as in a potential. "
+            r"The component $\Omega_3$ moves where $Q$ is not negative, as in a potential. "
             rf"{tex_setting(ratio, field, first='A')} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic "
             r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47) and the "
