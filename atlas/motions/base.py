@@ -71,6 +71,8 @@ class Motion(Shown, Generic[Single]):
 
     _rows: Any = None
     """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
+    _min_array_motions = 1
+    """Number of motions from which `_rows` are faster than motion by motion."""
     _placement: Placement | None = None
     """Where the motion stands, if not along the axes of its class with R(0) = 1."""
 
@@ -663,7 +665,8 @@ class Motion(Shown, Generic[Single]):
         full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), target(out, full + shape)
         own = (1,) * (len(full) - len(self.shape)) + self.shape
-        if times.size < MIN_SINGLE_TIMES * prod(self.shape) and self._rows is not None:
+        count = prod(self.shape)
+        if self._min_array_motions <= count and times.size < MIN_SINGLE_TIMES * count and self._rows is not None:
             self._evaluate_rows(function, times, own, out.reshape(times.size, *shape))
             return out
         for i, index in enumerate(np.ndindex(own)):

@@ -308,3 +308,21 @@ def test_an_escape_takes_as_long_and_goes_as_far_as_an_integration_says(push: fl
     times, thirds = found.t_events[0], found.y_events[0][:, 2]
     assert times[2] - times[0] == pytest.approx(motion.period, rel=1e-6)
     assert [thirds.min(), thirds.max()] == pytest.approx(list(motion.turning_points), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda x: atlas.GeneralMotion(1.5, (1.0, 2.0), (x, 0.7, 0.2)),
+        lambda x: atlas.TopMotion((1.0, 0.5), (0.7, 0.3), (0.6, 0.8), (x, 0.7, 0.2), 0.3),
+        lambda x: atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), x),
+    ],
+)
+def test_short_arrays_have_the_bits_of_their_motions(make: Callable[[Any], Any]) -> None:
+    """Three motions at a few times are evaluated one after the other: tables for many are not made for them."""
+    starts, times = [1.7, 0.9, 4.2], np.array([0.0, 1.3, 2e5])
+    together, single = make(starts), [make(x) for x in starts]
+    for name in ("rotation", "angular_velocity", "field_in_body"):
+        expected = [getattr(motion, name)(times) for motion in single]
+        assert np.array_equal(getattr(together, name)(times[:, None]), np.swapaxes(expected, 0, 1))
+    assert np.array_equal(together.period, [motion.period for motion in single])

@@ -19,6 +19,7 @@ from atlas.motions.nutation import kernel_general as general
 from atlas.motions.nutation import rows_pair as nutation_pair
 from atlas.motions.nutation.certified_cayley_klein import infinite
 from atlas.motions.nutation.certified_general import GeneralMotion as Balls
+from atlas.motions.nutation.kernel import NutatingMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.nutation.rows import MotionsAtTimes, Rows
 from atlas.motions.nutation.rows_blocks import Blocks
@@ -26,6 +27,12 @@ from atlas.motions.nutation.rows_scalars import Scalars
 
 SCALARS = ("period", "modulus", "complementary_modulus", "nome", "precession_per_period", "spin_per_period")
 PER_REGIME = 8
+
+
+@pytest.fixture(autouse=True)
+def every_array_by_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Evaluate short arrays as long ones are."""
+    monkeypatch.setattr(NutatingMotion, "_min_array_motions", 1)
 
 
 def ordinary(count: int, seed: int = 0) -> Any:

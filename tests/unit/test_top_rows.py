@@ -9,8 +9,15 @@ from oracles.top import integrated
 from stress.tops import TOPS, Top, rate_of
 
 import atlas
+from atlas.motions.nutation.kernel import NutatingMotion
 
 EPS = 2.0**-52
+
+
+@pytest.fixture(autouse=True)
+def every_array_by_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Evaluate short arrays as long ones are."""
+    monkeypatch.setattr(NutatingMotion, "_min_array_motions", 1)
 
 
 def drawn(name: str, count: int, seed: int = 3) -> list[Top]:

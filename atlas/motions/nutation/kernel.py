@@ -1,6 +1,7 @@
 """Nutating motions: matrices from the pair (alpha, beta), and the scalars of a period."""
 
 from collections.abc import Callable, Container, Sequence
+from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -31,7 +32,8 @@ class NutatingMotion(Motion[Nutation]):
     """Motions R(t) whose axis nutates, with the numbers of a period: in arrays by blocks."""
 
     _in_arrays: Container[str] = ()
-    """Values that `_scalars` has for all motions at once; the others are made of each by itself."""
+    """Names of the values that `_scalars` has for all motions at once; others are computed motion by motion."""
+    _min_array_motions = 12
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
     _blocks_of: type[Blocks] = Blocks
@@ -190,7 +192,7 @@ class NutatingMotion(Motion[Nutation]):
         self, name: str, value: Callable[[Any], Value], shown: Callable[[Any], Any] = np.asarray
     ) -> Value | NDArray[Any]:
         """Return one value for each motion: a scalar or an array; uncertain entries come from balls."""
-        if not self.shape or name not in self._in_arrays:
+        if 0 < prod(self.shape) < self._min_array_motions or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
         values, certain = self._scalars[name]
         rows = np.moveaxis(shown(values), -1, 0)
