@@ -118,9 +118,9 @@ def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
 
 def shapes() -> dict[str, list[str]]:
     """Return the shapes that --shape takes, each with the options of its dimensions."""
-    from atlas.bodies.body import SHAPES
+    from atlas.bodies.formula_shapes import SHAPES
 
-    named = {name.replace("_", "-"): names for name, (_, names) in SHAPES.items()}
+    named = {name.replace("_", "-"): names for name, (names, _) in SHAPES.items()}
     return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
 
 

@@ -1,84 +1,208 @@
-"""``atlas list``: the figures, reports and bodies by name."""
+"""``atlas list``: figures, reports, shapes, tables, families, quantities, roles and commands, by name."""
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from atlas.cli.body import shapes
 from atlas.cli.options import json_option
-from atlas.cli.present import Printout, dump, show
+from atlas.cli.present import dump
 from atlas.cli.words import Command
 from atlas.errors import AtlasError
 
 if TYPE_CHECKING:
+    from atlas.families.family import Quantity, Sampled
     from atlas.pictures.recipes import Recipe
 
 T = TypeVar("T")
+Row = tuple[str, str, str]
+"""Name, sentence and further words of an entry: parameters, keys, dimensions."""
 
 WIDTH = 90
-"""Letters in a line of parameters."""
+"""Characters in a line of sentences or further words."""
 
+HEADINGS = {
+    "figures": ("figure", "title; parameters with defaults and [ranges]"),
+    "reports": ("report", "title"),
+    "shapes": ("shape", "dimensions"),
+    "tables": ("table", "content; keys of its block in a report, with * the needed ones"),
+    "families": ("family", "motions or surfaces; parameters, with * the needed ones"),
+    "quantities": ("quantity", "meaning [unit] (equation); families that have it"),
+    "roles": ("role", "colour, and width of lines in points, of a layer with this role"),
+    "commands": ("command", "purpose"),
+}
+"""Heads of the name and of its description, for each list."""
 
-LISTS = ("figures", "reports", "shapes")
+STANDARD = ("figures", "reports", "shapes")
+"""Lists that are printed where none is named."""
 
 
 @click.command("list", cls=Command)
-@click.argument("which", required=False, type=click.Choice(LISTS))
+@click.argument("which", required=False, metavar="[" + "|".join(HEADINGS) + "]", type=click.Choice(list(HEADINGS)))
 @json_option
 def command(which: str | None, as_json: bool) -> int:
-    """Name the figures with titles and parameters, the reports, and the shapes of bodies with their dimensions.
+    """Name the figures, the reports and the shapes of bodies, or the entries of one other list.
 
-    One list alone is `atlas list figures`, `reports` or `shapes`.
-
-    Each parameter of a figure stands with its default, and with its range if it has one; `atlas figure NAME --help`
-    says what it takes. A figure that is too wide for a journal's column says how much it needs. A recipe or a report
-    that cannot be read does not hide the others; then the exit status is 1.
+    Each parameter of a figure stands with its default and its range, if it has one; `atlas figure NAME --help` explains
+    them. A figure that is too wide for a journal's column shows the width it needs. A recipe or a report that cannot be
+    read does not hide the others; then the exit status is 1.
     """
-    from atlas.book import files
-    from atlas.pictures import recipes
-
     broken = list[str]()
-    figures = {name: title for name in recipes.names() if (title := _read(recipes.title, name, broken)) is not None}
-    known = {name: recipe for name in figures if (recipe := _read(recipes.load, name, broken))}
-    reports = {name: title for name in files.names() if (title := _read(report_title, name, broken)) is not None}
-    record: dict[str, Any] = {
-        "figures": figures,
-        "parameters": {name: parameters(recipe) for name, recipe in known.items()},
-        "narrowest": {name: recipe.narrowest for name, recipe in known.items() if recipe.narrowest},
-        "reports": reports,
-        "shapes": shapes(),
-    }
-    for other in LISTS if which else ():
-        if other != which:
-            record[other] = {}
+    lists = {name: LISTS[name](broken) for name in ([which] if which else STANDARD)}
     if as_json:
-        dump(record)
+        dump({key: entries for record, _ in lists.values() for key, entries in record.items()})
     else:
-        lay_out(record)
+        for name, (_, rows) in lists.items():
+            lay_out([(*HEADINGS[name], ""), *rows])
+        if not which:
+            click.echo(f"Other lists: {', '.join(f'atlas list {name}' for name in HEADINGS if name not in STANDARD)}.")
     for reason in broken:
         click.echo(f"atlas: {reason}", err=True)
     return 1 if broken else 0
 
 
-def lay_out(record: dict[str, Any]) -> None:
-    """Show the three lists as tables."""
-    bodies = [[name, " ".join(f"--{size}" for size in sizes)] for name, sizes in record["shapes"].items()]
-    figures = []
-    for name, title in record["figures"].items():
-        figures.append([name, title])
-        words = [_shown(*parameter) for parameter in record["parameters"].get(name, {}).items()]
-        words += [f"(needs {record['narrowest'][name]:g} mm)"] if name in record["narrowest"] else []
-        lines = textwrap.wrap("  ".join(words), WIDTH, break_on_hyphens=False, break_long_words=False)
-        figures += [["", line] for line in lines]
-    for heading, rows in (
-        (("figure", "title; parameters with defaults and [ranges]"), figures),
-        (("report", "title"), list(record["reports"].items())),
-        (("shape", "dimensions"), bodies),
-    ):
-        if rows:
-            show(Printout("", heading=heading, rows=rows, justify="left"))
+def lay_out(rows: list[Row]) -> None:
+    """Print rows as two columns: name and sentence, below that the further words; a line under the first row."""
+    width = 2 + max(len(name) for name, _, _ in rows)
+    for place, (name, *texts) in enumerate(rows):
+        wrapped = [textwrap.wrap(text, WIDTH, break_on_hyphens=False, break_long_words=False) for text in texts]
+        lines = [line for text in wrapped for line in text] or [""]
+        for first, line in zip([name, *[""] * len(lines)], lines, strict=False):
+            click.echo(f"{first:{width}}{line}".rstrip())
+        if place == 0:
+            click.echo("─" * (width + WIDTH))
+    click.echo()
+
+
+Listing = tuple[dict[str, Any], list[Row]]
+"""Record for JSON, and rows for a terminal."""
+
+
+def _figures(broken: list[str]) -> Listing:
+    """Read titles, parameters and widths from the source of each recipe."""
+    from atlas.pictures import recipes
+
+    known = {name: recipe for name in recipes.names() if (recipe := _read(recipes.load, name, broken))}
+    record: dict[str, Any] = {
+        "figures": {name: recipe.title for name, recipe in known.items()},
+        "parameters": {name: parameters(recipe) for name, recipe in known.items()},
+        "narrowest": {name: recipe.narrowest for name, recipe in known.items() if recipe.narrowest},
+    }
+    rows = []
+    for name, recipe in known.items():
+        words = [_shown(*parameter) for parameter in record["parameters"][name].items()]
+        words += [f"(needs {recipe.narrowest:g} mm)"] * bool(recipe.narrowest)
+        rows.append((name, recipe.title, "  ".join(words)))
+    return record, rows
+
+
+def _reports(broken: list[str]) -> Listing:
+    """Read the titles of the reports from their heads."""
+    from atlas.book import files
+
+    titles = {name: title for name in files.names() if (title := _read(report_title, name, broken)) is not None}
+    return {"reports": titles}, [(name, title, "") for name, title in titles.items()]
+
+
+def _shapes(_: list[str]) -> Listing:
+    from atlas.cli.body import shapes
+
+    return {"shapes": shapes()}, [(name, " ".join(f"--{x}" for x in sizes), "") for name, sizes in shapes().items()]
+
+
+def _tables(_: list[str]) -> Listing:
+    """Return the computed tables of reports, each with the keys that its block takes."""
+    from inspect import get_annotations
+
+    import atlas.book.keys  # noqa: F401  its tables join the others
+    from atlas.book.tables import TABLES
+
+    record: dict[str, Any] = {
+        name: {"says": sentence(table), "keys": dict(_keys_of(get_annotations(table)))}
+        for name, table in TABLES.items()
+    }
+    return {"tables": record}, [(name, one["says"], _marked(one["keys"])) for name, one in record.items()]
+
+
+def _keys_of(annotations: dict[str, type]) -> Iterator[tuple[str, dict[str, bool]]]:
+    """Yield the keys that a table takes as its parameters, and whether each is needed."""
+    from msgspec.structs import fields
+
+    from atlas.book.tables.properties import Thing
+
+    for argument, kind in annotations.items():
+        if kind is Thing:
+            yield from ((key, {"needed": key == "family"}) for key in ("family", "PARAMETER", "time", "units", "given"))
+        elif argument == "asked":
+            yield from ((key.name, {"needed": key.required}) for key in fields(kind))
+
+
+def _families(_: list[str]) -> Listing:
+    """Return the families of the register with their parameters and commands."""
+    from atlas.motions.register import FAMILIES
+
+    record: dict[str, Any] = {
+        name: {
+            "says": family.says,
+            "command": " ".join(("atlas", *family.words)) if family.words else None,
+            "keys": {p.name: {"says": p.says, "unit": p.unit, "needed": p.needed, "columns": p.names}
+                     for p in family.parameters},
+        }
+        for name, family in FAMILIES.items()
+    }  # fmt: skip
+    return {"families": record}, [(name, one["says"], _marked(one["keys"])) for name, one in record.items()]
+
+
+def _quantities(_: list[str]) -> Listing:
+    """Return the quantities and functions of time of all families, by name, as `atlas sweep --quantity` takes them."""
+    from atlas.motions.register import FAMILIES
+
+    record: dict[str, dict[str, dict[str, str]]] = {}
+    for family in FAMILIES.values():
+        quantities: list[Quantity | Sampled] = [*(q for q in family.quantities if q.tabled), *family.sampled]
+        for quantity in quantities:
+            entry = {"says": quantity.says, "unit": quantity.unit, "equation": quantity.equation}
+            record.setdefault(quantity.name, {})[family.name] = entry
+    rows = []
+    for name, entries in record.items():
+        first = next(iter(entries.values()))
+        unit, equation = first["unit"], first["equation"]
+        words = " or ".join(dict.fromkeys(entry["says"] for entry in entries.values()))
+        rows.append((name, f"{words}{f' [{unit}]' if unit else ''}{f' {equation}' if equation else ''}",
+                     "of " + ", ".join(entries)))  # fmt: skip
+    return {"quantities": record}, rows
+
+
+def _roles(_: list[str]) -> Listing:
+    from atlas.pictures.style import STYLES
+
+    record = {name: {"colour": look.colour, "width": look.width} for name, look in STYLES.items()}
+    return {"roles": record}, [(name, f"{look.colour}  {look.width:g} pt", "") for name, look in STYLES.items()]
+
+
+def _commands(_: list[str]) -> Listing:
+    from atlas.cli.app import atlas
+
+    record = {name: str(one.short_help) for name, one in sorted(atlas.commands.items())}
+    return {"commands": record}, [(name, purpose, "") for name, purpose in record.items()]
+
+
+LISTS: dict[str, Callable[[list[str]], Listing]] = {
+    "figures": _figures, "reports": _reports, "shapes": _shapes, "tables": _tables, "families": _families,
+    "quantities": _quantities, "roles": _roles, "commands": _commands,
+}  # fmt: skip
+"""Lists by name; each appends errors of files that cannot be read to its argument."""
+
+
+def sentence(thing: object) -> str:
+    """Return the first sentence of a docstring, without its full stop."""
+    return " ".join(str(thing.__doc__).split("\n\n")[0].split()).split(". ")[0].removesuffix(".").replace("`", "")
+
+
+def _marked(keys: dict[str, dict[str, Any]]) -> str:
+    """Return the names of keys, a star behind those that are needed."""
+    return "  ".join(f"{name}*" if key["needed"] else name for name, key in keys.items())
 
 
 def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
@@ -99,7 +223,7 @@ def _shown(name: str, record: dict[str, Any]) -> str:
 
 
 def _read(read: Callable[[str], T], name: str, broken: list[str]) -> T | None:
-    """Read the item of a name, or note why that fails."""
+    """Read the item of a name, or note the reason of the failure in `broken`."""
     try:
         return read(name)
     except AtlasError as error:

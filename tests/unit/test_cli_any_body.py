@@ -296,6 +296,26 @@ def test_help_and_lists_are_asked_for_as_one_would() -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "entry", "words"),
+    [
+        ("tables", "motion", "omega2*"),
+        ("families", "elliptic", "z*"),
+        ("quantities", "precession_rate", "[1/time]"),
+        ("roles", "field", "#"),
+        ("commands", "sweep", "parameters"),
+    ],
+)
+def test_each_list_names_its_entries_with_their_keys(name: str, entry: str, words: str) -> None:
+    """`atlas list tables` and so on print each entry with its keys or its meaning, and JSON has the same names."""
+    lines = run("list", name)[1].splitlines()
+    record = json.loads(run("list", name, "--json")[1])
+    assert record.keys() == {name}
+    start = next(i for i, line in enumerate(lines) if line.startswith(f"{entry} "))
+    assert words in " ".join(lines[start : start + 4])
+    assert set(record[name]) <= {line.split(" ")[0] for line in lines}
+
+
+@pytest.mark.parametrize(
     "times", ["--times 0,0.5,1", "--times 0 0.5,1", "--grid 0 0.5 3", "--grid 0:1:3", "--times 0:1:3"]
 )
 def test_lists_and_ranges_of_times_are_one(times: str) -> None:
