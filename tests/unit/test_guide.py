@@ -4,6 +4,7 @@ import doctest
 import inspect
 import re
 import shlex
+import shutil
 from importlib import import_module
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from atlas.book.files import find
 from atlas.book.load import load
 from atlas.book.texts import Link, Text, Texts
 from atlas.cli import main
+from atlas.places import folder
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 BLOCK = re.compile(r"^(`{3,})(\w+)\n(.*?)^\1$", re.MULTILINE | re.DOTALL)
@@ -33,6 +35,7 @@ def test_every_block_of_the_guide_gives_what_it_shows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Files are written, sessions of Python and of the shell are gone through in one folder and in one process."""
+    shutil.copytree(folder("reports") / "data", tmp_path / "reports" / "data")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     names, failures = {"__name__": "guide"}, []

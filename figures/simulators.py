@@ -1,0 +1,95 @@
+"""Errors of five flight simulators on one free body.
+
+NASA published the motion of a tumbling brick from several simulators, without a verdict. The closed form has one: the
+difference of each trajectory from the exact motion.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from atlas.motions.any_body import motion
+from atlas.pictures import Curve, Plane, Scene
+from atlas.pictures.layers import FloatArray
+from atlas.places import folder
+
+RECORDS = ("tumbling_brick.csv",)
+INERTIA = (0.00189422, 0.006211019, 0.007194665)
+"""Moments of inertia of the brick, in slug ft^2."""
+START = (10.0, 20.0, 30.0)
+"""Initial angular velocity along the axes of the body, in degrees per second."""
+EARTH = 7.292115e-5
+"""Angular velocity of the Earth, in rad/s."""
+ROLES = ("main", "second", "third", "fourth", "fifth")
+
+
+def scene() -> Scene:
+    """Draw the errors of the angular velocity and of the attitude over time, a curve for each simulator."""
+    found = dict(errors())
+    worst = {name: error[:, 1:].max(axis=0) for name, error in found.items()}
+    right = [name for name, (rate, _) in worst.items() if rate < 1e-8]
+    exact, wrong = " and ".join(right), [rate for name, (rate, _) in worst.items() if name not in right]
+    return Scene(
+        caption=(
+            f"Of five flight simulators, two are right: {exact} follow the closed form to their last printed digit. "
+            "Error of each trajectory of NASA's tumbling brick, check-case 2: (a) of the angular velocity, "
+            "(b) angle between the attitude and the exact one."
+        ),
+        alt=(
+            "Two panels of errors over 30 seconds, on logarithmic scales, with a curve for each of five simulators. "
+            f"Those of simulators {exact} stay near 1e-10 and 1e-9 degrees; those of the others lie up to "
+            f"{min(wrong):.0e} to {max(wrong):.0e} degrees per second from the exact angular velocity."
+        ),
+        panels=tuple(
+            Plane(
+                tuple(
+                    Curve(error[1:, [0, column]], role, f"simulator {name}")
+                    for role, (name, error) in zip(ROLES, found.items(), strict=True)
+                ),
+                "time (s)" if column == 2 else "",
+                label,
+                x_limits=(0.0, 30.0),
+                y_limits=(1e-11, 10.0),
+                y_scale="log",
+                title=title,
+            )
+            for column, label, title in (
+                (1, "error (deg/s)", "(a) angular velocity"),
+                (2, "error (deg)", "(b) attitude"),
+            )
+        ),
+        size=(140.0, 120.0),
+    )
+
+
+def errors() -> Iterator[tuple[str, FloatArray]]:
+    """Yield for each simulator its name and the times, errors of Omega (deg/s) and of R (deg), shape (N, 3)."""
+    lines = [
+        line for line in (folder("reports") / "data" / RECORDS[0]).read_text("utf-8").splitlines() if line[0] != "#"
+    ]
+    table = np.array([line.split(",") for line in lines[1:]], dtype=float)
+    exact = motion(INERTIA, (0.0, 0.0, 0.0), np.radians(START))
+    for name in np.unique(table[:, 0]):
+        t, rates, angles, longitude = np.split(table[table[:, 0] == name, 1:], [1, 4, 7], axis=1)
+        rate = np.linalg.norm(rates - np.degrees(exact.angular_velocity(t[:, 0])), axis=1)
+        local = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]) @ attitude(np.radians(angles))
+        turned = about(2, (np.radians(longitude) + EARTH * t)[:, 0]) @ local
+        apart = np.linalg.norm(turned[:1] @ exact.rotation(t[:, 0]) - turned, axis=(1, 2)) / np.sqrt(8)
+        yield f"{name:.0f}", np.column_stack([t[:, 0], rate, np.degrees(2 * np.arcsin(np.minimum(apart, 1.0)))])
+
+
+def attitude(angles: FloatArray) -> FloatArray:
+    """Return the matrices R_z(yaw) R_y(pitch) R_x(roll), shape (N, 3, 3)."""
+    yaw, pitch, roll = angles.T
+    return about(2, yaw) @ about(1, pitch) @ about(0, roll)
+
+
+def about(axis: int, angle: FloatArray) -> FloatArray:
+    """Return the matrices of rotations by angles about a coordinate axis, shape (N, 3, 3)."""
+    matrix = np.zeros((len(angle), 3, 3))
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    matrix[:, axis, axis] = 1.0
+    matrix[:, first, first] = matrix[:, second, second] = np.cos(angle)
+    matrix[:, second, first] = np.sin(angle)
+    matrix[:, first, second] = -np.sin(angle)
+    return matrix
