@@ -115,10 +115,9 @@ def test_sums_of_upper_words_are_exact() -> None:
     sums = closed.sums
     phases = [0.55 * np.pi * np.array(x) for x in ((-1, -1), (-1, 1), (1, -1), (1, 1), (0.3, 0.1), (-0.2, 0.4))]
     w = np.exp(1j * closed.rounding.into @ np.transpose(phases))
-    ways = np.array([*w, w[1] * w[1]])
-    for parity, (_, upper, _) in enumerate(sums.words(ALL)):
-        high, others = sums.powers(parity, ways, inverse(ways))
-        powers = others[: len(high)].reshape(2, -1, len(phases), 2)
+    once, square = (np.array([inverse(x), x]) for x in (w[1], w[1] * w[1]))
+    for (_, upper, _), (number, _, high) in zip(sums.words(ALL), sums.powers(once, square), strict=True):
+        powers = number.reshape(2, -1, len(phases), 2)
         largest = np.hypot(*np.moveaxis(powers[0], -1, 0)).max(axis=1)
         assert (np.abs(powers[0].reshape(len(largest), -1) - high[: len(largest)]) <= 2.0**-21 * largest[:, None]).all()
         assert upper.any()

@@ -46,7 +46,7 @@ UNTHREADED = 250_000
 
 Array: TypeAlias = NDArray[np.complex128]
 FloatArray: TypeAlias = NDArray[np.float64]
-Words: TypeAlias = tuple[NDArray[np.intp], FloatArray, FloatArray]
+Words: TypeAlias = tuple[list[int], FloatArray, FloatArray]
 
 
 @dataclass(frozen=True)
@@ -93,9 +93,11 @@ class Sums:
         places = needed(hat, forms, origin, region, LEFT_OUT_LOG)
         low, high = places.min(axis=0), places.max(axis=0)
         centre = np.round((low + high) / 2).astype(int)
+        rows, columns = (range(int(a), int(b) + 1) for a, b in zip(low, high, strict=True))
+        reach = int(abs(places - centre)[:, 0].max())
+        low[0], high[0] = centre[0] - reach, centre[0] + reach  # the middle row is that of P = 0
         self.table: Array = np.zeros((len(forms), *(high - low + 1)), complex)
         self.rest = np.zeros_like(self.table)
-        rows, columns = (range(int(a), int(b) + 1) for a, b in zip(low, high, strict=True))
         for p, q in product(rows, columns):
             weights = weights_at(forms, hat, origin, (p, q))
             self.table[:, p - low[0], q - low[1]] = rounded = [complex_of(x) for x in weights]
@@ -120,45 +122,51 @@ class Sums:
         """
         w = np.exp(1j * x)
         w += w * (1j * rest)
-        ways = np.array([w[0], w[1], w[1] * w[1]])
-        back = inverse(ways)
-        m, middle = x.shape[1], int(-self.P[0])
-        found = np.empty((len(self.table[part]), m), np.complex128)
-        for parity, (forms, upper, lower) in enumerate(self.words(part)):
-            high, others = self.powers(parity, ways, back)
-            rows = np.empty((len(upper), 2 * m))
+        w = np.concatenate([w, w[1:] * w[1:]])
+        steps = np.stack([inverse(w), w], 1)
+        words, powers = self.words(part), self.powers(steps[1], steps[2])
+        m, middle = x.shape[1], len(self.P) // 2
+        rows, order = np.empty((sum(len(forms) for forms, _, _ in words) * len(self.P), 2 * m)), list[int]()
+        for (forms, upper, lower), known in zip(words, powers, strict=True):
+            sums = rows[len(order) * len(self.P) :][: len(upper)]
             step = max(UNTHREADED // max(lower.size, 1), 1)
             for i in range(0, 2 * m, step):
                 block = slice(i, i + step)
-                np.matmul(lower, others[:, block], out=rows[:, block])
-                rows[:, block] += upper @ high[:, block]
-            sums = rows.view(np.complex128).reshape(len(self.P), len(forms), m)
-            found[forms] = sums[middle] + _horner(sums[:middle:-1], w[0]) + _horner(sums[:middle], back[0])
+                np.matmul(lower, known[:2].reshape(-1, 2 * m)[:, block], out=sums[:, block])
+                sums[:, block] += upper @ known[2, :, block]
+            order += forms
+        sums = rows.view(np.complex128).reshape(len(order), len(self.P), m)
+        ends = np.zeros((len(order), 2, m), np.complex128)
+        for n in range(middle, 0, -1):
+            ends += sums[:, middle - n : middle + n + 1 : 2 * n]
+            ends *= steps[0]
+        found = np.empty((len(order), m), np.complex128)
+        found[order] = sums[:, middle] + ends[:, 1] + ends[:, 0]
         return found
 
-    def powers(self, parity: int, ways: Array, back: Array) -> tuple[FloatArray, FloatArray]:
-        """Return even or odd powers of w_2, and i times these, (rows, 2 m): upper words; and all above the others.
+    def powers(self, once: Array, square: Array) -> FloatArray:
+        """Return even and odd powers of w_2 as words, (2, 3, rows, 2 m): the number, its lower and its upper word.
 
-        Given are w_1, w_2, w_2^2 and their inverses, (3, m). Real and imaginary parts stand side by side.
+        Given are 1/w_2 and w_2, and their squares, (2, m) each. After the powers stand i times these; real and
+        imaginary parts stand side by side.
         """
-        count, m = self.sizes.shape[1], ways.shape[1]
-        words = np.empty((3, count, 2 * m))
-        powers = words[0].view(np.complex128).reshape(2, -1, 2, m)
-        step = np.array([ways[2], back[2]])
-        powers[0, 0] = [ways[1], back[1]] if parity else 1.0
-        for before, after in zip(powers[0, :-1], powers[0, 1:], strict=True):
-            np.multiply(before, step, out=after)
-        np.multiply(powers[0], 1j, out=powers[1])
-        cut = (1.5 * 2.0 ** (52 - SPLIT_BITS) * self.sizes[parity])[:, None]
-        np.add(words[0], cut, out=words[2])
-        words[2] -= cut
-        np.subtract(words[0], words[2], out=words[1])
-        return words[2], words[:2].reshape(2 * count, 2 * m)
+        count, m = self.sizes.shape[1], once.shape[1]
+        words = np.empty((2, 3, count, 2 * m))
+        powers = words[:, 0].view(np.complex128).reshape(2, 2, -1, 2, m)
+        powers[0, 0, 0], powers[1, 0, 0] = 1.0, once[::-1]
+        for n in range(1, powers.shape[2]):
+            np.multiply(powers[:, 0, n - 1], square[::-1], out=powers[:, 0, n])
+        np.multiply(powers[:, 0], 1j, out=powers[:, 1])
+        cut = (1.5 * 2.0 ** (52 - SPLIT_BITS) * self.sizes)[:, :, None]
+        np.add(words[:, 0], cut, out=words[:, 2])
+        words[:, 2] -= cut
+        np.subtract(words[:, 0], words[:, 2], out=words[:, 1])
+        return words
 
     def words(self, rows: slice) -> list[Words]:
-        """Return, for even and for odd powers, which of some forms have them, and their weights in words.
+        """Return, for even and for odd powers, the places of the forms that have them, and their weights in words.
 
-        Weights are (P and forms, rows): those that meet upper words, and those that meet all powers and lower words.
+        Weights are (forms P, rows): those that meet upper words, and those that meet the powers and their lower words.
         """
         key = rows.start or 0, rows.stop or len(self.table)
         if key not in self._words:
@@ -167,16 +175,17 @@ class Sums:
 
     def _split(self, rows: slice, parity: int) -> Words:
         """Cut weights, and what they lack, into two words each."""
-        forms = np.flatnonzero(self.odd[rows] == parity)
+        forms = np.flatnonzero(self.odd[rows] == parity).tolist()
         columns, sizes = self.columns[parity], self.sizes[parity]
         there = (self.Q[0] <= columns) & (columns <= self.Q[-1])
         there[1] &= bool(parity)  # of the power 0 there is one
         chosen = columns[there] - self.Q[0]
-        words, rest = np.zeros((2, len(self.P), len(forms), len(columns)), complex)
+        words, rest = np.zeros((2, len(forms), len(self.P), len(columns)), complex)
         for sums, table in ((words, self.table), (rest, self.rest)):
-            sums[..., there] = table[rows][forms][:, :, chosen].swapaxes(0, 1)
+            sums[..., there] = table[rows][forms][:, :, chosen]
         real, less = (np.concatenate([x.real, x.imag], -1).reshape(-1, len(sizes)) for x in (words, rest))
-        largest = (abs(real) * sizes).max(axis=-1, keepdims=True) + np.finfo(float).tiny
+        largest = (abs(real) * sizes).max(axis=-1, keepdims=True)
+        largest[largest == 0] = 1.0
         unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT_BITS) / sizes
         upper = np.round(real / unit) * unit
         return forms, upper, np.concatenate([real - upper + less, upper], axis=-1)
@@ -192,15 +201,6 @@ class Sums:
         along = n * (PRODUCT + 1) + n * ROUNDED * (self.P < 0) + 2
         powers = np.where(odd, (k + 0.5) * PRODUCT, np.maximum(k - 1, 0) * PRODUCT) + (k + odd) * ROUNDED * (self.Q < 0)
         return np.asarray((WEIGHT + along)[:, None] + powers)
-
-
-def _horner(rows: Array, w: Array) -> Any:
-    """Return the sum of rows times w^n, ..., w^2, w."""
-    total = np.zeros(rows.shape[1:], np.complex128)
-    for row in rows:
-        total += row
-        total *= w
-    return total
 
 
 def inverse(w: Array) -> Array:

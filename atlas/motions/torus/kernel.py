@@ -180,7 +180,8 @@ class SingleAsymmetric:
         else:
             balls = self.closed is None or (name == "angular_velocity" and self._slender)
             products = getattr(self.certified if balls else self.closed, name)(*which, t, out)
-        products[known] = start
+        if known.any():
+            products[known] = start
         return products
 
 
