@@ -17,6 +17,8 @@ from atlas.pictures import Scene, any_motion
 from atlas.pictures.any_motion import Upright
 from atlas.pictures.captions import plain_vector, tex_vector
 
+ROW = "three moments"
+SEEN = "The axis of a body with three moments need not repeat its path."
 RANGES = {"turns": (1e-3, 50.0)}
 STEPS = 120
 """Points a turn through which the lines are drawn: what lies between is good to 1e-7."""

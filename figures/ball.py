@@ -12,6 +12,9 @@ from atlas.pictures import Arrow, Curve, Layer, Points, Scene, Space, quadric_pa
 from atlas.pictures.captions import plain, tex
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 
+ROW = "a body"
+SEEN = r"The angular momentum $\mathbf{m}$ of a charged ball goes round the field on a circle."
+
 
 def scene(
     *,
@@ -47,8 +50,8 @@ def scene(
             layers.append(Arrow(tips[0], tips[1], "precession", r"$\mathbf{m}(t)$"))
     m2, m3 = momentum
     return Scene(
-        caption=r"The tip of $\mathbf{m}(t)$ goes round $\mathbf{B}$ on the circle, and the ball turns about "
-        rf"$\hat{{\mathbf{{k}}}}$: laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
+        caption=r"The ball turns about $\hat{\mathbf{k}}$ meanwhile. "
+        rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
         rf"$\mathbf{{m}}(0)=(0, {tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and "
         r"$\mathbf{m}(0)$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. Lengths are not to scale.",
         alt=f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point "

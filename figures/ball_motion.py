@@ -10,6 +10,9 @@ from atlas.motions.elementary.kernel_ball import BallMotion
 from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import tex
 
+ROW = "its axis"
+SEEN = "A charged ball turns about an axis that itself goes round the field."
+
 
 def scene(
     *,

@@ -16,6 +16,8 @@ from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 from atlas.pictures.sample import curve
 from atlas.pictures.torus import VIEW, net, on_torus, seen
 
+ROW = "a body"
+SEEN = "A ball's attitude runs round a torus with two constant rates."
 WIDTH, HEIGHT = 150.0, 128.0
 MAX_TURNS = 400.0
 MAX_BOLD_PHASE = 40.0
@@ -55,10 +57,9 @@ def scene(
     shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         caption=(
-            r"A ball's attitude runs round the torus of its two angles (left), $\alpha t$ the long way and "
-            r"$\gamma t$ the short way, dashed behind it where there are few turns; right, the way of its point "
-            r"$\mathbf{R}_1$. From "
-            rf"above, $\gamma/\alpha$ is {shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
+            r"Left, $\alpha t$ runs the long way and $\gamma t$ the short way, dashed behind it "
+            r"where there are few turns; right, the way of its point $\mathbf{R}_1$. "
+            rf"Here $\gamma/\alpha$ is {shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(
             f"{len(ratios)} rows of two pictures: a line that winds round a torus, closed in the first row and dense "

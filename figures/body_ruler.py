@@ -15,6 +15,8 @@ from atlas.pictures.captions import body_role, tex_vector
 from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import E3, in_plane, tolerance
 
+ROW = "a body"
+SEEN = "A body longer than a ball has a tube for its surface of initial data, a flatter one two bowls."
 WIDTH, HEIGHT = 178.0, 92.0
 BODIES = (
     ("needle", 0.02),
@@ -39,7 +41,6 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     view = {"azimuth": azimuth, "elevation": elevation}
     return Scene(
         caption=(
-            r"A body longer than a ball has a tube for its surface of initial data, a flatter one two bowls. "
             r"The scale of $I=I_3/I_2$: the needle has $I=0.02$, the rod 0.2. "
             r"Above each is the surface (51) for $\mathbf{B}'$ along "
             rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Disk and loop have one $I$ and one "

@@ -9,6 +9,8 @@ from atlas.pictures import Arrow, Curve, Label, Layer, Points, Scene, solids
 from atlas.pictures.arrange import stacked
 from atlas.pictures.quadric_panel import E2, E3, in_plane
 
+ROW = "a body"
+SEEN = "One colour means one thing in all figures."
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
 NARROWEST = 139.0
 VECTORS = (
@@ -62,7 +64,7 @@ def scene() -> Scene:
         area = solids.rectangle(ends.mean(axis=0), half, 0.3 * E3, role=role)
         columns[column] += [area, beside(ends[1], name)]
     return Scene(
-        caption="One colour means one thing in all figures. In grey print a vector is told by its name; two lines of a "
+        caption="In grey print a vector is told by its name; two lines of a "
         "column differ in lightness, width or dashes, and marks in shape. The colours of bodies are for figures in "
         "which they are compared. Elementary motions are initial angular velocities, and have their hue.",
         alt="Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image "

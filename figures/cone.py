@@ -8,6 +8,9 @@ from atlas.pictures import Scene, quadric_panel
 from atlas.pictures.captions import plain_setting, tex_setting
 from atlas.surfaces.kernel import Quadric
 
+ROW = "a body"
+SEEN = "A ball's surface of initial data is a cone."
+
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
     """Show the cone with all that lies in the plane omega_1 = 0; ``field`` = (B2, B3) of B'."""
@@ -19,8 +22,8 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=r"The plane of $\mathbf{e}_2$ and $\mathbf{e}_3$ cuts the cone in two straight lines (heavy), of which "
-        rf"one goes through the origin: initial angular velocities with constant $\Omega_3$ for "
+        caption=r"The plane of $\mathbf{e}_2$ and $\mathbf{e}_3$ cuts it in two straight lines (heavy), of which "
+        rf"one goes through the origin. Initial angular velocities with constant $\Omega_3$ for "
         rf"{tex_setting(1.0, field)}. For a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself.",
         alt=f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two "
         "straight lines, one of which passes through the origin.",

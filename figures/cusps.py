@@ -17,6 +17,8 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene, axis_trace
 from atlas.pictures.captions import listed, plain, tex
 from atlas.pictures.sample import room
 
+ROW = "tops"
+SEEN = "Momentum and energy decide whether a top's axis waves or loops."
 SIZE, MIN_SWING_DEGREES = 62.0, 5.0
 """A panel in mm, and the least swing of the axis in degrees that is seen in it."""
 RANGES = {"nutations": (0.5, 40.0)}
@@ -61,7 +63,6 @@ def scene(
     panels = (*spheres, plane("abcd"[len(tops)], tops, unit))
     return Scene(
         caption=(
-            r"Momentum and energy decide whether a top's axis waves or loops. "
             rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) by "
             r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin, "

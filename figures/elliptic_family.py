@@ -19,6 +19,8 @@ from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
 from atlas.pictures.hyperbola_plane import Window, branches, components, seen, window
 from atlas.pictures.sample import curve, quarter_pixel
 
+ROW = "three moments"
+SEEN = "Where $I_1$ leaves $I_2$ the hyperbola parts into two ovals."
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
 NAMES = {"main": "unbounded", "third": "bounded", "unstable_line": "unstable"}
 BRANCH_END = 1e-3
@@ -46,7 +48,6 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Where $I_1$ leaves $I_2=1$ the hyperbola parts into two ovals. "
             r"Initial angular velocities of the elliptic motions in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for bodies with $I_2=1$, $I_3={tex(ratio)}$: the "
             r"unbounded oval and the bounded one, unstable motions dashed. Dotted: the hyperbola (67) of $I_1=1$, in "

@@ -8,6 +8,9 @@ from atlas.motions.nutation.kernel_elliptic import EllipticMotion
 from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 
+ROW = "three moments"
+SEEN = "In an elliptic motion the angular velocity depends on the field in the body alone."
+
 
 def scene(
     *,

@@ -15,6 +15,8 @@ from atlas.maps.wells import Branch, Wells
 from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.pictures.captions import listed, plain, tex
 
+ROW = "its map"
+SEEN = "Motions exist in the shaded region alone; on its lines the axis precesses."
 WIDTH, HEIGHT = 88.0, 62.0
 
 
@@ -45,8 +47,7 @@ def scene(
     spins = " or ".join(words for role, words in kinds.items() if role in there)
     return Scene(
         caption=(
-            r"Motions exist in the shaded region of energies $2H$ and momenta $p$; critical are steady precessions "
-            r"with their rate $w$ in Larmor's frame, "
+            r"Over $p$ and $2H$: steady precessions with their rate $w$ in Larmor's frame, "
             + rest
             + (f", and spins along the field or the vertical, {spins}." if spins else ".")
             + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in there else "")

@@ -12,6 +12,8 @@ from atlas.checking.error_maps import ErrorMap, over_omega2, over_ratio
 from atlas.pictures import Image, Label, Plane, Scene
 from atlas.pictures.captions import tex, tex_setting
 
+ROW = "a body"
+SEEN = "Written as it stands, (84) loses digits where the map is bright."
 LIMITS = (1e-17, 1.0)
 NARROWEST, LOW = 139.0, 1e-2
 TIME = r"$t\,|\mathbf{B}'|$"
@@ -25,7 +27,7 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
     empty = " A cell without colour has a phase beyond $2^{50}$." if np.isnan(measured).any() else ""
     return Scene(
         caption=(
-            r"Written as it stands, (84) loses digits where the map is bright. Largest error in any entry of $R(t)$ in "
+            r"Largest error in any entry of $R(t)$ in "
             r"double precision for "
             rf"{tex_setting(ratio, field)}: (a) over $\omega_2$, (b) over $I$ at $\omega_2={tex(omega2)}$. At the same "
             rf"times the atlas errs by at most ${tex(float(f'{worst:.1e}'))}$.{empty}"

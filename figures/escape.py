@@ -18,6 +18,8 @@ from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
 from atlas.pictures.movement import along
 from atlas.pictures.sample import flat, room
 
+ROW = "its axis"
+SEEN = "The smaller the push beside an unstable motion, the later it is left."
 WIDTH, COURSE, LAW, MARGIN = 120.0, 30.0, 62.0, 12.0
 """Width, heights of a course and of the law."""
 
@@ -45,7 +47,7 @@ def scene(
     motions = [GeneralMotion(ratio, field, (push, omega2, omega3)) for push in pushes]
     return Scene(
         caption=(
-            r"The smaller the push $\omega_1$ beside an unstable motion, the later it is left. Above: $\Omega_3$ "
+            r"The push is $\omega_1$. Above: $\Omega_3$ "
             rf"leaves with the rate $\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. Below: its period grows by "
             r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it. "
             rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$."

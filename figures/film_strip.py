@@ -18,6 +18,8 @@ from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_set
 from atlas.pictures.movement import riding, turned
 from atlas.pictures.quadric_panel import E3, in_plane, tolerance
 
+ROW = "a body"
+SEEN = "The axis goes round the field and keeps its angle with it."
 WIDTH, HEIGHT = 178.0, 50.0
 STEP = 2.3
 
@@ -60,7 +62,7 @@ def scene(
         )
     return Scene(
         caption=(
-            rf"The axis $\mathbf{{R}}_3$ goes once round $\mathbf{{B}}$ and keeps its angle with it; the dark seam has "
+            rf"The axis $\mathbf{{R}}_3$ goes once round $\mathbf{{B}}$; the dark seam has "
             rf"made $\phi/k={tex(motion.phi / motion.k)}$ turns about the axis at the end. Below each of the {count} "
             rf"moments, the part of the period $2\pi/k$ elapsed. {tex_setting(ratio, field, first='A')}, "
             rf"$\omega_2={tex(omega2)}$."

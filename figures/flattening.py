@@ -13,6 +13,8 @@ from atlas.errors import DomainError
 from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_vector
 
+ROW = "three moments"
+SEEN = "Three different moments do not repeat a nutation."
 SIZE, COLUMNS = 56.0, 3
 STEPS = 40
 """Points of a trace for each radian of the fastest of the rates at the start."""
@@ -51,7 +53,6 @@ def scene(
     columns = min(COLUMNS, len(panels))
     return Scene(
         caption=(
-            r"Three different moments do not repeat a nutation. "
             rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ above them, all launched "
             rf"with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ (1/{unit}), $\mathbf{{B}}$ upright, up to $t={tex(stop)}$. "

@@ -16,6 +16,9 @@ from atlas.pictures.captions import plain_setting, plain_vector, tex, tex_equals
 from atlas.pictures.flight import picture
 from atlas.pictures.hyperbola_plane import components
 
+ROW = "a body"
+SEEN = "A point of a flying body winds round the path of its centre of mass."
+
 
 def scene(
     *,

@@ -17,6 +17,8 @@ from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import E3, in_plane
 from atlas.pictures.sample import curve, quarter_pixel
 
+ROW = "a body"
+SEEN = "In flight the body's axis goes round the field at a constant angle and a rate of its own."
 WIDTH, HEIGHT = 150.0, 200.0
 AXIS, CORNER = 1.7, 0.22
 """How far an axis is drawn in units of the body, and the length of the fields' arrows as a part of the height."""
@@ -77,7 +79,6 @@ def scene(
     layers += fields(B, np.asarray(E, dtype=float), centres, size, (azimuth, elevation))
     return Scene(
         caption=(
-            r"In flight the body's axis goes round $\mathbf{B}$ at a constant angle and a rate of its own. "
             rf"The flight of {tex_setting(ratio, field)}, $\mu={tex(mu)}$, $c={tex(c)}$, through "
             rf"$\mathbf{{E}}={tex_vector(E)}$, launched with the velocity ${tex_vector(velocity)}$ and "
             rf"$\omega_2={tex(omega2)}$, at {count} equal steps of time."

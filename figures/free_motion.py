@@ -11,6 +11,9 @@ from atlas.motions.elementary.kernel import FreeMotion
 from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import plain, quotient, tex, tex_equals
 
+ROW = "its axis"
+SEEN = "Without a field the axis goes round the constant angular momentum."
+
 
 def scene(
     *,

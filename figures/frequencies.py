@@ -17,6 +17,8 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, tex, tex_equals, tex_setting
 from atlas.pictures.hyperbola_plane import Window, components, graph
 
+ROW = "a body"
+SEEN = r"The rate of precession is proportional to $\omega_2$."
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
 TOP = 4.0
 """How far panel (b) goes, in units of the free body's quotient."""
@@ -49,19 +51,18 @@ def scene(
     hyperbola = Hyperbola(ratio, field)
     motions = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
-    turns = "one turn" if order == 1 else f"up to {order} turns"
+    turns = "a turn" if order == 1 else f"up to {order} turns"
     proper = (
         r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
         rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
-        + (rf" Dots: motions that repeat themselves after {turns} of the precession." if motions else "")
+        + (rf" Dots: motions that repeat themselves after {turns}." if motions else "")
         if free
         else r"the proper rotation $\phi$, (72), which is zero on one line of the curve (67) and takes every value on "
         rf"the other, $\omega_2=-B'_2={tex(-B2)}$, drawn upright: there $\phi=\omega_3+B'_3$. (b) Their quotient, (86)."
     )
     return Scene(
         caption=(
-            rf"The precession $k=\omega_2/\hat B_2$ is proportional to $\omega_2$ in elementary "
-            rf"motions of {tex_setting(ratio, field)}. (a) With {proper}"
+            rf"Precession $k=\omega_2/\hat B_2$ in elementary motions of {tex_setting(ratio, field)}. (a) With {proper}"
         ),
         alt=(
             f"Two panels over omega 2 for {plain_setting(ratio, field)}: the frequency of precession k, a straight "

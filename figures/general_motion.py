@@ -10,6 +10,9 @@ from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import plain_setting, tex_setting
 
+ROW = "its axis"
+SEEN = "In a general motion the axis nutates."
+
 
 def scene(
     *,

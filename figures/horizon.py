@@ -11,6 +11,8 @@ from atlas.checking import benchmark
 from atlas.pictures.captions import listed, tex
 from atlas.pictures.layers import Curve, Layer, Plane, Scene
 
+ROW = "a body"
+SEEN = "Errors of integrators grow, those of closed forms do not."
 RECORDS = ("bench.json",)
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1, within which the atlas keeps every entry of a rotation matrix."""
@@ -31,7 +33,6 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
     shown = listed([f"the {benchmark.case_title(case)}" for case in cases])
     return Scene(
         caption=(
-            "Errors of integrators grow, those of closed forms do not. "
             f"Largest error up to $T$ for {shown}; the atlas's largest is "
             f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Dots: the best tolerance "
             f"that came through. {benchmark.measured(record)}"

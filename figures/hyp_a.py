@@ -10,6 +10,9 @@ from atlas.pictures import Scene, quadric_panel
 from atlas.pictures.captions import plain_setting, quotient, tex_setting
 from atlas.surfaces.kernel import Quadric
 
+ROW = "a body"
+SEEN = "Initial data of a short solenoid lie on two bowls."
+
 
 def scene(
     *, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0
@@ -24,8 +27,7 @@ def scene(
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption="A bowl through the origin is the upper sheet of initial angular velocities with "
-        f"constant $\\Omega_3$ for {tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
+        caption=f"The bowl through rest, for {tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
         alt=f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the "
         "origin O, from which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it "
         "at −B'.",

@@ -10,6 +10,9 @@ from atlas.pictures import Scene, quadric_panel
 from atlas.pictures.captions import plain_setting, quotient, tex_setting
 from atlas.surfaces.kernel import Quadric
 
+ROW = "a body"
+SEEN = "On the tube of a long solenoid both branches of the hyperbola run along opposite sides."
+
 
 def scene(
     *, ratio: Any = 0.5, field: tuple[float, float] = (1.0, 0.5), azimuth: float = 25.0, elevation: float = 14.0
@@ -24,8 +27,8 @@ def scene(
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=r"On one tube about its inclined canonical axis both branches of the hyperbola $\omega_1=0$ (heavy "
-        r"lines) run along opposite sides: hyperboloid of initial angular velocities with constant $\Omega_3$ for "
+        caption=r"The branches $\omega_1=0$ are heavy lines, the canonical axis is inclined. Hyperboloid of "
+        r"initial angular velocities with constant $\Omega_3$ for "
         f"{tex_setting(ratio, field)}.",
         alt=f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
         "−B'; both branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",

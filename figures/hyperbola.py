@@ -12,6 +12,8 @@ from atlas.pictures import Curve, Label, Layer, Region, Scene
 from atlas.pictures.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting
 from atlas.pictures.hyperbola_plane import asymptote, branches, components, marked, places, unstable, window
 
+ROW = "a body"
+SEEN = r"The launches without nutation form one curve, through rest and $-2\mathbf{B}'$."
 WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
 
 
@@ -79,9 +81,8 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
     """Say what the curve is, in which case, and where it is unstable."""
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
-    first = r"The launches without nutation form one curve, through rest and $-2\mathbf{B}'$: the initial angular"
-    what = r"velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), of"
-    sentences = [f"{first} {what} {tex_setting(ratio, field)}."]
+    curve = r"Initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), of"
+    sentences = [f"{curve} {tex_setting(ratio, field)}."]
     line = rf"the line $\omega_2={tex(-B2)}$, on which $\omega_3$ is free"
     if B2 == 0:
         sentences.append(r"With $B'_2=0$ the curve is the line $\omega_2=0$: the body spins along the field.")

@@ -12,6 +12,8 @@ from atlas.pictures.captions import body_name, body_role, listed, plain, plain_v
 from atlas.pictures.hyperbola_plane import Window, asymptote, branches, components, marked, places, window
 from atlas.pictures.style import LINES
 
+ROW = "a body"
+SEEN = r"All bodies' curves go through rest and $-2\mathbf{B}'$."
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
 
 
@@ -33,12 +35,11 @@ def scene(
     pole = r"asymptote $\omega_2=-B'_2$, a line of the ball" if ball else "dotted asymptote"
     return Scene(
         caption=(
-            r"All curves go through rest and $-2\mathbf{B}'$. "
             r"Initial angular velocities $(0,\omega_2,\omega_3)$ without nutation, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
                 rf"They share $-\mathbf{{B}}'$ and the {pole}; the thin dashed run along "
-                r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again."
+                r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."
                 if B2

@@ -14,6 +14,8 @@ from atlas.pictures import Curve, Label, Layer, Plane, Region, Scene
 from atlas.pictures.captions import listed
 from atlas.surfaces.kernel import Quadric
 
+ROW = "its map"
+SEEN = "The body alone decides on the kind of its quadric."
 WIDTH, HEIGHT = 178.0, 72.0
 MIN_CELLS, MAX_CELLS = 60, 2000
 """Cells a side: with fewer the lines end before the edges."""
@@ -75,7 +77,7 @@ def scene(
         panels.append(Plane(tuple(layers), r"$I=I_3/I_2$", y_label, (0.0, 2.0), (0.0, RIGHT), title=name))
     return Scene(
         caption=(
-            r"The body alone decides on the kind. Every quadric (51) once, up to its size: over $I$ and the angle "
+            r"Every quadric (51) once, up to its size: over $I$ and the angle "
             r"$\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ to $\mathbf{e}_2$. At the lower edge it is a pair of planes, "
             r"at the upper one a line. Levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$: "
             + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])

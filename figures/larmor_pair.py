@@ -18,6 +18,8 @@ from atlas.pictures.captions import plain_setting, spelt, tex_setting, tex_vecto
 from atlas.pictures.quadric_panel import E3, O, tolerance
 from atlas.pictures.sample import curve
 
+ROW = "its axis"
+SEEN = "Two launches are one motion in Larmor's frame: there one line goes on where the other came from."
 SIZE = 76.0
 HEAD = 0.36, 0.48
 """Where along a trace its arrowhead lies, in radii of the sphere."""
@@ -57,7 +59,6 @@ def scene(
     frames = (("(a) laboratory", in_laboratory), (r"(b) Larmor's frame", in_larmor_frame))
     return Scene(
         caption=(
-            r"In Larmor's frame (b) the light line goes on where the heavy one came from. "
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$ (heavy) and "
             rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {spelt(nutations)} of the nutation from "

@@ -9,6 +9,9 @@ from atlas.pictures.captions import plain_setting, tex_setting
 from atlas.pictures.quadric_panel import E1, E2, O, in_plane
 from atlas.surfaces.kernel import Quadric
 
+ROW = "a body"
+SEEN = "Both bowls of a loop rest on planes."
+
 
 def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
     """Show both sheets with the planes; ``field`` = (B2, B3) of B'."""
@@ -28,7 +31,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, ele
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=r"Both bowls of a loop rest on planes, $\omega_3=0$ and $\omega_3=-2B'_3$, which they touch at $O$ and "
+        caption=r"The planes are $\omega_3=0$ and $\omega_3=-2B'_3$, which the bowls touch at $O$ and "
         rf"at $-2\mathbf{{B}}'$: the hyperboloid for {tex_setting(2.0, field)}.",
         alt=f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
         "plane at the origin, the lower hangs from another one at −2B'.",

@@ -13,6 +13,8 @@ from atlas.pictures.bodies import proportions
 from atlas.pictures.captions import plain_setting, quotient, tex_setting
 from atlas.pictures.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 
+ROW = "a body"
+SEEN = "At the start the axis of the body stands upright."
 SIZE, WINDINGS = 1.5, 7.0
 """How far the farthest point of the body is from its centre, and windings on a piece as high as that."""
 
@@ -54,7 +56,7 @@ def scene(
     if field[1]:
         layers.append(Label(third, r"$B'_3$", offset=(-5.0, 0.0)))
     return Scene(
-        caption=r"At the start $\mathbf{e}_3$ is the body's axis $\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the "
+        caption=r"It is $\mathbf{e}_3=\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the "
         r"field, lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$: laboratory system for "
         rf"{tex_setting(ratio, field)}. The cylindrical shell drawn has this ratio of its moments.",
         alt=f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "

@@ -13,6 +13,8 @@ from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 from atlas.pictures.quadric_panel import E1, E2, E3, O, in_plane, tolerance
 from atlas.pictures.sample import curve
 
+ROW = "a body"
+SEEN = "A charged particle winds about the magnetic field."
 LEAN = 0.55
 """Radians from the axis y at which a field nearer to it is drawn."""
 
@@ -67,7 +69,7 @@ def scene(
     drift = rf" and drifts along $[\mathbf{{E}}, \mathbf{{B}}]$, {side} the axis $x$" if E[0] else ""
     vector = tex_vector((0.0, *E))
     return Scene(
-        caption=rf"The path of a particle begins at the origin{drift}. "
+        caption=rf"The path begins at the origin{drift}. "
         rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and "
         rf"$\mathbf{{B}}=(0, 0, {tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in "
         rf"the plane of $y$ and $z$. The arrows of the fields are not to scale.",

@@ -17,6 +17,8 @@ from atlas.pictures import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, tex
 from atlas.pictures.sample import room
 
+ROW = "its map"
+SEEN = "Carried round an unstable spin, a lattice of periods comes back, and not each period."
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
 LOOP_POINTS = 480
@@ -45,7 +47,6 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     error = max(loop.step for loop in loops)
     return Scene(
         caption=(
-            r"Carried round an unstable spin, a lattice of periods comes back, and not each period. "
             rf"Above: least energies (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round "
             rf"crosses; $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the periods, "
             "by their turns, and their way round the loop (lines), "

@@ -17,6 +17,8 @@ from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_equ
 from atlas.pictures.quadric_panel import E3, O
 from atlas.pictures.sample import curve, quarter_pixel
 
+ROW = "a body"
+SEEN = "The axis keeps its angle with a fixed direction."
 WIDTH, HEIGHT = 178.0, 62.0
 COLUMNS = 3
 PANEL = (WIDTH / COLUMNS, HEIGHT)
@@ -42,13 +44,11 @@ def scene(
     # no more than MAX_SPIN_TURNS proper rotations: beyond, Omega(t) would be all ink
     stop = min(slow, 2 * np.pi * MAX_SPIN_TURNS / phi) if phi else slow
     free = not any(motion.field)
-    axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"
     along = "" if free else r"; dashed: its projection on the field"
     turning = rf"The body at the start; its axis in {SPOKES} steps, half at $t_1$."
-    seen = rf"The body's axis goes evenly round {axis}." if motion.k else "The body's axis does not move."
     return Scene(
         caption=(
-            rf"{seen} {tex_setting(ratio, field, first='A')} from "
+            rf"{tex_setting(ratio, field, first='A')} from "
             rf"$\boldsymbol{{\omega}}=(0,\omega_2,\omega_3)$ with $\omega_2={tex(motion.omega2)}$, "
             rf"$\omega_3{tex_equals(motion.omega3)}$: {motion.case}, $k{tex_equals(motion.k)}$, "
             rf"$\phi{tex_equals(motion.phi)}$. "

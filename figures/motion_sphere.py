@@ -17,6 +17,8 @@ from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 from atlas.pictures.sample import curve
 
+ROW = "its axis"
+SEEN = "The body's axis draws a circle on the unit sphere."
 MAX_AXIS_PHASE = 400.0
 """A first axis that turns by more radians than these would cover the sphere, and is not drawn."""
 STRIDE = 0.2
@@ -65,7 +67,7 @@ def scene(
     ]
     name = r"\mathbf{B}" if any(field) else r"\mathbf{m}"
     return Scene(
-        caption=rf"The third inertia axis $\mathbf{{R}}_3(t)$ goes round ${name}$ on the unit sphere (heavy line) for "
+        caption=rf"The third inertia axis $\mathbf{{R}}_3(t)$ goes round ${name}$ (heavy line) for "
         rf"{tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$: $k={tex(motion.k)}$, $\phi={tex(motion.phi)}$. "
         + (
             rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of the precession; "

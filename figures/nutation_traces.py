@@ -12,6 +12,8 @@ from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setting
 
+ROW = "its axis"
+SEEN = "An axis at rest at the start draws cusps, moved one way it waves, the other way it loops."
 SIZE = 58.0
 
 
@@ -38,8 +40,8 @@ def scene(
     )  # fmt: skip
     return Scene(
         caption=(
-            r"At rest at the start (dot) the third axis draws cusps, moved one way it waves, the other way it loops: "
-            rf"there it moves along the parallel with $\omega_2$. {tex_setting(ratio, field, first='A')}, with "
+            r"At the start (dot) the third axis moves along the parallel with $\omega_2$."
+            rf" {tex_setting(ratio, field, first='A')}, with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} periods of the nutation, $\mathbf{{B}}$ upright."
         ),
         alt=(

@@ -14,6 +14,8 @@ from atlas.pictures.captions import plain, plain_vector, tex, tex_equals, tex_ve
 from atlas.pictures.quadric_panel import tolerance
 from atlas.pictures.sample import curve
 
+ROW = "a body"
+SEEN = "A magnetic field turns a charged particle, an electric one across it makes the particle drift."
 SIZE = (124.0, 66.0)
 Vector = tuple[float, float, float]
 

@@ -20,6 +20,8 @@ from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, tex, tex_setting
 from atlas.pictures.sample import flat, room
 
+ROW = "its map"
+SEEN = r"Round a stable motion $\Omega_3$ swings on closed lines."
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
 WIDTH, HEIGHT, MARGIN = 110.0, 84.0, 13.0
@@ -61,7 +63,6 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Round a stable motion (dot) $\Omega_3$ swings on closed lines. "
             rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the momenta "
             rf"of the elementary one $\omega_2={tex(omega2)}$, a line for each energy. {eight}"
         ),

@@ -17,6 +17,8 @@ from atlas.pictures import Curve, Layer, Plane, Points, Region, Scene
 from atlas.pictures.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector
 from atlas.pictures.sample import flat
 
+ROW = "its map"
+SEEN = r"The component $\Omega_3$ moves where a quartic is not negative, as in a potential."
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
 PIECES = 32
@@ -64,7 +66,6 @@ def scene(
     start = np.array([oscillator.omega3 - zero, (oscillator.omega1 * oscillator.B2) ** 2])
     return Scene(
         caption=(
-            r"The component $\Omega_3$ moves where $Q$ is not negative, as in a potential. "
             rf"{tex_setting(ratio, field, first='A')} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic "
             r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47) and the "

@@ -10,6 +10,9 @@ from atlas.pictures import Scene, quadric_panel
 from atlas.pictures.captions import plain_setting, tex_setting
 from atlas.surfaces.kernel import Quadric
 
+ROW = "a body"
+SEEN = r"Starts from which $\Omega_3$ does not accelerate lie on a quadric."
+
 
 def scene(
     *, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), azimuth: float = 25.0, elevation: float = 14.0
@@ -27,9 +30,7 @@ def scene(
     return quadric_panel.picture(
         layers,
         (azimuth, elevation),
-        caption=f"The quadric of initial angular velocities with constant $\\Omega_3$ is {what} for "
-        f"{tex_setting(ratio, field)}. "
-        f"{legend}",
+        caption=f"It is {what} for {tex_setting(ratio, field)}. {legend}",
         alt=f"{what.capitalize()} in the space of angular velocities, for {plain_setting(ratio, field)}, with the "
         "laboratory axes" + (f", B', its image under the inverse inertia tensor, {shown}." if any(field) else "."),
     )

@@ -20,6 +20,8 @@ from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_equal
 from atlas.pictures.sample import curve, flat, quarter_pixel, room
 from atlas.pictures.style import LINES
 
+ROW = "its axis"
+SEEN = r"Off the hyperbola $\Omega_3$ departs at once."
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
 DEEP = 0.02
 """How far down panel (b) goes at least, as a part of the largest departure."""
@@ -52,7 +54,6 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Off the hyperbola $\Omega_3$ departs at once. "
             rf"{tex_setting(ratio, field, first='A')}, starts with $\omega_2={tex(omega2)}$. "
             rf"(a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "
             r"dashed: the rate at $t=0$. "

@@ -15,6 +15,8 @@ from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.surfaces.kernel import TopQuadric
 
+ROW = "tops"
+SEEN = "The cause that turns a top decides on its quadric of initial data."
 WIDTH, HEIGHT = 178.0, 134.0
 NARROWEST = 150.0
 REACH = 1.9
@@ -67,9 +69,8 @@ def scene(
     plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
     return Scene(
         caption=(
-            r"What turns a top decides on its quadric of initial data, in which only the hyperbola is steady. "
             rf"Initial angular velocities with $\ddot\nu=0$ of tops, $I={tex(ratio)}$, "
-            rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$. "
+            rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$, alone steady. "
             r"(b) The same tops (dots) in the plane of all with this $I$. On the border (solid), "
             r"$D=0$, is 4, a paper's body that the field magnetises."
         ),

@@ -20,6 +20,8 @@ from atlas.pictures.layers import frame
 from atlas.pictures.quadric_panel import in_plane, tolerance
 from atlas.surfaces.kernel import Quadric
 
+ROW = "a body"
+SEEN = r"The paler the surface, the more slowly $\Omega_3$ departs, and from the hyperbola not at all."
 WIDTH, HEIGHT = 120.0, 118.0
 BANDS = 5
 CORNER, STEP = (-2.05, 0.0), 0.24
@@ -57,10 +59,8 @@ def scene(
     band = " Vermilion: the unstable motions." if unstable else ""
     return Scene(
         caption=(
-            r"The paler the surface, the more slowly $\Omega_3$ departs, and from the heavy line, the hyperbola, "
-            rf"not at all.{band} The surface (51) for {tex_setting(ratio, field)}, tinted by the rate "
-            r"$\lvert\omega_1B'_2\rvert$. "
-            r"Arrows at the bodies: $\boldsymbol{\omega}$."
+            rf"The heavy line is the hyperbola.{band} The surface (51) for {tex_setting(ratio, field)}, tinted by the "
+            r"rate $\lvert\omega_1B'_2\rvert$. Arrows at the bodies: $\boldsymbol{\omega}$."
         ),
         alt=(
             f"The quadric of {plain_setting(ratio, field)} in five tints, the faintest in a band along the hyperbola, "

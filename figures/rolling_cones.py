@@ -20,6 +20,9 @@ from atlas.pictures.layers import frame
 from atlas.pictures.movement import about, riding
 from atlas.pictures.quadric_panel import E3, O, in_plane, tolerance
 
+ROW = "its axis"
+SEEN = "The body's cone rolls on a cone in space."
+
 
 def scene(
     *,
@@ -42,9 +45,9 @@ def scene(
     panels = tuple(cones(name, one, axis, (azimuth, elevation)) for name, one in both.items())
     return Scene(
         caption=(
-            rf"The body cone (amber) rolls on the space cone (green): (a) in the field, about $\mathbf{{B}}$, "
-            rf"$\phi={tex(motion.phi)}$; (b) free, (87), about $\mathbf{{m}}$, $\phi={tex(free.phi)}$. It "
-            rf"{contact(motion, axis)} in (a) and {contact(free, axis)} in (b). "
+            rf"(a) In the field, about $\mathbf{{B}}$, $\phi={tex(motion.phi)}$; (b) free, (87), about "
+            rf"$\mathbf{{m}}$, $\phi={tex(free.phi)}$. The body cone (amber) "
+            rf"{contact(motion, axis)} in (a) and {contact(free, axis)} in (b), green. "
             rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, $k={tex(motion.k)}$."
         ),
         alt=(

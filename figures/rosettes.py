@@ -19,6 +19,8 @@ from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setti
 from atlas.pictures.quadric_panel import O, tolerance
 from atlas.pictures.sample import curve
 
+ROW = "its axis"
+SEEN = "A body comes back where its frequencies have a rational quotient."
 SIZE = 44.0
 DENSE = 12.0
 """Turns beyond which the trace is drawn in thin lines."""
@@ -48,9 +50,9 @@ def scene(
     spoken = listed([f"{p}/{q}" for p, q in fractions])
     return Scene(
         caption=(
-            rf"With $\phi/k$ equal to {named} the body is back after "
-            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, with the "
-            rf"golden mean never; drawn: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$. Seen along "
+            rf"$\phi/k$ is {named}, back after "
+            rf"{listed([str(q) for _, q in fractions])} turn{'s' * (fractions[-1][1] > 1)} of the precession, or the "
+            rf"golden mean: {plain(turns)} turns from $\omega_2={tex(never.omega2)}$. Seen along "
             r"$\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
             rf"{tex_setting(ratio, field)}."
         ),

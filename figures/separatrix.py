@@ -18,6 +18,8 @@ from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_set
 from atlas.pictures.quadric_panel import E3, O, tolerance
 from atlas.pictures.sample import curve, flat, room
 
+ROW = "its axis"
+SEEN = "The axis leaves the circle of an unstable precession, makes one excursion, and comes back."
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
 RANGES = {"decay": (0.1, 30.0)}
 """Beyond, what a rounding of the start has grown to would be seen: the motion would leave again."""
@@ -46,7 +48,6 @@ def scene(
     motions, last = excursions(ratio, field, omega2), decay / growth
     return Scene(
         caption=(
-            r"The axis leaves the circle of an unstable precession, makes one excursion, and comes back. "
             rf"$\omega_2={tex(omega2)}$ of "
             rf"{tex_setting(ratio, field)}. (a) The trace of the axis in each of the two, $\mathbf{{B}}$ "
             r"upright; dotted: the circle of the precession. (b) Their $\Omega_3$, with "

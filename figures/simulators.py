@@ -13,6 +13,8 @@ from atlas.pictures import Curve, Plane, Scene
 from atlas.pictures.layers import FloatArray
 from atlas.places import folder
 
+ROW = "three moments"
+SEEN = "Of five flight simulators, two are right."
 RECORDS = ("tumbling_brick.csv",)
 INERTIA = (0.00189422, 0.006211019, 0.007194665)
 """Moments of inertia of the brick, in slug ft^2."""
@@ -31,7 +33,7 @@ def scene() -> Scene:
     exact, wrong = " and ".join(right), [rate for name, (rate, _) in worst.items() if name not in right]
     return Scene(
         caption=(
-            f"Of five flight simulators, two are right: {exact} follow the closed form to their last printed digit. "
+            f"{exact} follow the closed form to their last printed digit. "
             "Error of each trajectory of NASA's tumbling brick, check-case 2: (a) of the angular velocity, "
             "(b) angle between the attitude and the exact one."
         ),

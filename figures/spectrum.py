@@ -13,6 +13,8 @@ from atlas.motions.spectrum import Spectrum
 from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import plain, plain_setting, plain_vector, tex_equals, tex_setting, tex_vector
 
+ROW = "its axis"
+SEEN = "All lines lie at whole combinations of few frequencies."
 WIDTH, HEIGHT = 120.0, 110.0
 BESIDE = 0.1
 """Part of the width between names that are both written."""
@@ -39,7 +41,6 @@ def scene(
     told = ", ".join(f"${symbols[name]}{tex_equals(rate)}$" for name, rate in rates.items()) or "all at zero"
     return Scene(
         caption=(
-            r"All lines lie at whole combinations of few frequencies. "
             rf"{tex_setting(ratio, field, first='A')} from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$: {told}. (a) Of the axis, along the field and across it. "
             r"(b) Of $\boldsymbol{\Omega}$, along the axis and across it. Heights are norms of "

@@ -21,6 +21,8 @@ from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_setti
 from atlas.pictures.hyperbola_plane import Window, components, graph, seen, unstable
 from atlas.pictures.sample import flat
 
+ROW = "its map"
+SEEN = "Where the square of the nutation frequency is negative, the motion is unstable."
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
 HIGH, WIDE, FAR, NAMED = 1.6, 1.0, 2.0, 0.93
 """The map shows |x| up to HIGH, and tau up to WIDE, or a little beyond that of the field unless that is above FAR;
@@ -48,11 +50,7 @@ def scene(
     near = tau <= FAR
     return Scene(
         caption=(
-            (
-                f"Unstable are the motions on the shaded bands {where}, inside which the square is negative. "
-                if bands
-                else "The square of the frequency of nutation is positive on the whole curve. "
-            )
+            (f"Here inside the shaded bands {where}. " if bands else "On the whole curve it is positive. ")
             + r"(a) The nutation frequency squared, $\nu_n^2=-Q''(\omega_3)/2$, theorem-quartic, along the hyperbola "
             rf"(67) of {tex_setting(ratio, field)}. "
             r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "

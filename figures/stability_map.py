@@ -16,6 +16,8 @@ from atlas.pictures import Curve, Image, Label, Layer, Plane, Scene
 from atlas.pictures.sample import flat
 from atlas.sweeps.plan import Range, Tabulation
 
+ROW = "its map"
+SEEN = "Bodies inside the vermilion line have motions that run away."
 WIDTH, HEIGHT, MARGIN = 120.0, 88.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
@@ -48,8 +50,8 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     layers += [Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), UP]), name) for I, name in BODIES]
     return Scene(
         caption=(
-            r"Dark bodies have motions that run away: inside the vermilion line, for $I<1$ and "
-            r"$\tau=\lvert B'_3/B'_2\rvert<1/(2\sqrt2)$, some elementary motion is unstable. The number there is the "
+            r"There, for $I<1$ and "
+            r"$\tau=\lvert B'_3/B'_2\rvert<1/(2\sqrt2)$, some elementary motion is unstable, and the number is the "
             r"greatest rate of growth, $-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$, as negative. "
             r"Outside, where all are stable, it is the least frequency of their nutation."
         ),

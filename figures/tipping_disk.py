@@ -25,6 +25,8 @@ from atlas.pictures.movement import along, riding, turned
 from atlas.pictures.quadric_panel import E3, tolerance
 from atlas.pictures.sample import flat
 
+ROW = "its axis"
+SEEN = "A disk that spins along the field tips over."
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
 STEP = 2.5
 RANGES = {"count": (2, 24)}
@@ -57,11 +59,10 @@ def scene(
     far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
     return Scene(
         caption=(
-            "A disk that spins along the field tips over: "
-            + (
-                "its axis goes round in one sense, through both ends of the field's. "
+            (
+                "Its axis goes round in one sense, through both ends of the field's. "
                 if omega3 == -B3
-                else rf"its axis reaches {far:.0f} degrees and comes back. "
+                else rf"Its axis reaches {far:.0f} degrees and comes back. "
             )
             + f"(a) {count} moments of half a period. (b) The angle of axis and field, with these moments as dots. "
             rf"$I={tex(quotient(ratio))}$, $B'_3={tex(B3)}$, $\omega_3={tex(omega3)}$; $D={tex(D)}<0$, and a push "

@@ -8,6 +8,9 @@ from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.pictures import Scene, any_motion
 from atlas.pictures.captions import plain, tex
 
+ROW = "tops"
+SEEN = "The axis of a top nods between two parallels."
+
 
 def scene(
     *,

@@ -11,6 +11,8 @@ from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.pictures import Scene, axis_trace
 from atlas.pictures.captions import plain, spelt, tex, tex_vector
 
+ROW = "tops"
+SEEN = "Whatever turns it, the axis of a top nutates by one formula."
 SIZE = 44.0
 
 FIELD, WEIGHT = (r"$\mathbf{B}$", "field"), (r"$-\mathbf{g}$", "direction")
@@ -46,7 +48,6 @@ def scene(
     )  # fmt: skip
     return Scene(
         caption=(
-            r"Whatever turns it, the axis of a top nutates by one formula. "
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega={tex_vector(omega)}$, "
             rf"over {spelt(nutations)} of nutation, the cause upright: (a) one charge-to-mass ratio throughout "
             r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start."

@@ -15,6 +15,8 @@ from atlas.pictures.captions import plain, plain_vector, tex, tex_vector
 from atlas.pictures.quadric_panel import O, tolerance
 from atlas.pictures.torus import VIEW, net, on_torus, seen
 
+ROW = "three moments"
+SEEN = "The motion winds round a torus."
 WIDTH, HEIGHT = 178.0, 80.0
 POINTS_PER_TURN = 150
 """Points of a line for each of its turns round the torus."""
@@ -53,12 +55,11 @@ def scene(
     )
     return Scene(
         caption=(
-            r"The motion (thin line) winds round a torus. "
-            rf"A body with $I_i={tex_vector(inertia)}$ from $\boldsymbol{{\omega}}={tex_vector(omega)}$ "
-            rf"in $\mathbf{{B}}'={tex_vector(field)}$ up to $t={tex(stop)}$: (a) by the angles of its two periods, "
-            rf"(b) as the way of $\mathbf{{K}}$ in the body. From the start, "
-            rf"$T_H={tex(round(first[0], 4))}$ along the motion (teal) and $T_F={tex(round(first[1], 4))}$ along "
-            "the other flow (plum) lead back."
+            rf"The motion (thin line) of a body with $I_i={tex_vector(inertia)}$ "
+            rf"from $\boldsymbol{{\omega}}={tex_vector(omega)}$ in $\mathbf{{B}}'={tex_vector(field)}$ up to "
+            rf"$t={tex(stop)}$: (a) by the angles of its two periods, (b) as the way of $\mathbf{{K}}$ in the body. "
+            rf"From the start, $T_H={tex(round(first[0], 4))}$ along the motion (teal) and "
+            rf"$T_F={tex(round(first[1], 4))}$ along the other flow (plum) lead back."
         ),
         alt=(
             f"A torus with a line wound round it many times, and a sphere with the trace that the same motion of a "

@@ -15,6 +15,8 @@ from atlas.pictures import Curve, Plane, Points, Scene
 from atlas.pictures.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector
 from atlas.pictures.sample import curve, quarter_pixel, room
 
+ROW = "a body"
+SEEN = "The particle turns round a guiding centre that drifts."
 WIDTH, MARGIN = 86.0, 15.0
 
 
@@ -68,8 +70,7 @@ def scene(
     )
     return Scene(
         caption=(
-            r"The particle turns round a guiding centre, which drifts along the dashed line. "
-            rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
+            rf"Dashed: the line of the drift. The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
             rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "
             r"along $[\mathbf{E},\mathbf{B}]$. The drift is "
             rf"$v{tex_equals(v)}$, the rate of the turn $\omega{tex_equals(omega)}$, the radius of its circle $a$. "

@@ -15,6 +15,8 @@ from atlas.motions.torus.kernel import AsymmetricMotion
 from atlas.pictures import Curve, Label, Plane, Scene
 from atlas.pictures.captions import plain, tex, tex_vector
 
+ROW = "three moments"
+SEEN = "A body at rest turns over after any push: a small one makes it later, but not less far."
 WIDTH, HEIGHT = 178.0, 62.0
 POINTS = 600
 ROLES = ("main", "second", "third")
@@ -47,8 +49,8 @@ def scene(
     over_time, over_turns = (0.01 * reach * b / abs(largest), reach * b / abs(smallest)), (0.0, reach)
     return Scene(
         caption=(
-            r"A body at rest turns over after any push: a small one makes it later (a), but not less far (b), where "
-            r"the curves of small pushes are one. How far the field in the body is from where it was, for "
+            r"In (b) the curves of small pushes are one. How far the "
+            r"field in the body is from where it was, for "
             rf"$I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$, $b=\lvert\mathbf{{B}}'\rvert$, "
             rf"pushed about $\mathbf{{e}}_2$ with $s$. With ${tex(smallest)}$ it reaches ${tex(round(farthest, 2))}$."
         ),

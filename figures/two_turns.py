@@ -17,6 +17,8 @@ from atlas.pictures.bodies import drawn_body, row
 from atlas.pictures.captions import plain, plain_setting, quotient, tex, tex_setting
 from atlas.pictures.quadric_panel import E1, E3, in_plane, tolerance
 
+ROW = "a body"
+SEEN = "Two turns lead from the first attitude to that at any time."
 STEP = 3.0
 REACH = 1.55
 
@@ -70,8 +72,8 @@ def scene(
         cells.append(layers)
     return Scene(
         caption=(
-            r"Two turns lead from the first attitude to that at any time, $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85): "
-            rf"one by $\phi t={tex(round(proper, 3))}$ about the axis, and one, from the dashed line, by "
+            r"By $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85), "
+            rf"one is by $\phi t={tex(round(proper, 3))}$ about the axis, and one, from the dashed line, by "
             rf"$kt={tex(round(precession, 3))}$ about $\mathbf{{B}}$. {tex_setting(ratio, field, first='A')}, "
             rf"$\omega_2={tex(omega2)}$."
         ),

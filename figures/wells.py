@@ -13,6 +13,8 @@ from atlas.maps.wells import border, rest
 from atlas.pictures import Curve, Label, Layer, Plane, Region, Scene
 from atlas.pictures.captions import listed, plain, tex
 
+ROW = "its map"
+SEEN = "Tops in the shaded region have two wells, all others one."
 WIDTH, HEIGHT = 178.0, 78.0
 RANGES = {"reach": (0.5, 50.0)}
 
@@ -36,9 +38,9 @@ def scene(
     )
     return Scene(
         caption=(
-            r"Tops in the shaded region have two wells, all others one: each point $(a,A)$ is a top, at the momenta "
-            r"$p$ and $M_3$. On a thin line the axis can rest at the cosine $\nu_0$ that the line bears: with two "
-            r"wells on three such lines. The border is their envelope, where $\nu_0$ is a triple root."
+            r"Each point $(a,A)$ is a top, at the momenta $p$ and $M_3$. On a thin line the axis "
+            r"can rest at the cosine $\nu_0$ that the line bears: with two wells on three "
+            r"such lines. The border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(
             f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve "

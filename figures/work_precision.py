@@ -11,6 +11,8 @@ from atlas.errors import AtlasError
 from atlas.pictures.captions import listed, plain
 from atlas.pictures.layers import Layer, Plane, Points, Scene
 
+ROW = "a body"
+SEEN = "Integrators pay time for digits, closed forms do not."
 RECORDS = ("bench.json",)
 ROOM = (1.6, 0.5), (0.9, 0.5)
 
@@ -20,8 +22,8 @@ def scene(*, cases: tuple[str, ...] = ("elementary",), horizon: float = 100.0, c
     record = benchmark.read()
     return Scene(
         caption=(
-            "Integrators (lines) pay time for digits, closed forms (marks) do not. "
-            f"Largest error up to $t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
+            f"Lines: integrators; marks: closed forms. Largest error up to "
+            f"$t = {benchmark.power(horizon)}$ against the time for one sample, set-up apart, for "
             f"{listed([f'the {benchmark.case_title(case)}' for case in cases])}. One dot is a "
             "tolerance from $10^{-3}$ to $10^{-14}$. "
             f"{benchmark.measured(record)}"

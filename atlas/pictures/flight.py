@@ -72,8 +72,7 @@ def picture(
     drawn = paths(flight, axes, view, stop)
     return Scene(
         caption=(
-            rf"A point $\mathbf{{x}}_N={tex_vector(point)}$ of a body winds round the path of its centre of mass: "
-            rf"{setting[0]}; that circles with "
+            rf"The point is $\mathbf{{x}}_N={tex_vector(point)}$ of {setting[0]}; the centre circles with "
             rf"$2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(cyclotron_frequency))}$. (a) In space. "
             r"(b) Seen along $\mathbf{B}$. Thin lines join centre and point at equal steps of time."
         ),

@@ -26,17 +26,28 @@ if TYPE_CHECKING:
 
 HEAD = re.compile(rb"\A.*?^def scene\(.*?:[ \t]*$", re.DOTALL | re.MULTILINE)
 """Source of a recipe to the end of the head of its function."""
-DECLARED = re.compile(rb"^(RECORDS|RANGES|NARROWEST)\b", re.MULTILINE)
+DECLARED = re.compile(rb"^(RECORDS|RANGES|NARROWEST|SEEN|ROW)\b", re.MULTILINE)
 """Line that declares a constant of a recipe."""
+ROWS = ("a body", "its axis", "its map", "tops", "three moments")
+"""Rows of the gallery, in their order."""
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """A figure that can be made: its name, title, parameters with their defaults, and where it is written.
+    """A figure that can be made: name, title, parameters with their defaults, and the constants of the recipe's file.
 
-    `records` are the files of reports/data that it reads, as it declares them: ``RECORDS = ("bench.json",)``; `ranges`
-    are the ends of its numbers, those that all recipes share and its own: ``RANGES = {"count": (2, 24)}``; `narrowest`
-    is the width in millimetres below which the figure can't be read: ``NARROWEST = 140.0``.
+    Attributes
+    ----------
+    seen : str
+        ``SEEN = "..."``: one sentence, true for all parameters, of what is to be seen. It begins the caption.
+    row : str
+        ``ROW = "its axis"``: the row of the gallery, one of `ROWS`; empty where the file names none.
+    records : tuple of str
+        ``RECORDS = ("bench.json",)``: files of reports/data that the recipe reads.
+    ranges : dict
+        Least and greatest value of each number: those common to all recipes and ``RANGES = {"count": (2, 24)}``.
+    narrowest : float
+        ``NARROWEST = 140.0``: width in millimetres below which the figure cannot be read.
     """
 
     name: str
@@ -46,6 +57,8 @@ class Recipe:
     records: tuple[str, ...] = ()
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     narrowest: float = 0.0
+    seen: str = ""
+    row: str = ""
 
     def scene(self, **parameters: Any) -> "Scene":
         """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
@@ -69,7 +82,9 @@ class Recipe:
             raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
         if missing := [name for name in ("caption", "alt", "panels") if not getattr(scene, name)]:
             raise AtlasError(f"{_short(self.source)}: the Scene has no {' and no '.join(missing)}")
-        return replace(scene, title=scene.title or self.title, parameters=used, narrowest=self.narrowest)
+        caption = f"{self.seen} {scene.caption}".lstrip()
+        title = scene.title or self.title
+        return replace(scene, title=title, caption=caption, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:
         """Return the annotations of its parameters; its file is run for them."""
@@ -131,7 +146,10 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
     records = tuple(map(str, _declared("RECORDS", source, tree, ())))
     ranges = {**RANGES, **_declared("RANGES", source, tree, {})}
     narrowest = _declared("NARROWEST", source, tree, 0.0)
-    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges, narrowest)
+    seen, row = (_declared(constant, source, tree, "") for constant in ("SEEN", "ROW"))
+    if row not in {"", *ROWS}:
+        raise AtlasError(f"ROW in {_short(source)} is not a row of the gallery: {row!r}; take one of {', '.join(ROWS)}")
+    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges, narrowest, seen, row)
 
 
 def _tree(source: Path) -> ast.Module:
@@ -168,7 +186,13 @@ def _declared(constant: str, source: Path, tree: ast.Module, standard: Any) -> A
     return standard
 
 
-_KINDS = {"RECORDS": "tuple of names", "RANGES": "dictionary of pairs", "NARROWEST": "number"}
+_KINDS = {
+    "RECORDS": "tuple of names",
+    "RANGES": "dictionary of pairs",
+    "NARROWEST": "number",
+    "SEEN": "text",
+    "ROW": "text",
+}
 
 
 def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:

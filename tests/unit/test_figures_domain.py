@@ -220,11 +220,11 @@ def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple
         ("quadric", {"field": (0.0, 1.0)}, "All its points (heavy line) are motions"),
         ("quadric", {"field": (1.0, 0.0)}, "Parts that a plane hides are dashed. The points"),
         ("quadric", {}, "Blue is the outer"),
-        ("rosettes", {"fractions": ((4, 2),)}, "equal to $2/1$ the body is back after 1 turn of"),
+        ("rosettes", {"fractions": ((4, 2),)}, "is $2/1$, back after 1 turn of"),
         (
             "rosettes",
             {"fractions": ((3, 2), (-2, -6))},
-            "equal to $3/2$ and $1/3$ the body is back after 2 and 3 turns",
+            "is $3/2$ and $1/3$, back after 2 and 3 turns",
         ),
         ("spectrum", {"omega": (0.0, 0.0, 0.0)}, ": all at zero. (a)"),
         ("spectrum", {"field": (0.0, 1.0), "omega": (0.0, 0.0, 1.0)}, ": all at zero. (a)"),
