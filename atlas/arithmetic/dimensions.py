@@ -13,6 +13,7 @@ from atlas.errors import AtlasError
 
 RATE, TIME, MASS, LENGTH, CHARGE = "rad/s", "s", "kg", "m", "C"
 INERTIA, MOMENTUM, ENERGY = "kg m**2", "kg m**2 / s", "kg m**2 / s**2"
+DENSITY = "kg / m**3"
 SI_FIELDS = {"mu": "C/kg", "B": "T", "E": "V/m", "length": LENGTH, "velocity": "m/s"}
 NO_FIELDS = dict.fromkeys(SI_FIELDS, "")
 """Units of a charge in fields where c = 1, and where it is not: Gaussian ones are given as plain numbers."""

@@ -25,6 +25,9 @@ SPLITTER = 2.0**27 + 1
 SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
 """Bounds on the relative error of one operation."""
 
+PI_LOW = 1.2246467991473532e-16
+"""pi less its nearest double, rounded."""
+
 MAX_INPUT = 2.0**100
 """Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
 
@@ -104,7 +107,11 @@ class DoubleDouble:
             e += self.hi * other.lo
         return DoubleDouble(*_normal(p, e), rel + self.rel * other.rel + PRODUCT)
 
-    def __truediv__(self, other: "DoubleDouble") -> "DoubleDouble":
+    def __rmul__(self, factor: int) -> "DoubleDouble":
+        return DoubleDouble(np.float64(factor)) * self
+
+    def __truediv__(self, other: "DoubleDouble | int") -> "DoubleDouble":
+        other = DoubleDouble(np.float64(other)) if isinstance(other, int) else other
         if other.is_one:
             return self
         q = self.hi / other.hi
@@ -143,6 +150,11 @@ class DoubleDouble:
         if np.ndim(self.rel):
             selected.rel = np.where(self.rel < 0.5, selected.rel, np.inf)
         return selected
+
+    @property
+    def pi(self) -> "DoubleDouble":
+        """Number pi."""
+        return DoubleDouble(np.float64(np.pi), np.float64(PI_LOW), PRODUCT)
 
     @property
     def low(self) -> Any:

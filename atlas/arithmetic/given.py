@@ -64,6 +64,14 @@ class Given:
         x = self.at(())
         return int(x.p), int(x.q)
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Given):
+            return NotImplemented
+        return np.array_equal(self.hi, other.hi) and np.array_equal(self.lo, other.lo)
+
+    def __hash__(self) -> int:
+        return hash((self.hi.tobytes(), self.lo.tobytes()))
+
     def __repr__(self) -> str:
         return f"<exact numbers {self.shape}>" if self.shape else repr(Fraction(*self.as_integer_ratio()))
 

@@ -95,6 +95,11 @@ def root(x: Number) -> Number:
     return fmpq(a, b) if a * a == p and b * b == q else arb(x).sqrt()
 
 
+def pi_like(x: Number) -> Number:
+    """Return the number pi in the arithmetic of x."""
+    return arb.pi() if isinstance(x, fmpq | arb) else x.pi
+
+
 def select(x: Number, positive: Number, other: Number) -> Number:
     """Return `positive` where x is, `other` elsewhere."""
     if isinstance(x, fmpq | arb):

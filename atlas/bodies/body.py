@@ -1,47 +1,68 @@
 """Symmetric bodies: the moments of inertia I1 = I2 and I3, and the mass matrix (8) behind them."""
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from dataclasses import field as attribute
+from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
+from flint import fmpq
 
 from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
-from atlas.arithmetic.dimensions import INERTIA, LENGTH, MASS
-from atlas.arithmetic.inputs import FloatArray, common_shape, matrix, plain, real
+from atlas.arithmetic.dimensions import DENSITY, INERTIA, LENGTH, MASS
+from atlas.arithmetic.double_double import given
+from atlas.arithmetic.given import exact_number as given_number
+from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, matrix, numbers, plain
+from atlas.arithmetic.numbers import nearest
 from atlas.bodies import formula_shapes as formulas
 from atlas.bodies.formula_domain import NO_SUCH_BODY, ROD, check_ratio
 from atlas.bodies.inertia import (
     ROUNDING,
     diagonal_or_matrices,
+    exact_mass_matrix,
     inertia_from_mass_matrix,
     mass_matrix_from_inertia,
-    mass_matrix_of_points,
-    principal,
+    principal_values,
+    rational_matrix,
 )
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning
 from atlas.viewers import notebook
 
-__all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
+__all__ = [
+    "SHAPES", "SymmetricBody", "exact_moments", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia",
+    "moments",
+]  # fmt: skip
+
+Made = TypeVar("Made", bound="SymmetricBody")
+
+NEARLY_EQUAL = 1e-9
+"""Relative difference of principal values up to which a symmetric body is made of them, with a warning."""
 
 
-def moments(ratio: Any) -> tuple[Any, Any]:
-    """Return (I2, I3) of a body or of an array of bodies, or (1.0, I) for numbers I = I3/I2, (33).
+def exact_moments(ratio: Any) -> tuple[Any, Any]:
+    """Return (I2, I3) of a body or of an array of bodies, or (1.0, I) for numbers I = I3/I2, (33), without rounding.
 
-    The inputs stay exact: a body is never rounded to its quotient. Domain: 0 < I3 <= 2 I2.
-    Raises DomainError outside it, and for a thin rod (I3 = 0), whose turn about its own axis has no inertia.
+    A number that no double holds is a `Given`. A body is never rounded to its quotient. Domain: 0 < I3 <= 2 I2.
+    Raises DomainError outside the domain, and for a thin rod (I3 = 0), whose turn about its own axis has no inertia.
     """
     if isinstance(ratio, SymmetricBody):
         if not np.all(ratio.I3):
             raise DomainError(ROD)
-        return ratio.I2, ratio.I3
-    I = plain(real(ratio, "The ratio I = I3/I2"))
-    check_ratio(I)
+        return ratio.exact
+    I = as_given(numbers(ratio, "The ratio I = I3/I2"))
+    check_ratio(plain(I) if np.ndim(I) else float(I))
     return 1.0, I
 
 
+def moments(ratio: Any) -> tuple[Any, Any]:
+    """Return `exact_moments` with each moment rounded once: floats or arrays."""
+    I2, I3 = (float(x) if not np.ndim(x) else plain(x) for x in exact_moments(ratio))
+    return I2, I3
+
+
 def kept_ratio(ratio: Any, I3: Any) -> Any:
-    """Return the ratio for storage: the body, or the I3 of `moments`, never an array of the user's."""
+    """Return the ratio for storage: the body, or the I3 of its moments, never an array of the user's."""
     return ratio if isinstance(ratio, SymmetricBody) else I3
 
 
@@ -57,6 +78,11 @@ class SymmetricBody:
         Moment along the symmetry axis, 0 <= I3 <= 2 I2, in the unit of `I2`.
     axes : ndarray, shape (3, 3)
         Principal axes as rows, the symmetry axis last, in the frame of the mass matrix; by default the unit matrix.
+
+    Attributes
+    ----------
+    exact : tuple
+        Moments (I2, I3) without rounding, as motions take them: of a Fraction, or of a shape by its dimensions.
 
     Raises
     ------
@@ -78,11 +104,14 @@ class SymmetricBody:
     I2: FloatOrArray
     I3: FloatOrArray
     axes: FloatArray
+    exact: tuple[Any, Any] = attribute(init=False, repr=False)
+    """Moments (I2, I3) without rounding: floats, arrays or exact numbers."""
+    _shape: ClassVar[tuple[str, dict[str, Any]] | None] = None
 
     def __init__(self, I2: RealArrayLike, I3: RealArrayLike, axes: RealArrayLike | None = None) -> None:
-        I2, I3 = real(I2, "I2", INERTIA), real(I3, "I3", INERTIA)
-        common_shape(I2.shape, I3.shape)
-        I2, I3 = np.broadcast_arrays(I2, I3)
+        exact = numbers(I2, "I2", INERTIA), numbers(I3, "I3", INERTIA)
+        common_shape(*(x.shape for x in exact))
+        I2, I3 = np.broadcast_arrays(*map(np.asarray, exact))
         for across, along in np.stack([I2, I3], -1).reshape(-1, 2)[((I2 <= 0) | (I3 < 0) | (I3 > 2 * I2)).ravel()][:1]:
             if across <= 0:
                 says = "about an axis across it, every body has some inertia"
@@ -92,20 +121,29 @@ class SymmetricBody:
             raise DomainError(
                 f"No body has I2 = {across}, I3 = {along}: I3 is at most 2 I2 = {2 * across}, {NO_SUCH_BODY}."
             )
+        object.__setattr__(self, "exact", tuple(map(as_given, exact)))
         object.__setattr__(self, "I2", plain(I2))
         object.__setattr__(self, "I3", plain(I3))
         object.__setattr__(self, "axes", matrix(np.eye(3) if axes is None else axes, "The axes"))
 
     def __eq__(self, other: object) -> bool:
-        """Whether all moments are the same."""
+        """Whether all moments, each rounded once, are the same."""
         if not isinstance(other, SymmetricBody):
             return NotImplemented
         return np.array_equal(self.I2, other.I2) and np.array_equal(self.I3, other.I3)
 
     def __repr__(self) -> str:
-        """Return the call that makes it; its axes, where they are not those of the frame."""
+        """Return the call that makes the body, with its axes where they are not those of the frame."""
+        if self._shape:
+            name, sizes = self._shape
+            return f"{type(self).__name__}.{name}({', '.join(f'{key}={value!r}' for key, value in sizes.items())})"
         turned = f", axes={self.axes.tolist()}" * bool((self.axes != np.eye(3)).any())
-        return f"{type(self).__name__}(I2={self.I2!r}, I3={self.I3!r}{turned})"
+        I2, I3 = self.exact
+        return f"{type(self).__name__}(I2={I2!r}, I3={I3!r}{turned})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let the body be copied as the call that makes it."""
+        return (_shaped, (type(self), *self._shape)) if self._shape else (type(self), (*self.exact, self.axes))
 
     def _repr_html_(self) -> str:
         """Return the moments of the body and a small picture, for a notebook."""
@@ -150,7 +188,7 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("ring", mass, radius))
+        return _shaped(cls, "ring", {"mass": mass, "radius": radius})
 
     @classmethod
     def disk(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
@@ -175,7 +213,7 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("disk", mass, radius))
+        return _shaped(cls, "disk", {"mass": mass, "radius": radius})
 
     @classmethod
     def cylindrical_shell(cls, mass: RealArrayLike, radius: RealArrayLike, height: RealArrayLike) -> Self:
@@ -202,20 +240,29 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("cylindrical_shell", mass, radius, height))
+        return _shaped(cls, "cylindrical_shell", {"mass": mass, "radius": radius, "height": height})
 
     @classmethod
-    def solid_cylinder(cls, mass: RealArrayLike, radius: RealArrayLike, height: RealArrayLike) -> Self:
+    def solid_cylinder(
+        cls,
+        mass: RealArrayLike | None = None,
+        radius: RealArrayLike | None = None,
+        height: RealArrayLike | None = None,
+        *,
+        density: RealArrayLike | None = None,
+    ) -> Self:
         """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3).
 
         Parameters
         ----------
-        mass : float or array_like
-            Mass m > 0.
+        mass : float or array_like, optional
+            Mass m > 0; in its place the density may be given.
         radius : float or array_like
             Radius R > 0.
         height : float or array_like
             Height h.
+        density : float or array_like, optional
+            Density > 0, mass over length^3, in the place of the mass.
 
         Returns
         -------
@@ -229,7 +276,7 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("solid_cylinder", mass, radius, height))
+        return _shaped(cls, "solid_cylinder", {"mass": mass, "radius": radius, "height": height}, density)
 
     @classmethod
     def thin_rod(cls, mass: RealArrayLike, length: RealArrayLike) -> Self:
@@ -254,18 +301,26 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("thin_rod", mass, length))
+        return _shaped(cls, "thin_rod", {"mass": mass, "length": length})
 
     @classmethod
-    def sphere(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
+    def sphere(
+        cls,
+        mass: RealArrayLike | None = None,
+        radius: RealArrayLike | None = None,
+        *,
+        density: RealArrayLike | None = None,
+    ) -> Self:
         """Solid ball: I2 = I3 = 2 m R^2/5.
 
         Parameters
         ----------
-        mass : float or array_like
-            Mass m > 0.
+        mass : float or array_like, optional
+            Mass m > 0; in its place the density may be given.
         radius : float or array_like
             Radius R > 0.
+        density : float or array_like, optional
+            Density > 0, mass over length^3, in the place of the mass.
 
         Returns
         -------
@@ -279,7 +334,7 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("sphere", mass, radius))
+        return _shaped(cls, "sphere", {"mass": mass, "radius": radius}, density)
 
     @classmethod
     def spherical_shell(cls, mass: RealArrayLike, radius: RealArrayLike) -> Self:
@@ -304,20 +359,29 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("spherical_shell", mass, radius))
+        return _shaped(cls, "spherical_shell", {"mass": mass, "radius": radius})
 
     @classmethod
-    def spheroid(cls, mass: RealArrayLike, equatorial: RealArrayLike, polar: RealArrayLike) -> Self:
+    def spheroid(
+        cls,
+        mass: RealArrayLike | None = None,
+        equatorial: RealArrayLike | None = None,
+        polar: RealArrayLike | None = None,
+        *,
+        density: RealArrayLike | None = None,
+    ) -> Self:
         """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5.
 
         Parameters
         ----------
-        mass : float or array_like
-            Mass m > 0.
+        mass : float or array_like, optional
+            Mass m > 0; in its place the density may be given.
         equatorial : float or array_like
             Equatorial radius a > 0.
         polar : float or array_like
             Polar radius c.
+        density : float or array_like, optional
+            Density > 0, mass over length^3, in the place of the mass.
 
         Returns
         -------
@@ -331,10 +395,10 @@ class SymmetricBody:
         AtlasError
             For an input that is no number.
         """
-        return cls(*_of_shape("spheroid", mass, equatorial, polar))
+        return _shaped(cls, "spheroid", {"mass": mass, "equatorial": equatorial, "polar": polar}, density)
 
     @classmethod
-    def from_point_masses(cls, masses: RealArrayLike, positions: RealArrayLike, *, tolerance: float = 1e-9) -> Self:
+    def from_point_masses(cls, masses: RealArrayLike, positions: RealArrayLike, *, tolerance: float = 0.0) -> Self:
         """Body of point masses with the mass matrix (8), by `from_mass_matrix`.
 
         Parameters
@@ -344,12 +408,12 @@ class SymmetricBody:
         positions : array_like, shape (N, 3)
             Positions from any origin.
         tolerance : float
-            Relative difference up to which principal values count as equal.
+            Relative difference up to which two principal values count as equal, as for `from_mass_matrix`.
 
         Returns
         -------
         SymmetricBody
-            Body about its centre of mass.
+            Body about its centre of mass; of up to 4096 points the moments are exact.
 
         Raises
         ------
@@ -357,11 +421,16 @@ class SymmetricBody:
             If the body is not symmetric.
         AtlasError
             For arrays of other shapes, and for an entry that is no number.
+
+        Warns
+        -----
+        NearlySymmetricWarning
+            If the body is symmetric up to 1e-9 only.
         """
-        return cls.from_mass_matrix(mass_matrix_of_points(masses, positions), tolerance=tolerance)
+        return cls._of_masses(exact_mass_matrix(masses, positions), tolerance)
 
     @classmethod
-    def from_mass_matrix(cls, mass_matrix: RealArrayLike, *, tolerance: float = 1e-9) -> Self:
+    def from_mass_matrix(cls, mass_matrix: RealArrayLike, *, tolerance: float = 0.0) -> Self:
         """Body of a mass matrix (8): I2 = g1 + g3 and I3 = 2 g1, with principal values g1 = g2 and g3.
 
         Parameters
@@ -369,7 +438,7 @@ class SymmetricBody:
         mass_matrix : array_like, shape (3, 3) or (3,)
             Mass matrix, or its diagonal.
         tolerance : float
-            Difference, relative to the largest principal value, up to which two of them count as equal.
+            Difference, relative to the larger, up to which two principal values count as equal.
 
         Returns
         -------
@@ -379,40 +448,58 @@ class SymmetricBody:
         Raises
         ------
         DomainError
-            If no two principal values are equal, or one is negative beyond rounding.
+            If the closest two principal values differ by more than the tolerance and 1e-9, or one is negative beyond
+            rounding.
         AtlasError
             For an input that is no such matrix.
 
+        Warns
+        -----
+        NearlySymmetricWarning
+            If two principal values are joined that differ by more than the tolerance, but not by more than 1e-9.
+
         Notes
         -----
-        Equal principal values are replaced by their mean. A totally symmetric body keeps the axes of the matrix.
+        Principal values that are joined are replaced by their mean; equal ones stay exact. A totally symmetric body
+        keeps the axes of the matrix.
         """
         matrix, _ = diagonal_or_matrices(mass_matrix, "The mass matrix")
         if matrix.ndim > 2:
             raise AtlasError(f"A body has one mass matrix (3, 3) or diagonal (3,), not the shape {matrix.shape}.")
-        g, axes = principal(np.diag(matrix) if matrix.ndim == 1 else matrix)
-        order = np.argsort(g, kind="stable")
-        g, axes = g[order], axes[order]
-        largest = g[2]
-        if not matrix.any():
+        return cls._of_masses(rational_matrix(np.diag(matrix) if matrix.ndim == 1 else matrix), tolerance)
+
+    @classmethod
+    def _of_masses(cls, mass_matrix: list[list[fmpq]], tolerance: float) -> Self:
+        """Return the body of a mass matrix of rational numbers, see `from_mass_matrix`."""
+        values, axes = principal_values(mass_matrix)
+        order = sorted(range(3), key=values.__getitem__)
+        axes, exact = axes[order], [max(values[i], fmpq(0)) for i in order]
+        g, largest = np.array([nearest(values[i]) for i in order]), exact[2]
+        if not any(map(any, mass_matrix)):
             raise DomainError("The mass matrix is zero: all of the body is in one point, and has no rotation.")
-        if g[0] < -ROUNDING * abs(largest):
+        if g[0] < -ROUNDING * abs(g[2]):
             raise DomainError(
                 f"A mass matrix is a sum of m x x^T and so not negative, but its principal values are {g}."
             )
-        g = np.where(g < ROUNDING * largest, 0.0, g)
-        if g[2] - g[0] <= tolerance * largest:
-            moment = float(2 * g.mean())
+        if nearest((exact[2] - exact[0]) / largest) <= tolerance:
+            moment = given_number(2 * sum(exact, fmpq(0)) / 3)
             return cls(moment, moment)
-        third = 0 if g[2] - g[1] < g[1] - g[0] else 2
-        first, second = (g[1], g[2]) if third == 0 else (g[0], g[1])
-        if second - first > tolerance * largest:
-            raise DomainError(
-                f"The body is not symmetric: of its principal mass moments {g} the closest two differ by "
-                f"{(second - first) / largest:.3g} of the largest, more than the tolerance {tolerance:g}."
+        third = 0 if exact[2] - exact[1] < exact[1] - exact[0] else 2
+        first, second = (exact[1], exact[2]) if third == 0 else (exact[0], exact[1])
+        gap = nearest((second - first) / second) if second != 0 else 0.0
+        apart = f"of its principal mass moments {g} the closest two differ by {gap:.3g} of the larger"
+        if gap > max(tolerance, NEARLY_EQUAL):
+            most = max(tolerance, NEARLY_EQUAL)
+            raise DomainError(f"The body is not symmetric: {apart}, more than the tolerance {most:g}.")
+        if gap > tolerance:
+            warnings.warn(
+                f"The body is nearly symmetric: {apart}, and are joined; say tolerance={NEARLY_EQUAL:g} if they are "
+                "meant to be equal, else give the inertia tensor to atlas.motion.",
+                NearlySymmetricWarning,
+                stacklevel=3,
             )
-        across = float((first + second) / 2)
-        return cls(across + float(g[third]), 2 * across, _frame(axes[third]))
+        across = (first + second) / 2
+        return cls(given_number(across + exact[third]), given_number(2 * across), _frame(axes[third]))
 
 
 SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
@@ -422,8 +509,9 @@ SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
 
 
 def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
-    """Make the body `SHAPES[name]` from its dimensions, all of them and no others."""
-    formulas.check_shape(name, dimensions)
+    """Return the body of `SHAPES[name]` with these dimensions; of a solid shape the density may replace the mass."""
+    heavy = "density" if name in formulas.VOLUMES and "density" in dimensions else "mass"
+    formulas.check_shape(name, ["mass" if key == heavy else key for key in dimensions])
     return SHAPES[name][0](**dimensions)
 
 
@@ -431,18 +519,41 @@ WORDS = {"equatorial": "equatorial radius", "polar": "polar radius"}
 """Dimensions whose names are other words."""
 
 
-def _of_shape(name: str, *given: Any) -> Any:
-    """Return I2 and I3 of a shape of these sizes, numbers or arrays. Raises AtlasError unless they are positive."""
+def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density: Any = None) -> Made:
+    """Return the body of a shape of these sizes, numbers or arrays, with the mass of a density if one is given.
+
+    The moments are exact, with a density in 256 digits, since its volume has the factor pi.
+
+    Raises DomainError for a size that is not positive, AtlasError for a mass or size that is missing.
+    """
     names, formula = formulas.SHAPES[name]
     named = {key: f"The {WORDS.get(key, key)}" for key in names}
-    sizes = [real(x, named[key], MASS if key == "mass" else LENGTH) for key, x in zip(names, given, strict=True)]
-    for key, value in zip(names, sizes, strict=True):
-        for impossible in value[(value < 0) if key in formulas.FLAT else (value <= 0)].flat[:1]:
-            raise DomainError(f"{named[key]} must be positive, not {impossible}.")
-    common_shape(*(value.shape for value in sizes))
-    m, *lengths = map(plain, sizes)
-    with np.errstate(over="ignore"):  # what is too large is refused as a moment
-        return formula(m, *(x * x for x in lengths))
+    missing = [key for key in names if given_sizes[key] is None and not (key == "mass" and density is not None)]
+    if missing or (density is not None and given_sizes["mass"] is not None):
+        needs = f"needs {' and '.join(missing)}" if missing else "takes a mass or a density, not both"
+        raise AtlasError(f"SymmetricBody.{name} {needs}.")
+    sizes = {
+        key: numbers(x, named[key], MASS if key == "mass" else LENGTH)
+        for key, x in given_sizes.items()
+        if x is not None
+    }
+    if density is not None:
+        sizes = {"density": numbers(density, "The density", DENSITY)} | sizes
+    for key, value in sizes.items():
+        array = np.asarray(value)
+        for impossible in array[(array < 0) if key in formulas.FLAT else (array <= 0)].flat[:1]:
+            raise DomainError(f"{named.get(key, 'The density')} must be positive, not {impossible}.")
+    common_shape(*(np.shape(value) for value in sizes.values()))
+    order = ("density" if key == "mass" and density is not None else key for key in names)
+
+    def exact(first: Any, *lengths: Any) -> tuple[Any, Any]:
+        mass = first if density is None else first * formulas.VOLUMES[name](*lengths)
+        return formula(mass, *(x * x for x in lengths))
+
+    I2, I3 = given(exact, *(sizes[key] for key in order), unit=slice(1), count=2)
+    body = kind(I2, I3)
+    object.__setattr__(body, "_shape", (name, {key: as_given(value) for key, value in sizes.items()}))
+    return body
 
 
 def _frame(axis: FloatArray) -> FloatArray:

@@ -25,7 +25,8 @@ def ratio_of(ratio: Any) -> fmpq:
     if hasattr(ratio, "I2") and hasattr(ratio, "I3"):
         if ratio.I3 == 0:
             raise DomainError(ROD)
-        I = rational(ratio.I3, "I3") / rational(ratio.I2, "I2")
+        I2, I3 = getattr(ratio, "exact", (ratio.I2, ratio.I3))
+        I = rational(I3, "I3") / rational(I2, "I2")
     else:
         I = rational(ratio, "the ratio I = I3/I2")
     check_ratio(I)

@@ -3,11 +3,12 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from atlas.arithmetic.numbers import pi_like
 from atlas.errors import AtlasError
 
 SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[Any, Any]]]] = {
-    "ring": (("mass", "radius"), lambda m, R2: (m * R2 / 2, m * R2 / 2 * 2)),
-    "disk": (("mass", "radius"), lambda m, R2: (m * R2 / 4, m * R2 / 4 * 2)),
+    "ring": (("mass", "radius"), lambda m, R2: (m * R2 / 2, m * R2)),
+    "disk": (("mass", "radius"), lambda m, R2: (m * R2 / 4, m * R2 / 2)),
     "cylindrical_shell": (("mass", "radius", "height"), lambda m, R2, h2: (m * (R2 / 2 + h2 / 12), m * R2)),
     "solid_cylinder": (("mass", "radius", "height"), lambda m, R2, h2: (m * (R2 / 4 + h2 / 12), m * (R2 / 2))),
     "thin_rod": (("mass", "length"), lambda m, l2: (m * l2 / 12, 0 * m)),
@@ -15,7 +16,14 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[Any, Any]]]] = {
     "spherical_shell": (("mass", "radius"), lambda m, R2: (2 * m * R2 / 3, 2 * m * R2 / 3)),
     "spheroid": (("mass", "equatorial", "polar"), lambda m, a2, c2: (m * (a2 / 5 + c2 / 5), 2 * m * (a2 / 5))),
 }
-"""Shapes by name: their dimensions and their two moments, I3 = 2 I2 to the last bit where they are plane."""
+"""Dimensions and moments (I2, I3) of shapes by name, of the mass and the squares of the lengths."""
+
+VOLUMES: Mapping[str, Callable[..., Any]] = {
+    "solid_cylinder": lambda R, h: pi_like(R) * (R * R * h),
+    "sphere": lambda R: 4 * pi_like(R) * (R * R * R) / 3,
+    "spheroid": lambda a, c: 4 * pi_like(a) * (a * a * c) / 3,
+}
+"""Volumes of the solid shapes by name, of their lengths."""
 
 FLAT = ("height", "polar")
 """Dimensions that may be zero."""

@@ -3,9 +3,12 @@
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from atlas.arithmetic.dimensions import LENGTH, MASS
-from atlas.arithmetic.inputs import FloatArray, real
+from atlas.arithmetic.inputs import FloatArray, finite, real
+from atlas.arithmetic.numbers import as_rational, nearest, workprec
+from atlas.bodies.certified_inertia import principal_axes
 from atlas.errors import AtlasError, DomainError
 
 ROUNDING = 16 * float(np.finfo(float).eps)
@@ -50,34 +53,29 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
     `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
     """
+    return np.array([[nearest(x) for x in row] for row in exact_mass_matrix(masses, positions)])
+
+
+def exact_mass_matrix(masses: Any, positions: Any) -> list[list[fmpq]]:
+    """Return the matrix of `mass_matrix_of_points` from sums of rational numbers; in doubles of very many points."""
     m, x = real(masses, "The masses", MASS), real(positions, "The positions", LENGTH)
     if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
         raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
     if m.min() <= 0:
         raise DomainError(f"Every mass must be positive, but one is {m.min()}.")
-    if m.size <= MAX_EXACT_POINTS:
-        return real(_exact_mass_matrix(m.tolist(), x.T.tolist()), "The mass matrix")
-    with np.errstate(over="ignore", invalid="ignore"):
-        x = x - (m @ x) / m.sum()
-        return real((m[:, None] * x).T @ x, "The mass matrix")
-
-
-def _exact_mass_matrix(m: list[float], columns: list[list[float]]) -> list[list[float]]:
-    """Return the mass matrix from sums of rational numbers, each element rounded once."""
-    from flint import fmpq
-
-    from atlas.arithmetic.numbers import nearest
-
-    masses, x, y, z = ([fmpq(*value.as_integer_ratio()) for value in column] for column in (m, *columns))
-    whole, moved = sum(masses, fmpq(0)), [[a * b for a, b in zip(masses, v, strict=True)] for v in (x, y, z)]
+    if m.size > MAX_EXACT_POINTS:
+        with np.errstate(over="ignore", invalid="ignore"):
+            x = x - (m @ x) / m.sum()
+            return rational_matrix(real((m[:, None] * x).T @ x, "The mass matrix"))
+    exact = [[fmpq(*value.as_integer_ratio()) for value in column] for column in (m.tolist(), *x.T.tolist())]
+    whole, moved = sum(exact[0], fmpq(0)), [[a * b for a, b in zip(exact[0], v, strict=True)] for v in exact[1:]]
     first = [sum(v, fmpq(0)) for v in moved]
-    return [
-        [
-            nearest(sum((a * b for a, b in zip(v, w, strict=True)), -p * q / whole))
-            for w, q in zip((x, y, z), first, strict=True)
-        ]
+    matrix = [
+        [sum((a * b for a, b in zip(v, w, strict=True)), -p * q / whole) for w, q in zip(exact[1:], first, strict=True)]
         for v, p in zip(moved, first, strict=True)
     ]
+    finite(np.array([nearest(x) for row in matrix for x in row]), "The mass matrix")
+    return matrix
 
 
 def inertia_tensor(inertia: Any) -> FloatArray:
@@ -110,16 +108,22 @@ def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
     rounded once, so that small values are as accurate as large ones. Values of a diagonal stay in their order; others
     ascend.
     """
-    from flint import fmpq
+    values, axes = principal_values(rational_matrix(matrix))
+    return np.array([*map(nearest, values)]), axes
 
-    from atlas.arithmetic.numbers import nearest, workprec
-    from atlas.bodies.certified_inertia import principal_axes
 
-    if not (matrix * (1 - np.eye(3))).any():
-        return np.diagonal(matrix).copy(), np.eye(3)
+def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], FloatArray]:
+    """Return the principal values of `principal` to `PRECISION` bits, equal ones equal, and the axes, rounded once."""
+    if not any(matrix[i][j] for i in range(3) for j in range(3) if i != j):
+        return [matrix[i][i] for i in range(3)], np.eye(3)
     with workprec(PRECISION):
-        values, axes = principal_axes([[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()])
-        return np.array([*map(nearest, values)]), np.array([[nearest(x) for x in axis] for axis in axes])
+        values, axes = principal_axes(matrix)
+        return [*map(as_rational, values)], np.array([[nearest(x) for x in axis] for axis in axes])
+
+
+def rational_matrix(matrix: FloatArray) -> list[list[fmpq]]:
+    """Return the elements of a matrix as the rational numbers that they are."""
+    return [[fmpq(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
 
 
 def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:

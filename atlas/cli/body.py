@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from math import hypot, pi
+from math import hypot
 from typing import Any, TypeVar
 
 import click
 
 from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
 from atlas.cli.options import FILE, given, numbers, stack
-from atlas.cli.points import oblique_tensor, point_masses, points, principal_moments, ratio_of_points
+from atlas.cli.points import exact_inertia, oblique_tensor, point_masses, points, principal_moments, ratio_of_points
 from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured
 from atlas.errors import nearest
 from atlas.measured import RATE, WANTED
@@ -136,7 +136,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     if options["ratio"] is not None:
         return options["ratio"]
     if options["shape"] is not None:
-        return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options))
+        return _of_shape(options["shape"].replace("_", "-"), sizes, mass_of(options), options.get("density"))
     if options["points"] is not None:
         return points(options["points"])
     from atlas.bodies.body import SymmetricBody
@@ -144,7 +144,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     return SymmetricBody(*options["inertia"])
 
 
-def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any:
+def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Any, density: Typed | None) -> Any:
     """Return the body of a shape with the dimensions that were typed; its mass is 1 where none was."""
     from atlas.bodies.body import from_shape
 
@@ -160,10 +160,11 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any
     for name, size in sizes.items():
         if size and not 1e-150 < abs(size) < 1e150:
             raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
-    return from_shape(shape.replace("-", "_"), mass=1.0 if mass is None else mass, **sizes)
+    heavy = {"mass": 1.0 if mass is None else mass} if density is None else {"density": density}
+    return from_shape(shape.replace("-", "_"), **heavy, **sizes)
 
 
-def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
+def chosen_moments(options: Mapping[str, Any]) -> tuple[Any, ...]:
     """Return the principal moments of --inertia I1 I2 I3, of --points, or of a symmetric body about e3.
 
     Raises click.UsageError unless one of them is given, and for points whose axes x, y, z are not principal.
@@ -174,7 +175,8 @@ def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
     if option == "points":
         return principal_moments(options["points"])
     body = chosen_body(options)
-    return (1.0, 1.0, body) if option == "ratio" else body.inertia
+    I2, I3 = (1.0, body) if option == "ratio" else body.exact
+    return I2, I2, I3
 
 
 def given_tensor(options: Mapping[str, Any]) -> Any:
@@ -195,7 +197,7 @@ def exact_tensor(options: dict[str, Any]) -> Any:
         raise click.UsageError("--decimal goes with --tensor, not with --points.")
     if options["tensor"] is not None:
         return exactly(options["tensor"], options)
-    return [float(tensor[i][j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    return exact_inertia(options["points"])
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
@@ -244,17 +246,20 @@ def exact_body(options: dict[str, Any]) -> Any:
 
 
 def mass_of(options: Mapping[str, Any]) -> Any:
-    """Return the mass of a shape, given or by its density, None where neither is said."""
+    """Return the mass of a shape, as given or by the density, with pi in 512 digits; None where neither is said."""
     if options.get("density") is None:
         return options.get("mass")
-    shape, sizes = str(options["shape"]).replace("_", "-"), {name: options[name] for name in SIZES}
-    r, h, a, c = (float(sizes[name] or 0) for name in ("radius", "height", "equatorial", "polar"))
-    volume = {"sphere": 4 / 3 * pi * r**3, "solid-cylinder": pi * r * r * h, "spheroid": 4 / 3 * pi * a * a * c}
-    if options.get("mass") is not None or not volume.get(shape):
-        raise click.UsageError(
-            f"--density is of a solid --shape, {', '.join(volume)}, with its sizes and without --mass."
-        )
-    return options["density"] * volume[shape]
+    from atlas.arithmetic.numbers import as_rational, rational, workprec
+    from atlas.bodies.formula_shapes import SHAPES, VOLUMES
+
+    shape = str(options["shape"]).replace("-", "_")
+    lengths = [options[name] for name in SHAPES[shape][0][1:]] if shape in VOLUMES else []
+    if options.get("mass") is not None or not all(lengths) or not lengths:
+        solids = ", ".join(VOLUMES).replace("_", "-")
+        raise click.UsageError(f"--density is of a solid --shape, {solids}, with its sizes and without --mass.")
+    with workprec(512):
+        mass = as_rational(rational(options["density"]) * VOLUMES[shape](*map(rational, lengths)))
+    return Fraction(int(mass.p), int(mass.q))
 
 
 def system_of(options: Mapping[str, Any]) -> str:
@@ -307,7 +312,7 @@ def exact_charge_to_mass(options: dict[str, Any], needs: str = "--magnetic") -> 
     return rational(charge, "the charge") / rational(mass, "the mass")
 
 
-def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float, float]:
+def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fraction, float | Fraction]:
     """Return a charge and a mass as they were typed; the charge-to-mass ratio and 1 where that is given."""
     mass = mass_of(options)
     both = [f"--{name}" for name, value in (("mass", mass), ("charge", options["charge"])) if value is not None]
@@ -346,7 +351,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
 
     typed, (charge, mass) = options["magnetic"], _charge_and_mass(options, "--magnetic")
     charge_to_mass_of(options)  # says what is wrong with it
-    mu = Fraction(float(charge)) / Fraction(float(mass))
+    mu = Fraction(charge) / Fraction(mass)
     return Field((0.0,) * (3 - len(typed)) + typed, mu=mu, c=speed_of_light(options)).exact[3 - len(typed) :]
 
 

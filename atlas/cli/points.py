@@ -24,12 +24,16 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 
 
 class Masses(NamedTuple):
-    """Point masses, their places (N, 3) and mass matrix (3, 3) about their centre, and charges, if the file has any."""
+    """Point masses, their places (N, 3) and mass matrix (3, 3) about their centre, and charges, if the file has any.
+
+    `exact` is the mass matrix in rational numbers.
+    """
 
     masses: Any
     places: Any
     matrix: Any
     charges: Any | None
+    exact: Any
 
     @property
     def inertia(self) -> Any:
@@ -43,7 +47,8 @@ def point_masses(path: Path) -> Masses:
     """Read point masses, and charges if there are any. Raises click.UsageError for a file that has no such columns."""
     import numpy as np
 
-    from atlas.bodies.inertia import mass_matrix_of_points
+    from atlas.arithmetic.numbers import nearest
+    from atlas.bodies.inertia import exact_mass_matrix
 
     columns = columns_of(path)
     if not {"x", "y", "z", "mass"} <= set(columns) <= {"x", "y", "z", "mass", "charge"}:
@@ -51,18 +56,17 @@ def point_masses(path: Path) -> Masses:
                                f"{', '.join(columns)}.")  # fmt: skip
     m = np.array(columns["mass"])
     x = np.transpose([columns[name] for name in "xyz"])
-    return Masses(
-        m,
-        x - m @ x / m.sum(),
-        mass_matrix_of_points(m, x),
-        np.array(columns["charge"]) if "charge" in columns else None,
-    )
+    exact = exact_mass_matrix(m, x)
+    matrix = np.array([[nearest(value) for value in row] for row in exact])
+    charges = np.array(columns["charge"]) if "charge" in columns else None
+    return Masses(m, x - m @ x / m.sum(), matrix, charges, exact)
 
 
 def points(path: Path) -> Any:
     """Return the body of point masses that are symmetric about the axis z. Raises click.UsageError for others."""
     import numpy as np
 
+    from atlas.arithmetic.given import exact_number
     from atlas.bodies.body import SymmetricBody
 
     read = point_masses(path)
@@ -83,8 +87,8 @@ def points(path: Path) -> Any:
         off = max(abs(g[0, 0] - g[1, 1]), np.abs(np.triu(g, 1)).max()) / largest
         joined = f"{path}: a body symmetric about z is taken, off by {off:.1g} of the largest moment."
         warnings.warn(joined, NearlySymmetricWarning, stacklevel=2)
-    across = (g[0, 0] + g[1, 1]) / 2
-    return SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
+    (a, *_), (_, b, _), (*_, c) = read.exact
+    return SymmetricBody(exact_number((a + b) / 2 + c), exact_number(a + b))
 
 
 def oblique_tensor(path: Path) -> Any:
@@ -95,11 +99,20 @@ def oblique_tensor(path: Path) -> Any:
     return inertia if np.triu(inertia, 1).any() else None
 
 
-def principal_moments(path: Path) -> tuple[float, float, float]:
+def exact_inertia(path: Path) -> list[Any]:
+    """Read the inertia tensor I11 I22 I33 I12 I13 I23 of points as rational numbers."""
+    (a, d, e), (_, b, f), (*_, c) = point_masses(path).exact
+    return [b + c, a + c, a + b, -d, -e, -f]
+
+
+def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
     """Read the moments of points. Raises click.UsageError where x, y, z are not principal axes, and says which are."""
     import numpy as np
 
-    inertia = point_masses(path).inertia
+    from atlas.arithmetic.given import as_float_or_fraction
+
+    read = point_masses(path)
+    inertia = read.inertia
     if np.triu(inertia, 1).any():
         moments, axes = np.linalg.eigh(inertia)
         axes *= np.linalg.det(axes)  # right-handed
@@ -109,10 +122,11 @@ def principal_moments(path: Path) -> tuple[float, float, float]:
             f"{inertia[1, 2]:.3g}; those are along {shown}, with the moments "
             f"{', '.join(f'{x:.10g}' for x in moments)}: give the points in them, and the field and omega too."
         )
-    return float(inertia[0, 0]), float(inertia[1, 1]), float(inertia[2, 2])
+    (a, *_), (_, b, _), (*_, c) = read.exact
+    return tuple(map(as_float_or_fraction, (b + c, a + c, a + b)))
 
 
-def ratio_of_points(path: Path) -> float:
+def ratio_of_points(path: Path) -> Fraction:
     """Return the charge-to-mass ratio of points. Raises click.UsageError where they have no charges, or several."""
     read = point_masses(path)
     if read.charges is None:
@@ -120,17 +134,16 @@ def ratio_of_points(path: Path) -> float:
     return _one_ratio(path, read.masses, read.charges)
 
 
-def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
-    """Return the charge-to-mass ratio of all points. Raises click.UsageError where they have different ones."""
-    from atlas.bodies.units import charge_to_mass
-
+def _one_ratio(path: Path, masses: Any, charges: Any) -> Fraction:
+    """Return charge over mass of all points, exactly. Raises click.UsageError where points have different ratios."""
     ratios = charges / masses
     if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():
         raise click.UsageError(
             f"{path}: charge/mass must be the same for all points, but goes from {ratios.min():.6g} to "
             f"{ratios.max():.6g}; other charges are those of atlas.TopMotion.charged."
         )
-    return charge_to_mass(float(charges.sum()), float(masses.sum()))
+    charge, mass = (sum(map(Fraction, x.tolist())) for x in (charges, masses))
+    return Fraction(charge) / mass
 
 
 def columns_of(path: Path) -> dict[str, list[float]]:

@@ -160,7 +160,7 @@ def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
 
 
 ROUNDED = {
-    "points": "what follows from the points", "density": "a mass by its density",
+    "points": "sums over more than 4096 points",
     **dict.fromkeys(("heavy", "charged", "coat"), "the moments and couplings of the top"),
 }  # fmt: skip
 """Words for the quantities that are computed in doubles from an option before certification, by its name."""

@@ -31,11 +31,15 @@ ORTHOGONAL = 1e-9
 
 
 class Body(NamedTuple):
-    """Principal moments (..., 3), axes as rows (..., 3, 3) in the given ones, and the inertia tensor (..., 3, 3)."""
+    """Principal moments (..., 3), axes as rows (..., 3, 3) in the given ones, and the inertia tensor (..., 3, 3).
+
+    `exact` is a body, or a ratio, with the moments along the first and the last axis without rounding, or None.
+    """
 
     moments: FloatArray
     axes: FloatArray
     tensor: FloatArray
+    exact: Any = None
 
 
 class Start:
@@ -74,6 +78,8 @@ class Start:
     def symmetric(self) -> tuple[Any, FloatArray, list[Any], list[Any]]:
         """Body with two equal moments, or its ratio; axes with that of symmetry last; field and velocity along them."""
         I = self.body.moments
+        if self.body.exact is not None:
+            return self.body.exact, np.broadcast_to(self.body.axes, (*I.shape, 3)), *self.along(self.body.axes)
         third = np.where(I[..., 0] == I[..., 1], 2, np.where(I[..., 1] == I[..., 2], 0, 1))
         order = (third[..., None] + np.array([1, 2, 3])) % 3
         axes = np.take_along_axis(np.broadcast_to(self.body.axes, (*I.shape, 3)), order[..., None], axis=-2)
@@ -142,10 +148,12 @@ def body_of(inertia: Any) -> Body:
     """Return the `Body` of a ratio, of moments or of a tensor. Raises DomainError for values that no body has."""
     if isinstance(inertia, SymmetricBody):
         I2, I3 = moments(inertia)
-        return of_moments((I2, I2, I3), inertia.axes)
+        return of_moments((I2, I2, I3), inertia.axes)._replace(exact=inertia)
     if isinstance(inertia, tuple) and len(inertia) == 3 and not any(isinstance(x, tuple | list) for x in inertia):
         return of_moments(components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
     is_ratio = not getattr(inertia, "ndim", isinstance(inertia, tuple | list))
+    if isinstance(inertia, Fraction):
+        return of_moments((1.0, 1.0, moments(inertia)[1]), np.eye(3))._replace(exact=inertia)
     inertia_matrix = real(inertia, "The inertia", "" if is_ratio else INERTIA)
     if inertia_matrix.shape == (3,):
         return of_moments(inertia_matrix, np.eye(3))
@@ -186,11 +194,15 @@ def _hint_at_symmetry(I: FloatArray, axes: FloatArray) -> None:
 
 def of_moments(moments: Any, axes: FloatArray) -> Body:
     """Return the body of principal moments along axes. Raises DomainError for moments that no body has."""
-    rows = _stacked([real(x, "A moment of inertia") for x in moments])
+    rows, exact = _stacked([real(x, "A moment of inertia") for x in moments]), None
+    if rows.ndim == 1 and any(isinstance(x, Given) for x in moments):
+        for third in [i for i in range(3) if moments[i - 2] == moments[i - 1]][:1]:
+            order = [third - 2, third - 1, third]
+            exact, rows, axes = SymmetricBody(moments[third - 1], moments[third]), rows[order], axes[order]
     for row in dict.fromkeys(map(tuple, rows.reshape(-1, 3).tolist())):
         inertia_tensor(row)
     tensor = np.swapaxes(axes, -1, -2) @ (rows[..., None] * axes)
-    return Body(rows, axes, tensor)
+    return Body(rows, axes, tensor, exact)
 
 
 def parts(v: FloatArray) -> tuple[Any, Any, Any]:

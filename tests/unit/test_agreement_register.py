@@ -53,6 +53,8 @@ UNTIED = {
     "SymmetricBody.inertia": GIVEN,
     "SymmetricBody.from_point_masses": GIVEN,
     "SymmetricBody.from_mass_matrix": GIVEN,
+    "SymmetricBody.exact": GIVEN,
+    "body.exact_moments": GIVEN,
     "Field.pair": "two components of Field.prime, which is tied",
     **{
         f"SymmetricBody.{shape}": "a moment of inertia from a textbook, not in the ledger"
@@ -156,6 +158,9 @@ UNTIED = {
     "body.ratio_of": GIVEN,
     "body.from_shape": GIVEN,
     "inertia.inertia_tensor": GIVEN,
+    "inertia.exact_mass_matrix": GIVEN,
+    "inertia.principal_values": GIVEN,
+    "inertia.rational_matrix": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
     "units.system": NAME,
 }

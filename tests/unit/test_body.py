@@ -78,7 +78,7 @@ def test_a_shape_has_the_moments_of_the_points_it_is_made_of(
     name: str, dimensions: dict[str, float], rings: list[Ring]
 ) -> None:
     """The formula of each shape agrees with (8) on points that fill it."""
-    shape, cloud = from_shape(name, **dimensions), SymmetricBody.from_point_masses(*points(rings))
+    shape, cloud = from_shape(name, **dimensions), SymmetricBody.from_point_masses(*points(rings), tolerance=1e-9)
     assert abs(cloud.I2 - shape.I2) < 16 * EPS * shape.I2
     assert abs(cloud.I3 - shape.I3) <= 16 * EPS * shape.I3
 
@@ -92,7 +92,7 @@ def test_every_shape_is_cut_into_rings_here() -> None:
 def test_the_registry_names_the_parameters_of_the_constructor(name: str) -> None:
     """What the command line asks for is what the constructor takes."""
     constructor, names = SHAPES[name]
-    assert tuple(inspect.signature(constructor).parameters) == names
+    assert tuple(x for x in inspect.signature(constructor).parameters if x != "density") == names
     assert constructor == getattr(SymmetricBody, name)
 
 
@@ -122,8 +122,8 @@ def test_a_turned_body_is_found_with_its_axis(seed: int) -> None:
     rng = np.random.default_rng(seed)
     masses, positions = points([(rng.uniform(0.5, 2), z, rng.uniform(0.5, 2)) for z in rng.normal(size=3)], 7)
     turn = Rotation.random(rng=rng).as_matrix()
-    still = SymmetricBody.from_point_masses(masses, positions)
-    turned = SymmetricBody.from_point_masses(masses, positions @ turn.T + rng.normal(size=3))
+    still = SymmetricBody.from_point_masses(masses, positions, tolerance=1e-9)
+    turned = SymmetricBody.from_point_masses(masses, positions @ turn.T + rng.normal(size=3), tolerance=1e-9)
     size = max(still.I2, still.I3)
     assert abs(still.I2 - turned.I2) < 100 * EPS * size
     assert abs(still.I3 - turned.I3) < 100 * EPS * size
@@ -139,7 +139,7 @@ def test_a_plane_body_never_exceeds_two(seed: int) -> None:
     rng = np.random.default_rng(seed)
     turn = Rotation.random(rng=rng).as_matrix()
     masses, positions = points([(1.0, 0.0, 1.0), (2.0, 0.0, 0.3)])
-    ratio = SymmetricBody.from_point_masses(masses, positions @ turn.T).ratio
+    ratio = SymmetricBody.from_point_masses(masses, positions @ turn.T, tolerance=1e-9).ratio
     assert 2 - 4 * EPS <= ratio <= 2
     rod = SymmetricBody.from_point_masses([1, 2, 1], np.outer([-1, 0, 1], turn[0]))
     assert rod.I3 == 0

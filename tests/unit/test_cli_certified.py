@@ -138,8 +138,7 @@ def test_numbers_that_are_rounded_from_what_was_typed_are_said_to_be(tmp_path: P
         ("--ratio 1.5 --field 2 --angle 1", "a field at an angle"),
         ("--ratio 1.5 --magnetic 2 --mu 1 --angle 30deg", "a field at an angle"),
         ("--ratio 1.5 --field 1Hz 2Hz", "numbers in turns or degrees"),
-        (f"--points {tmp_path / 'ring.csv'} --field 1 2", "what follows from the points"),
-        ("--shape sphere --radius 1 --density 2 --charge 1 --magnetic 1 2", "a mass by its density"),
+        (f"--points {tmp_path / 'ring.csv'} --field 1 2", "sums over more than 4096 points"),
     ):
         whole = f"the doubles nearest to what was typed, and, rounded to doubles, {says}"
         assert answer(f"{start} {words}")["inputs"] == whole

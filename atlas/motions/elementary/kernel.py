@@ -28,7 +28,7 @@ from atlas.arithmetic.numbers import direction, nearest, workprec
 from atlas.arithmetic.rotation import DoubleRotation
 from atlas.arithmetic.rotation_rows import Group
 from atlas.arithmetic.words import ZERO, exact, floats
-from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.body import exact_moments, kept_ratio, moments
 from atlas.bodies.formula_domain import CASES, FREE_CASES, case_of, check_omega3
 from atlas.bodies.formula_integrals import NAMES
 from atlas.bodies.integrals import integrals, shape_factors
@@ -112,15 +112,15 @@ class ElementaryMotion(DoubleTurn[Elementary]):
                 f"omega2 is one number, or an array of them, but {tuple(omega2)} reads as a vector: "
                 "GeneralMotion(ratio, field, omega) takes all three components; for three motions write np.array."
             )
-        I2, I3 = moments(ratio)
-        self.ratio = kept_ratio(ratio, I3)
+        I2, I3 = exact_moments(ratio)
+        self.ratio = kept_ratio(ratio, plain(I3))
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         omega2 = numbers(omega2, "omega2", RATE)
         given_omega3 = np.array(None) if omega3 is None else numbers(omega3, "omega3", RATE)
         super().__init__(Elementary, I2, I3, B2, B3, omega2, given_omega3)
         self.field = (plain(B2), plain(B3))
         self.arguments = {
-            "ratio": self.ratio, "field": (as_given(B2), as_given(B3)), "omega2": as_given(omega2),
+            "ratio": kept_ratio(ratio, I3), "field": (as_given(B2), as_given(B3)), "omega2": as_given(omega2),
             "omega3": None if omega3 is None else as_given(given_omega3),
         }  # fmt: skip
         if not self.shape:
@@ -250,7 +250,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         if start.shape or not start.has_field:
             return None
         K1, K2, K3, w1, w2, w3 = exactly(*K, *w)
-        if w1 * K2 != w2 * K1 or not standing(*moments(body), K1, K2, K3, w1, w2, w3).exact.is_steady:
+        if w1 * K2 != w2 * K1 or not standing(*exact_moments(body), K1, K2, K3, w1, w2, w3).exact.is_steady:
             return None
         size, turn = across(K1, K2)
         square = K1 * K1 + K2 * K2
@@ -432,10 +432,10 @@ class FreeMotion(DoubleTurn[Free]):
 
     def __init__(self, ratio: BodyLike, omega: RealArrayLike) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
-        I2, I3 = moments(ratio)
+        I2, I3 = exact_moments(ratio)
         super().__init__(Free, I2, I3, *omega)
-        self.ratio, self.omega = kept_ratio(ratio, I3), tuple(map(plain, omega))
-        self.arguments = {"ratio": self.ratio, "omega": tuple(map(as_given, omega))}
+        self.ratio, self.omega = kept_ratio(ratio, plain(I3)), tuple(map(plain, omega))
+        self.arguments = {"ratio": kept_ratio(ratio, I3), "omega": tuple(map(as_given, omega))}
 
     @kept
     def k(self) -> FloatOrArray:

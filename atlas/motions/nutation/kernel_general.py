@@ -9,7 +9,7 @@ from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain
 from atlas.arithmetic.numbers import nearest, workprec
-from atlas.bodies.body import kept_ratio, moments
+from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.bodies.certified_body import Moments
 from atlas.bodies.formula_integrals import NAMES, constants
 from atlas.bodies.integrals import integrals, shape_factors
@@ -79,14 +79,14 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
     _in_arrays, _kinds = (*IN_ARRAYS, "roots"), KINDS
 
     def __init__(self, ratio: BodyLike, field: FieldLike, omega: RealArrayLike) -> None:
-        I2, I3 = moments(ratio)
-        self.ratio = kept_ratio(ratio, I3)
+        I2, I3 = exact_moments(ratio)
+        self.ratio = kept_ratio(ratio, plain(I3))
         B = field_components(field)
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         super().__init__(standing, I2, I3, *[0.0] * (3 - len(B)), *B, *omega)
         self.field, self.omega = tuple(map(plain, B)), tuple(map(plain, omega))
         self.arguments = {
-            "ratio": self.ratio, "field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega)),
+            "ratio": kept_ratio(ratio, I3), "field": tuple(map(as_given, B)), "omega": tuple(map(as_given, omega)),
         }  # fmt: skip
 
     @classmethod

@@ -1,0 +1,121 @@
+"""Bodies, points and ratios enter a motion as they are given: nothing is rounded or joined on the way."""
+
+import copy
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import atlas
+from atlas import SymmetricBody
+from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.numbers import nearest, workprec
+from atlas.bodies.certified_body import shape_moments
+from atlas.cli.app import atlas as command
+from atlas.errors import DomainError, NearlySymmetricWarning
+from atlas.motions.nutation.certified_general import GeneralMotion as Certified
+
+FIELD, OMEGA = (1.0, 2.0), (0.3, 0.7, 0.2)
+LONG = 1e10
+SIZES = {"mass": 0.3, "radius": 0.7, "height": 1.1}
+
+
+def json_of(words: str) -> dict[str, Any]:
+    """Return the JSON that a command prints."""
+    found: dict[str, Any] = json.loads(CliRunner().invoke(command, words.split(), catch_exceptions=False).stdout)
+    return found
+
+
+def entries(words: str) -> tuple[FloatArray, FloatArray]:
+    """Return R at a late time in doubles and by proven digits."""
+    found = []
+    for digits in ("", " --digits 17"):
+        (sample,) = json_of(f"{words} --times {LONG:g} --json{digits}")["samples"]
+        found.append(np.array(sample["R"], dtype=float))
+    return found[0], found[1]
+
+
+@pytest.mark.parametrize("shape", [SIZES, {**SIZES, "radius": 0.3, "height": 0.7}])
+def test_a_shape_moves_as_its_dimensions_say(shape: dict[str, float]) -> None:
+    """The motion of a cylinder is that of the exact quotient of its moments, at late times too."""
+    I2, I3 = shape_moments("solid_cylinder", **shape)
+    exact = Certified(I3 / I2, FIELD, OMEGA)
+    motion = atlas.GeneralMotion(SymmetricBody.solid_cylinder(**shape), FIELD, OMEGA)
+    several = atlas.GeneralMotion(
+        SymmetricBody.solid_cylinder(np.full(3, shape["mass"]), shape["radius"], shape["height"]), FIELD, OMEGA
+    )
+    with workprec():
+        wanted = [[nearest(x) for x in row] for row in exact.rotation(LONG)]
+    assert np.abs(motion.rotation(LONG) - wanted).max() < 1e-14
+    assert np.abs(several.rotation(LONG) - wanted).max() < 1e-14
+    placed = atlas.motion(SymmetricBody.solid_cylinder(**shape), (0.0, *FIELD), OMEGA)
+    assert np.abs(placed.rotation(LONG) - wanted).max() < 1e-14
+
+
+def test_a_ratio_that_no_double_holds_is_kept() -> None:
+    """I = 1/3 as a Fraction is not the nearest double, in any class of a symmetric body."""
+    body, third = SymmetricBody(3.0, 1.0), Fraction(1, 3)
+    for one, other in (
+        (atlas.GeneralMotion(third, FIELD, OMEGA), atlas.GeneralMotion(body, FIELD, OMEGA)),
+        (atlas.ElementaryMotion(third, FIELD, 0.7), atlas.ElementaryMotion(body, FIELD, 0.7)),
+        (atlas.FreeMotion(third, OMEGA), atlas.FreeMotion(body, OMEGA)),
+        (atlas.motion(third, (0.0, *FIELD), OMEGA), atlas.motion(body, (0.0, *FIELD), OMEGA)),
+    ):
+        assert np.abs(one.rotation(LONG) - other.rotation(LONG)).max() < 1e-14
+        assert copy.deepcopy(one) == one
+        assert eval(repr(one), {"Fraction": Fraction, "SymmetricBody": SymmetricBody, **NAMES}) == one  # noqa: S307
+
+
+NAMES = {name: getattr(atlas, name) for name in ("GeneralMotion", "ElementaryMotion", "FreeMotion", "motion")}
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "--shape solid-cylinder --radius 0.3 --height 0.7 --density 2 --charge 0.7 --magnetic 1 2",
+        "--shape cylindrical-shell --radius 0.3 --height 0.7 --mass 0.7 --charge 0.3 --magnetic 1 2",
+        "--points {points} --magnetic 1 2",
+        "--points {points} --magnetic 0 1 2",
+    ],
+)
+def test_both_floors_take_the_same_body_and_field(body: str, tmp_path: Path) -> None:
+    """Doubles and proven digits agree at a late time: neither rounds moments, mass or charge on the way."""
+    points = tmp_path / "points.csv"
+    rows = ["0.3,0,0.1", "-0.3,0,0.1", "0,0.3,0.1", "0,-0.3,0.1"]
+    points.write_text("x,y,z,mass,charge\n" + "".join(f"{x},0.7,0.13\n" for x in rows) + "0,0,0.7,1.4,0.26\n")
+    found, wanted = entries(f"motion {body.format(points=points)} --omega 0.3 0.7 0.2")
+    assert np.abs(found - wanted).max() < 4e-15
+
+
+def test_moments_are_joined_only_where_they_are_equal() -> None:
+    """A body with g1 = g2 keeps its third value, however near; two that differ are joined with a warning."""
+    assert SymmetricBody.from_mass_matrix((1, 1, 1 + 5e-10)).ratio != 1
+    for matrix in ((1, 1 + 1e-12, 3.0), [[0.3, 1e-16, 0], [1e-16, 0.3, 0], [0, 0, 1.0]]):
+        with pytest.warns(NearlySymmetricWarning, match="of the larger, and are joined; say tolerance="):
+            SymmetricBody.from_mass_matrix(matrix)
+        SymmetricBody.from_mass_matrix(matrix, tolerance=1e-9)
+    with pytest.raises(DomainError, match="differ by 1e-07 of the larger"):
+        SymmetricBody.from_mass_matrix([[1e-9, 5e-17, 0], [5e-17, 1e-9, 0], [0, 0, 1.0]])
+
+
+def test_a_density_stands_for_the_mass_of_a_solid() -> None:
+    """Moments, ratio and refusals are those of the mass that the volume has."""
+    for name, volume, sizes in (
+        ("sphere", 4 / 3 * np.pi * 0.7**3, {"radius": 0.7}),
+        ("solid_cylinder", np.pi * 0.49 * 1.1, {"radius": 0.7, "height": 1.1}),
+        ("spheroid", 4 / 3 * np.pi * 0.49 * 1.1, {"equatorial": 0.7, "polar": 1.1}),
+    ):
+        make = getattr(SymmetricBody, name)
+        dense, heavy = make(density=2.0, **sizes), make(2.0 * volume, **sizes)
+        assert np.allclose(dense.inertia, heavy.inertia, rtol=1e-15, atol=0)
+        assert np.array_equal(make(density=np.array([2.0, 3.0]), **sizes).I3[:1], [dense.I3])
+        with pytest.raises(atlas.AtlasError, match="takes a mass or a density, not both"):
+            make(1.0, density=2.0, **sizes)
+        with pytest.raises(atlas.AtlasError, match="needs mass"):
+            make(**sizes)
+        with pytest.raises(DomainError, match="density must be positive"):
+            make(density=0.0, **sizes)
