@@ -47,10 +47,25 @@ class LazyCommand(click.Command):
 
 
 GONE = {
-    "general": "--omega W1 W2 W3", "asymmetric": "--inertia I1 I2 I3", "free": "--field 0 0 --omega W1 W2 W3",
+    "general": "--omega W1 W2 W3", "asymmetric": "--inertia I1 I2 I3", "free": "--omega W1 W2 W3 without --field",
     "elementary": "--omega2 W2",
 }  # fmt: skip
 """Kinds of motion that are part of `atlas motion`, with the option that asks for them."""
+
+ELSEWHERE = {
+    **{name: f"it is part of atlas motion, with {option} and the same options" for name, option in GONE.items()},
+    **dict.fromkeys(("simulate", "integrate", "solve", "run"), "atlas motion computes a motion in closed form; in "
+                    "Python, atlas.simulate integrates the equations of motion"),
+    **dict.fromkeys(("plot", "draw", "graph", "picture"), "atlas figure NAME draws a figure, and atlas page the "
+                    "figures of a motion of your own"),
+    **dict.fromkeys(("gif", "video", "movie", "mp4"), "atlas animate NAME --over PARAMETER=START:STOP:COUNT writes a "
+                    "gif, an apng or an mp4"),
+    **dict.fromkeys(("pdf", "html", "build"), "atlas report NAME builds a report, and atlas page a page of your own"),
+    **dict.fromkeys(("table", "scan"), "atlas sweep makes a table over parameters, atlas motion --out one over times"),
+    **{key: f"its name is atlas {one.command.name}" for key, one in FAMILIES.items()
+       if one.command and key not in GONE and key != one.command.name},
+}  # fmt: skip
+"""Sentences on names that are no commands: where their work is done."""
 
 
 class Atlas(click.Group):
@@ -70,12 +85,8 @@ class Atlas(click.Group):
                 click.echo(ctx.get_help())
                 ctx.exit()
             args = [args[1], "--help"]
-        if args[0] in GONE:
-            raise click.UsageError(
-                f"atlas {args[0]} is part of atlas motion, with {GONE[args[0]]} and the same options."
-            )
-        if (family := FAMILIES.get(args[0])) and family.command and family.command.name != args[0]:
-            raise click.UsageError(f"atlas {args[0]} is atlas {family.command.name}.")
+        if args[0] in ELSEWHERE:
+            raise click.UsageError(f"there is no command atlas {args[0]}: {ELSEWHERE[args[0]]}.")
         return super().resolve_command(ctx, args)
 
     def invoke(self, context: click.Context) -> Any:

@@ -353,14 +353,19 @@ def _in_doubles(motion: Any, options: dict[str, Any], parameters: dict[str, Any]
     sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
     record = {"family": family.name} | _answers(family, motion, times, sampled)
     record |= recorded(spectrum_of(motion, options))
+    known = body_of(motion.arguments["inertia"])
     if options["as_json"]:
-        known = body_of(motion.arguments["inertia"])
         principal = {"principal_moments": known.moments, "principal_axes": known.axes}
         dump({"parameters": parameters, **principal, **record, **_input_error(family, motion, times)})
     else:
         described = family.command or Described("motion", "", "", (), family.says)
         texts = mapped(record, lambda x, _: f"{x:.{TABLE_DIGITS}g}")
-        printout = _printout(family, described, texts, options, NOT_ASKED, _in_hertz(family, texts, options))
+        moments = [] if body.given_tensor(options) is None else [
+            Line(f"I{i}", f"principal, about {axes_text([axis])}", f"{moment:.{TABLE_DIGITS}g}", "inertia")
+            for i, (moment, axis) in enumerate(zip(known.moments, known.axes, strict=True), 1)
+        ]  # fmt: skip
+        beside = [*moments, *_in_hertz(family, texts, options)]
+        printout = _printout(family, described, texts, options, NOT_ASKED, beside)
         axes = axes_text(motion.axes)
         if axes != OWN_AXES:
             says = f"Quantities are along the axes {axes} of the body{family.last_axis}; columns along the axes given."

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import click
 
+from atlas.cli.options import given
 from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, parts_of
 from atlas.measured import WANTED
 
@@ -18,8 +19,25 @@ OTHERS = {
     "angle": "it goes with the field of a symmetric body, one number; of another body --field has three components",
     "csv": "a table as CSV is that of atlas sweep, with --quantity R and t=START:STOP:COUNT, say",
     "dt": "times by a step are --grid START STEP COUNT, or --times START:STOP:COUNT",
+    "t": "times are --times T [T ...], or --times START:STOP:COUNT",
 }  # fmt: skip
 """Other names of options."""
+
+ELSEWHERE = {
+    **dict.fromkeys(("out", "o", "output", "save"), "numbers go to standard output, so that > FILE writes them; --json "
+                    "prints JSON, and a table as a file is that of atlas motion --times ... --out FILE.csv"),
+    **dict.fromkeys(("plot", "graph", "draw"), "atlas figure NAME draws a figure, and atlas page the figures of a "
+                    "motion of your own"),
+    **dict.fromkeys(("gif", "mp4", "video", "movie", "apng"), "atlas animate NAME --over PARAMETER=START:STOP:COUNT "
+                    "writes a gif, an apng or an mp4"),
+}  # fmt: skip
+"""Work of another command, by the names of options under which it is looked for."""
+
+
+OF_FIELD = ("field", "magnetic", "mu", "charge", "mass")
+"""Options of a field, of which none is given for a free body."""
+START = ("omega", "spin")
+"""Options of a start that any body has, also a free one."""
 
 
 class Option(NamedTuple):
@@ -122,6 +140,13 @@ class Command(click.Command):
         rest = super().parse_args(ctx, list(Reader(words, self.get_params(ctx)).plain()))
         for name in (str(param.name) for param in self.params if param.multiple and param.type is REAL):
             ctx.params[name] = tuple(chain.from_iterable(ctx.params[name]))
+        if (
+            {"field", "omega", "spin"} <= self._optional
+            and not given(ctx.params, OF_FIELD)
+            and given(ctx.params, START)
+        ):
+            size = next(param.nargs for param in self.params if param.name == "field")
+            ctx.params["field"] = (Typed("0"),) * size  # a start without a field: a free body
         vectors = (x for x in self.params if not x.multiple and x.name not in {"grid", "heavy"})  # whose units are one
         for option in vectors:
             check_units(option.opts[0], ctx.params.get(str(option.name)))
@@ -132,6 +157,11 @@ class Command(click.Command):
             strength, angle = ctx.params[name][0], ctx.params["angle"]
             ctx.params |= {name: Inclined((strength, angle), f"{WANTED[name]}" if strength.unit else ""), "angle": None}
         return rest
+
+    @property
+    def _optional(self) -> set[str]:
+        """Names of the options, none of a command that reads files, which may hold a field."""
+        return set() if any(isinstance(x, click.Argument) for x in self.params) else {str(x.name) for x in self.params}
 
 
 class Reader:
@@ -146,7 +176,8 @@ class Reader:
     def plain(self) -> Iterator[str]:
         """Yield the words, a vector in its components. Raises click.UsageError for words that do not fit."""
         for option in self.words.options:
-            if option.name.startswith("--") and option.name not in {*self.known, "--"}:
+            name = option.name if option.name.startswith("--") else option.name[:2]  # -j8 is -j 8
+            if name not in {*self.known, "--"}:
                 raise self._unknown(option.name)
         yield from self.words.loose
         loose = list(self.words.loose)
@@ -172,7 +203,9 @@ class Reader:
 
     def _unknown(self, name: str) -> click.UsageError:
         """Return the error for an option that the command does not have."""
-        bare = name.removeprefix("--")
+        bare = name.lstrip("-")
+        if bare in ELSEWHERE:
+            return click.UsageError(f"there is no option {name}: {ELSEWHERE[bare]}.")
         if self.has_settings:
             return click.UsageError(f"there is no option {name}; a parameter is given by --set {bare}=VALUE.")
         if bare in OTHERS:

@@ -295,6 +295,26 @@ def test_help_and_lists_are_asked_for_as_one_would() -> None:
     assert json.loads(run("list", "reports", "--json")[1])["reports"]
 
 
+@pytest.mark.parametrize("start", ["--ratio 1.5 --omega 0.1 0.2 0.3", "--inertia 1 2 2.5 --spin 0.4"])
+def test_a_start_without_a_field_is_a_free_body(start: str) -> None:
+    """A start along three axes needs no field: JSON and table are those of the field zero."""
+    zeros = "--field 0 0 0" if "inertia" in start else "--field 0 0"
+    for form in ("--json", "--times 1"):
+        alone, given = (run("motion", *words.split(), *form.split()) for words in (start, f"{start} {zeros}"))
+        assert alone == given
+        assert alone[0] == 0
+
+
+def test_the_table_of_a_tensor_has_its_principal_moments() -> None:
+    """The printed moments and axes are those of the JSON."""
+    words = "motion --tensor 1 1.2 1.1 .1 0 .05 --field 0 0 1 --omega .1 .2 .3".split()
+    shown, record = run(*words)[1], json.loads(run(*words, "--json")[1])
+    lines = {line.split()[0]: line for line in shown.splitlines() if line}
+    for i, (moment, axis) in enumerate(zip(record["principal_moments"], record["principal_axes"], strict=True), 1):
+        assert f" {moment:.10g} " in lines[f"I{i}"]
+        assert f"({', '.join(f'{x:.10g}' for x in axis)})" in lines[f"I{i}"]
+
+
 @pytest.mark.parametrize(
     ("name", "entry", "words"),
     [
