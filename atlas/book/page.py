@@ -3,7 +3,7 @@
 import inspect
 import re
 import shlex
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import chain
@@ -35,6 +35,8 @@ class Asked:
     values    the other parameters of the family
     called    the name of its files, if it has one of its own
     note      a sentence on its axes
+    deviations   quantity, symbol, value with its standard deviation, unit: rows, where inputs have an uncertainty;
+              `deviation_notes` say how they were found
     """
 
     family: Family
@@ -48,6 +50,8 @@ class Asked:
     title: str = ""
     called: str = ""
     note: str = ""
+    deviations: Sequence[Sequence[str]] = ()
+    deviation_notes: Sequence[str] = ()
 
     @property
     def words(self) -> list[str]:
@@ -130,6 +134,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
     beside = [other for other in FAMILIES.values() if other is not family and _holds(family, other)]
     blocks = [
         _table(asked, "properties", family.name, asked.values),
+        *_deviations(asked),
         *figures[:1],
         *([SETTING] if asked.field and "B" in asked.field else []),
         *(_table(asked, "properties", other.name, {"given": False}) for other in beside),
@@ -150,6 +155,17 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         "parameters": {kind: {name: record} for kind, name, record in records if record},
         "pages": [{"slug": "index", "title": "Properties", "blocks": blocks}],
     }  # fmt: skip
+
+
+def _deviations(asked: Asked) -> Iterator[dict[str, Any]]:
+    """Yield the table of quantities with their standard deviations, where inputs have an uncertainty."""
+    if asked.deviations:
+        yield {
+            "kind": "listing", "id": "deviations", "rows": [list(row) for row in asked.deviations],
+            "columns": ["Quantity", "Symbol", "Value", "Unit"],
+            "caption": " ".join(["The same with the uncertainties of the inputs, which are independent.",
+                                 *asked.deviation_notes]),
+        }  # fmt: skip
 
 
 def _holds(family: Family, other: Family) -> bool:
@@ -307,11 +323,11 @@ def _reproduce(asked: Asked, made: Any) -> str:
     )
     arguments = ", ".join(f"{name}={value}" for name, value in values if value)
     shown = [q for q in family.quantities if not q.get and (q.certified or q.printed) and _known(made, q.name)]
-    digits = ["--digits", str(asked.digits)]
+    digits = [] if asked.deviations else ["--digits", str(asked.digits)]
     lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})", *(f"print(it.{q.name})" for q in shown)]
     return "\n".join(
         [
-            "## The same numbers elsewhere", "", "On the command line, with the same digits:", "", "```console",
+            "## The same numbers elsewhere", "", "On the command line:", "", "```console",
             f"$ {shlex.join(['atlas', *asked.words, *digits])}", "```", "",
             "In Python, as doubles next to them:", "", "```python", *lines, "```",
         ]

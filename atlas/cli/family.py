@@ -31,7 +31,7 @@ from atlas.cli.spectrum import check_spectrum, recorded, show_lines, spectrum_of
 from atlas.cli.table import out_option, write_table
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.cli.typed import exactly, measured, parts_of
-from atlas.cli.uncertain import mapped, spread, uncertain
+from atlas.cli.uncertain import Spread, mapped, spread, uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.families.family import RATE, TIME
@@ -302,26 +302,41 @@ def _show_curve(family: Family, options: dict[str, Any], parameters: dict[str, A
     )
 
 
+def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = (), named: str = "") -> Spread:
+    """Return the quantities of an object of a family, and samples at times, with their standard deviations.
+
+    `named` is the name of the command, which says in the answer what family it is where several share it.
+    """
+    sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options.get("as_json"))]
+
+    def answered(values: dict[str, Any]) -> dict[str, Any]:
+        motion = motion_in_given_axes(values) if family.in_given_axes else None
+        answering = family if motion is None else FAMILIES[motion.family]
+        motion = _kernel(answering, values) if motion is None else motion
+        answers = {"family": answering.name} if named == "motion" else {}
+        if values is not options:  # a proof that is a sentence is said once
+            answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
+        answers |= _answers(answering, motion, times, [s for s in sampled if times and hasattr(motion, s.method)])
+        larmor = in_field(family) and values["magnetic"] is not None
+        return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
+
+    return spread(answered, options)
+
+
+def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:
+    """Return a line for each quantity that is among the texts, but for the one that names the case."""
+    case = texts.get(named, "") if named else ""
+    shown = [q for q in family.quantities if q.name in texts and q.name != named]
+    return [line for q in shown for line in _lines(q, texts[q.name], case, _units(family, options))]
+
+
 def _with_sigma(
     family: Family, described: Described, options: dict[str, Any], parameters: dict[str, Any], times: Sequence[float]
 ) -> None:
     """Print the results of numbers with uncertainties."""
     if options["digits"] is not None or options["decimal"] or options.get("spectrum"):
         raise click.UsageError("--digits, --decimal and --spectrum go with numbers without an uncertainty.")
-    sampled = [s for s in family.sampled if s.printed and not (s.uncertified and not options["as_json"])]
-
-    def answered(values: dict[str, Any]) -> dict[str, Any]:
-        motion = motion_in_given_axes(values) if family.in_given_axes else None
-        answering = family if motion is None else FAMILIES[motion.family]
-        motion = _kernel(answering, values) if motion is None else motion
-        answers = {"family": answering.name} if described.name == "motion" else {}
-        if values is not options:  # a proof that is a sentence is said once
-            answering = replace(answering, quantities=tuple(q for q in answering.quantities if q.tabled or not q.slow))
-        answers |= _answers(answering, motion, times, [s for s in sampled if hasattr(motion, s.method)])
-        larmor = in_field(family) and values["magnetic"] is not None
-        return answers | ({"larmor": hypot(*body.chosen_field(values))} if larmor else {})
-
-    spread_of_answers = spread(answered, options)
+    spread_of_answers = spread_of(family, options, times, described.name)
     if options["as_json"]:
         dump({"parameters": parameters, **spread_of_answers.record()})
     else:
@@ -584,8 +599,7 @@ def _printout(
 
     case = texts[described.named] if described.named else ""
     units = _units(family, options)
-    shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
-    lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
+    lines = lines_of_quantities(family, texts, options, described.named)
     heading = [
         head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]")
         for s in family.sampled

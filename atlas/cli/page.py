@@ -17,7 +17,9 @@ from atlas.cli.family import (
     family_of,
     in_field,
     in_plane,
+    lines_of_quantities,
     object_options,
+    spread_of,
     values_of,
 )
 from atlas.cli.fit import ahead, arguments, fit_options, fitted
@@ -27,6 +29,7 @@ from atlas.cli.present import bar
 from atlas.cli.report import status_of
 from atlas.cli.top import top_units
 from atlas.cli.typed import Inclined, parts_of
+from atlas.cli.uncertain import uncertain
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES, Family
@@ -53,7 +56,7 @@ def command_of(family: Family, name: str) -> click.Command:
     def run(**options: Any) -> int:
         return make(asked(family, options), options["out"], options["jobs"])
 
-    command = click.command(name, cls=Command, help=f"Make a page: {family.says}.", hidden=name in GONE)
+    command = click.command(name, cls=Command, carries=True, help=f"Make a page: {family.says}.", hidden=name in GONE)
     return command(stack(*object_options(family), *more)(run))
 
 
@@ -123,6 +126,9 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
         motion = motion_in_given_axes(options)
         if motion is None:
             return []
+        if uncertain(options):
+            raise click.UsageError("a page carries uncertainties along principal axes, of three different moments; "
+                                   "atlas motion carries them in any axes.")  # fmt: skip
         principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
         if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
             return []
@@ -212,7 +218,16 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     if in_plane(family):
         records["field"] = _field(options)
     title, digits, called = options["title"] or "", options["digits"], _called(options)
+    if uncertain(options):
+        records |= dict(zip(("deviations", "deviation_notes"), _deviations(family, options), strict=True))
     return Asked(family, typed, values, **records, digits=digits, title=title, called=called, note=options["note"])
+
+
+def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
+    """Return quantities, symbols, values with standard deviations in brackets and units, a row each; and notes."""
+    found = spread_of(family, options | {"decimal": False})
+    lines = lines_of_quantities(family, found.texts(), options, family.command.named if family.command else "")
+    return [[line.says, f"`{line.symbol}`", line.value, line.unit] for line in lines], found.notes
 
 
 def _typed(names: Collection[str], options: dict[str, Any]) -> dict[str, tuple[str, ...]]:

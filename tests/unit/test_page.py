@@ -34,6 +34,7 @@ from atlas.cli.page import COMMANDS, asked, best
 from atlas.cli.words import Words
 from atlas.errors import AtlasError
 from atlas.motions.elementary.kernel import ElementaryMotion
+from atlas.motions.elementary.kernel_hyperbola import Hyperbola
 from atlas.motions.register import FAMILIES
 from atlas.pictures.recipes import load
 
@@ -277,6 +278,16 @@ def test_a_field_may_be_a_rate_with_a_unit(unbuilt: Callable[[str], dict[str, An
     """Where B' itself is typed with a unit of 1/time there is no B to show."""
     record = unbuilt("--ratio 1.5 --field 5/s 3/s --omega2 1/s")
     assert record["parameters"]["fields"]["field"]["prime"] == [5.0, 3.0]
+
+
+def test_a_page_carries_uncertainties(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """omega3 = B2/(...) of (71) has the standard deviation of its slope in I; k, (79), which has no I in it, none."""
+    record = unbuilt("--ratio 1.5(1) --field 1 2 --omega2 0.7")
+    (block,) = (block for block in record["pages"][0]["blocks"] if block.get("id") == "deviations")
+    values = {row[1].strip("`"): row[2] for row in block["rows"]}
+    slope = (Hyperbola(1.501, (1, 2)).omega3(0.7) - Hyperbola(1.499, (1, 2)).omega3(0.7)) / 0.002
+    assert float(values["omega3"].split("(")[1].strip(")")) / 1000 == pytest.approx(0.1 * abs(slope), rel=0.02)
+    assert values["k"] == f"{ElementaryMotion(1.5, (1, 2), 0.7).k:.10g}"
 
 
 @pytest.mark.parametrize(
