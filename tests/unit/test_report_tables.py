@@ -343,3 +343,25 @@ def test_the_roles_of_a_table_are_those_of_the_style() -> None:
     assert sorted(roles) == sorted(STYLES)
     names = [str(row[0]).strip("`") for row in compute("layers", Request([], {}, 10)).rows]
     assert {"Scene", "Plane", "Space", "Curve", "Points", "Arrow", "Label", "Surface", "Region", "Image"} == set(names)
+
+
+def test_kinds_of_spins_are_those_of_the_linearized_equations() -> None:
+    """In the table of critical values a spin is stable, a saddle or a focus as the eigenvalues of its motion say."""
+    inertia, momenta = [0.5, 1.0, 1.25], [1.6, 0.7, 0.2]
+    data = compute("critical", Request((), {"inertia": inertia, "b": 1.0, "momentum": momenta}, 4))
+    J = np.array(inertia)
+
+    def rates(state: np.ndarray) -> np.ndarray:
+        M, K = state[:3], state[3:]
+        return np.concatenate([np.cross(M, M / J) + np.cross(K, J * K), np.cross(K, M / J)])
+
+    spins = [row for row in data.rows if str(row[1]).startswith("spin")]
+    assert len(spins) == 9
+    for p, name, value, _, kind in spins:
+        axis = np.eye(3)[int(name[-1]) - 1]
+        state = np.concatenate([float(p.digits) * axis, axis])
+        flow = np.stack([(rates(state + e) - rates(state - e)) / 2 for e in np.eye(6)], axis=-1)  # quadratic
+        roots = np.linalg.eigvals(flow)
+        leaves, turns = np.abs(roots.real) > 1e-6, np.abs(roots.imag) > 1e-6
+        assert kind == ("focus-focus" if (leaves & turns).any() else "saddle" if leaves.any() else "stable")
+        assert float(value.digits) == pytest.approx(float(p.digits) ** 2 - J.prod() / (J @ axis), abs=5e-4)

@@ -1,5 +1,6 @@
 """Tops and bodies with three moments: a nutation, loops of periods, elliptic motions, tori, motions at times."""
 
+from math import isfinite
 from typing import Any
 
 from atlas.book.digits import Number, plain
@@ -141,6 +142,46 @@ class Samples(Motion, frozen=True):
     """A body in a field, its initial angular velocity, and times."""
 
     times: tuple[float, ...]
+
+
+class Momenta(StrictStruct, frozen=True):
+    """A body in a field of strength b, and values p = (M, K)/b of the momentum along the field."""
+
+    inertia: Triple
+    b: float
+    momentum: tuple[float, ...]
+
+
+def critical(request: Request, asked: Momenta) -> Data:
+    """List all critical values of H and F at each momentum along the field, theorem-critical, a piece in each row."""
+    from atlas.maps.bifurcation import Bifurcation
+
+    del request  # doubles of four digits
+    rows: list[tuple[Any, ...]] = []
+    for p in asked.momentum:
+        diagram = Bifurcation(asked.inertia, asked.b, p * asked.b)
+        ovals = list[tuple[str, float, float, bool]]()
+        for part in diagram.stretches():
+            name = f"{part.oval} oval" + (f", $v{'<>'[part.branch > 0]}0$" if p else "")
+            joined = bool(ovals) and ovals[-1][0] == name and ovals[-1][2:] == (part.low, part.stable)
+            low = ovals.pop()[1] if joined else part.low
+            ovals.append((name, low, part.high, part.stable))
+        rays = [(f"pendulums about axis {axis + 1}", *ray) for axis, *ray in diagram.rays() if not p]
+        for name, first, last, stable in (*ovals, *rays):
+            ends = (Number(f"{x:.4g}") if isfinite(x) else r"$\infty$" for x in (first, last))
+            rows += [(Number.as_given(p), name, *ends, "stable" if stable else "saddle")] * (first < last)
+        for spin in diagram.spins:
+            rows.append(
+                (Number.as_given(p), f"spin about axis {spin.axis + 1}", Number(f"{spin.F:.4g}"), "", spin.kind)
+            )
+    return Data(
+        heads("$p$", "Piece", "from", "to", "Kind"),
+        tuple(rows),
+        rf"All critical values of a body with $I_i={_row(asked.inertia)}$ at $b={plain(asked.b)}$ and momenta "
+        r"$p=(\mathbf{M},\mathbf{K})/b$: elliptic motions from one place $z$ to another, stable for $C>0$, saddles for "
+        r"$C<0$; plane pendulums from one value of $F$ to another; and spins along the field, with their $F$.",
+        ("Four digits of doubles, not proven.",),
+    )
 
 
 def elliptic(request: Request, asked: Family) -> Data:
