@@ -3,7 +3,6 @@
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from dataclasses import field as attribute
 from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
@@ -104,8 +103,7 @@ class SymmetricBody:
     I2: FloatOrArray
     I3: FloatOrArray
     axes: FloatArray
-    exact: tuple[Any, Any] = attribute(init=False, repr=False)
-    """Moments (I2, I3) without rounding: floats, arrays or exact numbers."""
+    _exact: ClassVar[tuple[Any, ...]] = ()
     _shape: ClassVar[tuple[str, dict[str, Any]] | None] = None
 
     def __init__(self, I2: RealArrayLike, I3: RealArrayLike, axes: RealArrayLike | None = None) -> None:
@@ -121,7 +119,7 @@ class SymmetricBody:
             raise DomainError(
                 f"No body has I2 = {across}, I3 = {along}: I3 is at most 2 I2 = {2 * across}, {NO_SUCH_BODY}."
             )
-        object.__setattr__(self, "exact", tuple(map(as_given, exact)))
+        object.__setattr__(self, "_exact", tuple(map(as_given, exact)))
         object.__setattr__(self, "I2", plain(I2))
         object.__setattr__(self, "I3", plain(I3))
         object.__setattr__(self, "axes", matrix(np.eye(3) if axes is None else axes, "The axes"))
@@ -154,6 +152,12 @@ class SymmetricBody:
     def ratio(self) -> FloatOrArray:
         """Ratio I = I3/I2, (33), rounded to a float; kernels use the exact I2 and I3."""
         return self.I3 / self.I2
+
+    @property
+    def exact(self) -> tuple[Any, Any]:
+        """Moments (I2, I3) without rounding: floats, arrays or exact numbers."""
+        I2, I3 = self._exact
+        return I2, I3
 
     @property
     def inertia(self) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
