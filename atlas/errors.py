@@ -1,5 +1,6 @@
 """Errors of the atlas for inputs that have no answer: one sentence with the fault, its place and the remedy."""
 
+import warnings
 from collections.abc import Iterable
 from difflib import get_close_matches
 
@@ -27,8 +28,17 @@ class NearlySymmetricWarning(AtlasWarning):
     """Two moments that differ by little: of a tensor they stay two, of points in a symmetric body they are joined."""
 
 
+class NearestInputWarning(AtlasWarning):
+    """An input that is impossible by the rounding of its digits: the nearest possible one is taken."""
+
+
 class RelativisticWarning(AtlasWarning):
     """A speed above a tenth of that of light, in known units, where formulas are non-relativistic."""
+
+
+def tell_nearest(fault: str, taken: str) -> None:
+    """Warn of an input that is impossible by its last digits, and name what is taken in its place."""
+    warnings.warn(f"{fault}; taken is {taken}.", NearestInputWarning, stacklevel=5)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

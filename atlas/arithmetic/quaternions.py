@@ -8,10 +8,10 @@ import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import quaternion_products
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, tell_nearest
 
-LENGTH_TOLERANCE = 1e-6
-"""By how much the length of a quaternion that is typed may differ from 1."""
+LENGTH_TOLERANCE, LENGTH_ROUNDING = 1e-3, 1e-6
+"""By how much the length of a typed quaternion may differ from 1, and by how much without a warning."""
 
 
 def of_matrix(R: Any) -> FloatArray:
@@ -56,7 +56,9 @@ class Attitude(NamedTuple):
 
 
 def rotation_of(typed: Sequence[float], name: str) -> Attitude:
-    """Return the rotation of a typed quaternion, which has a name; AtlasError for no unit length."""
-    if abs((length := hypot(*typed)) - 1) > LENGTH_TOLERANCE:
+    """Return the rotation of a typed quaternion, which has a name; AtlasError for a length that is not 1 to 1e-3."""
+    if (off := abs((length := hypot(*typed)) - 1)) > LENGTH_TOLERANCE:
         raise AtlasError(f"{name} is a quaternion of the length 1, x y z w, not of {length:.6g}.")
+    if off > LENGTH_ROUNDING:
+        tell_nearest(f"{name} is a quaternion of the length {length:.6g}", "the quaternion divided by it")
     return Attitude(tuple(map(float, typed)))

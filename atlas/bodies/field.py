@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from dataclasses import field as attribute
 from fractions import Fraction
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -68,6 +68,7 @@ class Field:
     c: float
     prime: FloatArray = attribute(init=False)
     """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B. Its part [1:] is refused for B1 != 0."""
+    _ratio: ClassVar[float | Fraction] = 1.0
     exact: tuple[float | Fraction, ...] = attribute(init=False)
     """The components of B' without rounding, as motions take them: floats, or fractions where they are no floats."""
 
@@ -79,24 +80,35 @@ class Field:
         object.__setattr__(self, "B", vector(B, "B", unit["B"]))
         object.__setattr__(self, "E", vector(E, "E", unit["E"]))
         object.__setattr__(self, "mu", number(mu, "mu", unit["mu"]))
-        prime = unit_systems.prime(mu if isinstance(mu, Fraction) else self.mu, self.B, self.c)
+        object.__setattr__(self, "_ratio", mu if isinstance(mu, Fraction) else self.mu)
+        prime = unit_systems.prime(self._ratio, self.B, self.c)
         object.__setattr__(self, "exact", tuple(as_float_or_fraction(x) for x in prime))
         object.__setattr__(self, "prime", frozen(np.array([float(x) for x in self.exact]).view(Prime)))
 
     def __repr__(self) -> str:
-        text = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
+        text = called("Field", {"B": self.B, "E": self.E, "mu": self._ratio, "c": self.c})
         return f"{text}  # B' = {self.prime.tolist()}"
 
     @classmethod
-    def si(cls, B: RealArrayLike, E: RealArrayLike = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+    def si(
+        cls,
+        B: RealArrayLike,
+        E: RealArrayLike = (0.0, 0.0, 0.0),
+        *,
+        mu: float | None = None,
+        charge: float | None = None,
+        mass: float | None = None,
+    ) -> Self:
         """Fields in SI: B in T, E in V/m, mu in C/kg; B' of (32) in rad/s.
 
         Parameters
         ----------
         B, E : array_like, shape (3,)
             Magnetic field in T and electric field in V/m.
-        mu : float
+        mu : float, optional
             Charge-to-mass ratio in C/kg.
+        charge, mass : float, optional
+            Charge in C and mass in kg, in the place of `mu`; their quotient is not rounded.
 
         Returns
         -------
@@ -108,27 +120,37 @@ class Field:
         DomainError
             If |E| across B is c |B| or more.
         AtlasError
-            For an input that is not finite.
+            For an input that is not finite, and unless mu, or charge and mass, are given.
 
         Warns
         -----
         RelativisticWarning
             If the drift exceeds a tenth of the speed of light.
         """
-        field = cls(B, E, mu, unit_systems.SI.c)
+        field = cls(B, E, unit_systems.ratio_of(mu, charge, mass), unit_systems.SI.c)
         check_drift(field.E, field.B, unit_systems.SI)
         return field
 
     @classmethod
-    def gaussian(cls, B: RealArrayLike, E: RealArrayLike = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+    def gaussian(
+        cls,
+        B: RealArrayLike,
+        E: RealArrayLike = (0.0, 0.0, 0.0),
+        *,
+        mu: float | None = None,
+        charge: float | None = None,
+        mass: float | None = None,
+    ) -> Self:
         """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' of (32) in rad/s.
 
         Parameters
         ----------
         B, E : array_like, shape (3,)
             Magnetic field in G and electric field in statV/cm.
-        mu : float
+        mu : float, optional
             Charge-to-mass ratio in statC/g.
+        charge, mass : float, optional
+            Charge in statC and mass in g, in the place of `mu`; their quotient is not rounded.
 
         Returns
         -------
@@ -140,14 +162,14 @@ class Field:
         DomainError
             If |E| across B is |B| or more.
         AtlasError
-            For an input that is not finite.
+            For an input that is not finite, and unless mu, or charge and mass, are given.
 
         Warns
         -----
         RelativisticWarning
             If the drift exceeds a tenth of the speed of light.
         """
-        field = cls(B, E, mu, unit_systems.GAUSSIAN.c)
+        field = cls(B, E, unit_systems.ratio_of(mu, charge, mass), unit_systems.GAUSSIAN.c)
         check_drift(field.E, field.B, unit_systems.GAUSSIAN)
         return field
 

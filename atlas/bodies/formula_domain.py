@@ -63,7 +63,8 @@ def check_ratio(I: Number) -> None:
 def check_moments(I2: Number, I3: Number) -> None:
     """Raise DomainError for moments of inertia that no symmetric top has."""
     impossible = (I2 <= 0) | (I3 <= 0) | (I3 > 2 * I2)
-    refuse(impossible, "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2.", I2, I3)
+    sentence = "No body has I2 = {}, I3 = {}: both are positive and I3 is at most 2 I2 = {}."
+    refuse(impossible, sentence, I2, I3, 2 * I2)
 
 
 def check_direction(n2: Number, n3: Number) -> None:

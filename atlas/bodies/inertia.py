@@ -6,13 +6,16 @@ import numpy as np
 from flint import fmpq
 
 from atlas.arithmetic.dimensions import LENGTH, MASS
-from atlas.arithmetic.inputs import FloatArray, finite, real
+from atlas.arithmetic.inputs import FloatArray, finite, frozen, real
 from atlas.arithmetic.numbers import as_rational, nearest, workprec
 from atlas.bodies.certified_inertia import principal_axes
-from atlas.errors import AtlasError, DomainError
+from atlas.errors import AtlasError, DomainError, tell_nearest
 
 ROUNDING = 16 * float(np.finfo(float).eps)
 """Part of the largest principal value of a matrix by which rounded elements may make a principal value wrong."""
+
+SINGLE = 1e-6
+"""Part of its largest element by which a tensor in single precision may fail to be that of a body."""
 
 PRECISION = 320
 """Bits of principal values and axes before they are rounded, once."""
@@ -82,22 +85,28 @@ def inertia_tensor(inertia: Any) -> FloatArray:
     """Return the inertia tensor (3, 3) of a body, from itself or from principal moments (3,), checked.
 
     Raises DomainError unless it is positive, with each principal moment at most the sum of the others: by (11),
-    2 g1 = I2 + I3 - I1 is a sum of 2 m x^2. A plane body has equality, up to rounding.
+    2 g1 = I2 + I3 - I1 is a sum of 2 m x^2. A plane body has equality, up to rounding: NearestInputWarning where a
+    tensor is beyond by more than that of doubles, but not by more than that of single precision.
     """
     tensor, _ = diagonal_or_matrices(inertia, "The inertia tensor")
     if tensor.ndim > 2:
         raise AtlasError(f"A body has one inertia tensor (3, 3) or diagonal (3,), not the shape {tensor.shape}.")
     tensor = np.diag(tensor) if tensor.ndim == 1 else tensor
-    rounded = ROUNDING * bool((tensor * (1 - np.eye(3))).any())
+    oblique = bool((tensor * (1 - np.eye(3))).any())
     I = np.sort(principal(tensor)[0])
-    if I[0] <= rounded * I[2]:
-        raise DomainError(f"The moments of inertia must be positive, but the principal ones are {I}.")
-    if I[2] - I[1] > I[0] + ROUNDING * I[2]:
+    if I[0] <= ROUNDING * oblique * I[2]:
+        least = f": {I[2] - I[1]:.15g} is the least that any body has" if I[0] >= 0 and I[2] > I[1] > 0 else ""
+        remedy = f"{least or ': give a thin body a radius'}" if I[0] == 0 else ""
+        raise DomainError(f"The moments of inertia must be positive, but the principal ones are {I}{remedy}.")
+    beyond = I[2] - I[1] - I[0]
+    excess = f"{I[2]:.6g} exceeds {I[1]:.6g} + {I[0]:.6g} by {beyond:.2g}"
+    if beyond > (SINGLE if oblique else ROUNDING) * I[2]:
         raise DomainError(
             f"No body has the principal moments {I}: the largest is at most the sum of the others, since 2 g1 = I2 + "
-            f"I3 - I1 is a sum of 2 m x^2, but {I[2]:.6g} exceeds {I[1]:.6g} + {I[0]:.6g} by {I[2] - I[1] - I[0]:.2g}; "
-            f"{I[1] + I[0]:.15g} would do."
+            f"I3 - I1 is a sum of 2 m x^2, but {excess}; {I[1] + I[0]:.15g} would do."
         )
+    if beyond > ROUNDING * I[2]:
+        tell_nearest(f"The inertia tensor is that of no body by its last digits: {excess}", "a plane body")
     return tensor
 
 
@@ -137,12 +146,13 @@ def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]
         return tensor, tensor.sum()
     size = np.abs(tensor).max(axis=(-2, -1))
     difference = np.abs(tensor - tensor.swapaxes(-2, -1))
-    excess = difference - ROUNDING * size[..., None, None]
-    if (excess > 0).any():
-        index = np.unravel_index(excess.argmax(), excess.shape)
+    parts = difference / np.where(size == 0, 1, size)[..., None, None]
+    if (worst := parts.max(initial=0.0)) > ROUNDING:
+        index = np.unravel_index(parts.argmax(), parts.shape)
         i, j = int(index[-2]) + 1, int(index[-1]) + 1
-        raise AtlasError(
-            f"{name} must be symmetric, but its elements ({i}, {j}) and ({j}, {i}) differ by {difference[index]:.3g}: "
-            "give one value for both."
-        )
+        fault = f"its elements ({i}, {j}) and ({j}, {i}) differ by {difference[index]:.3g}"
+        if worst > SINGLE:
+            raise AtlasError(f"{name} must be symmetric, but {fault}: give one value for both.")
+        tell_nearest(f"{name} is not symmetric: {fault}", "the mean of both")
+        tensor = frozen((tensor + tensor.swapaxes(-2, -1)) / 2)
     return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]

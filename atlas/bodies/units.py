@@ -78,6 +78,15 @@ def charge_to_mass(charge: Any, mass: Any) -> float:
     return number(charge, "The charge", CHARGE) / positive(mass, "The mass", MASS)
 
 
+def ratio_of(mu: Any, charge: Any, mass: Any) -> Any:
+    """Return mu, or charge over mass as the Fraction that it is. AtlasError unless one of both is given."""
+    if (mu is None) == (charge is None and mass is None) or (mu is None and None in (charge, mass)):
+        raise AtlasError("A field takes mu, or charge and mass, for the charge-to-mass ratio.")
+    if mu is not None:
+        return mu
+    return Fraction(number(charge, "The charge", CHARGE)) / Fraction(positive(mass, "The mass", MASS))
+
+
 def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
     """Vector B' = mu B/(2c), (32), in rad/s; in SI without c.
 

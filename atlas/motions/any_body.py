@@ -16,7 +16,12 @@ FAMILIES: tuple[Any, ...] = (AsymmetricMotion, FreeMotion, ElementaryMotion, Bal
 
 
 def motion(
-    inertia: BodyLike, field: FieldLike, omega: RealArrayLike, attitude: AttitudeLike | None = None
+    inertia: BodyLike,
+    field: FieldLike = (0.0, 0.0, 0.0),
+    omega: RealArrayLike | None = None,
+    attitude: AttitudeLike | None = None,
+    *,
+    omega_laboratory: RealArrayLike | None = None,
 ) -> AnyMotion:
     """Motion of a charged body of any shape from any start, by the class that fits, eqs. (12), (16).
 
@@ -25,10 +30,13 @@ def motion(
     inertia : float, SymmetricBody or array_like
         Ratio I3/I2 or a SymmetricBody, with the axis along e3 or as its `axes` say; or an array of these. Principal
         moments (I1, I2, I3) along the body's axes, or an inertia tensor (..., 3, 3), whose principal axes are found.
-    field : array_like, shape (..., 3), or Field
-        Vector B' = mu B/(2c) in the laboratory, in 1/time. Arrays of components are given as a tuple of three arrays.
+    field : array_like, shape (..., 3), or Field, optional
+        Vector B' = mu B/(2c) in the laboratory, in 1/time; by default none. Arrays of components are given as a tuple
+        of three arrays.
     omega : array_like, shape (..., 3)
         Angular velocity at t = 0 along the axes of the body, in rad/time.
+    omega_laboratory : array_like, shape (..., 3)
+        Angular velocity at t = 0 along the axes of the laboratory, in the place of `omega`.
     attitude : array_like, shape (..., 3, 3), or scipy Rotation, optional
         Rotation R(0), with the axes of the body as columns; by default the unit matrix.
 
@@ -44,7 +52,12 @@ def motion(
         For moments or a tensor that no body has, an attitude that is no rotation, and an array of bodies of which only
         some are symmetric.
     AtlasError
-        For an input that is no finite number.
+        For an input that is no finite number, and unless one of `omega` and `omega_laboratory` is given.
+
+    Warns
+    -----
+    NearestInputWarning
+        If a tensor or an attitude has the digits of single precision only: the nearest possible one is taken.
 
     Notes
     -----
@@ -61,9 +74,11 @@ def motion(
     >>> motion.family, motion.kind
     ('asymmetric', 'on a torus')
     """
-    start = start_of(inertia, field, omega, attitude)
-    B, w = argument(field, start.B), argument(omega, start.w)
-    arguments = {"inertia": inertia, "field": B, "omega": w, "attitude": attitude}
+    start = start_of(inertia, field, omega, attitude, omega_laboratory)
+    name, w = ("omega", omega) if omega is not None else ("omega_laboratory", omega_laboratory)
+    arguments = {
+        "inertia": inertia, "field": argument(field, start.B), name: argument(w, start.w), "attitude": attitude,
+    }  # fmt: skip
     own, axes = next(found for family in FAMILIES if (found := family._from_start(start)))  # noqa: SLF001
     placed: AnyMotion = start.place(own, axes, motion, arguments, "motion")
     return placed

@@ -1,6 +1,7 @@
 """Base of all classes of motions: one interface for one motion and for an array, which broadcasts with the times."""
 
 import reprlib
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import prod
@@ -330,7 +331,7 @@ class Motion(Shown, Generic[Single]):
         body: BodyLike,
         field: FieldLike,
         attitude: AttitudeLike,
-        angular_velocity: RealArrayLike | None = None,
+        omega_laboratory: RealArrayLike | None = None,
         **parameters: RealArrayLike,
     ) -> Self:
         """Motion of this class from any attitude, in a field of any direction, as `atlas.motion` gives it.
@@ -343,8 +344,8 @@ class Motion(Shown, Generic[Single]):
             Components of B' in the laboratory, in 1/time. For a `TopMotion` the direction n in the laboratory.
         attitude : array_like
             Attitude R(0), as for `atlas.motion`.
-        angular_velocity : array_like, shape (..., 3), optional
-            Initial angular velocity in the laboratory, in rad/time.
+        omega_laboratory : array_like, shape (..., 3), optional
+            Angular velocity at t = 0 along the axes of the laboratory, in rad/time.
         **parameters : float or array_like
             Parameters of the class, see Notes.
 
@@ -368,7 +369,11 @@ class Motion(Shown, Generic[Single]):
         """
         from atlas.motions.start import in_laboratory
 
-        motion: Self = in_laboratory(cls, body, field, attitude, angular_velocity, parameters)
+        if "angular_velocity" in parameters:
+            omega_laboratory = parameters.pop("angular_velocity")
+            old = "in_laboratory(angular_velocity=) is now omega_laboratory=, the same vector."
+            warnings.warn(old, DeprecationWarning, stacklevel=2)
+        motion: Self = in_laboratory(cls, body, field, attitude, omega_laboratory, parameters)
         return motion
 
     @classmethod

@@ -16,7 +16,7 @@ from atlas.arithmetic.numbers import as_rational, length, nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import SymmetricBody, moments
 from atlas.bodies.inertia import inertia_tensor, principal
-from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning
+from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning, tell_nearest
 from atlas.lazy import cached_property
 from atlas.motions.frames import Placement, turned_by
 
@@ -27,7 +27,10 @@ NEARLY = 2.0**-40
 """Difference of two moments, beside the largest, that may come from rounding of a tensor."""
 
 ORTHOGONAL = 1e-9
-"""An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
+"""Deviation of R^T R from 1 up to which the rotation nearest to an attitude is taken without a word."""
+
+NEARLY_ORTHOGONAL = 2e-3
+"""Deviation of R^T R from 1 up to which the nearest rotation is taken, with a warning: entries of three digits."""
 
 
 class Body(NamedTuple):
@@ -103,10 +106,18 @@ class Start:
         return own._place(placement, kept, made_by)  # noqa: SLF001  nobody else has the motion yet
 
 
-def start_of(inertia: Any, field: Any, omega: Any, attitude: Any = None) -> Start:
+def start_of(
+    inertia: Any, field: Any = (0.0, 0.0, 0.0), omega: Any = None, attitude: Any = None, omega_laboratory: Any = None
+) -> Start:
     """Return the start of a motion from the arguments of `atlas.motion`."""
-    B, w = columns(field, "The field", "B"), columns(omega, "The angular velocity", "omega")
-    return Start(body_of(inertia), B, w, attitude)
+    if (omega is None) == (omega_laboratory is None):
+        raise AtlasError(
+            "A motion takes one angular velocity: omega along the axes of the body, or omega_laboratory along those of "
+            "the laboratory."
+        )
+    outside = omega is None
+    w = columns(omega_laboratory if outside else omega, "The angular velocity", "omega")
+    return Start(body_of(inertia), columns(field, "The field", "B"), w, attitude, outside=outside)
 
 
 def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any, parameters: Mapping[str, Any]) -> Any:
@@ -122,7 +133,7 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
         start.w, start.outside = list(parts(np.asarray(own.angular_velocity(0.0)) @ axes)), False
     arguments = {
         "body": body, "field": argument(field, B), "attitude": attitude,
-        "angular_velocity": None if omega is None else argument(omega, w), **parameters,
+        "omega_laboratory": None if omega is None else argument(omega, w), **parameters,
     }  # fmt: skip
     return start.place(own, axes, family.in_laboratory, arguments, f"{family.__name__}.in_laboratory")
 
@@ -241,14 +252,23 @@ def _stacked(parts: list[FloatArray]) -> FloatArray:
 
 
 def attitude_of(attitude: Any) -> FloatArray:
-    """Return rotation matrices (..., 3, 3), orthogonal to rounding. DomainError for any other matrix."""
+    """Return the rotation matrices (..., 3, 3) nearest to given ones.
+
+    Warns NearestInputWarning where R^T R is not 1 to 1e-9, raises DomainError where it is not 1 to 2e-3.
+    """
     if attitude is None:
         return np.eye(3)
     R = real(attitude.as_matrix() if hasattr(attitude, "as_matrix") else attitude, "The attitude")
     if R.shape[-2:] != (3, 3):
         raise AtlasError(f"The attitude must be a rotation matrix (3, 3), not of shape {R.shape}.")
     off = abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(initial=0.0)
-    if off > ORTHOGONAL or (np.linalg.det(R) < 0).any():
-        raise DomainError("The attitude must be a rotation matrix: R^T R = 1 to 1e-9, and det R = 1.")
+    if off > NEARLY_ORTHOGONAL or (np.linalg.det(R) < 0).any():
+        raise DomainError(f"The attitude must be a rotation matrix: R^T R = 1 to {NEARLY_ORTHOGONAL}, and det R = 1.")
+    if off > ORTHOGONAL:
+        left, _, right = np.linalg.svd(R)
+        moved = abs(left @ right - R).max()
+        tell_nearest(f"The attitude is not orthogonal: R^T R differs from 1 by {off:.2g}", f"the nearest rotation, "
+                     f"whose entries differ by {moved:.2g} at most")  # fmt: skip
+        R, off = left @ right, 0.0
     # Newton's step to the nearest orthogonal matrix; one that is orthogonal to rounding stays as it is
     return np.asarray(R if off <= ROUNDING else R @ (3 * np.eye(3) - np.swapaxes(R, -1, -2) @ R) / 2)

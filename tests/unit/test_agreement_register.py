@@ -161,6 +161,7 @@ UNTIED = {
     "inertia.exact_mass_matrix": GIVEN,
     "inertia.principal_values": GIVEN,
     "inertia.rational_matrix": GIVEN,
+    "units.ratio_of": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
     "units.system": NAME,
 }
