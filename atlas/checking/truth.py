@@ -129,7 +129,7 @@ def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
         bound = of_three.closed.accuracy + (of_three.closed.proved or 0.0)
         return KernelTruth(of_three, PHASE * MAX_PHASE / float(arb(unit)), bound, 0.0, bound)
     single = SingleTop(motion) if isinstance(motion, TopMotion) else SingleGeneral(motion)
-    return KernelTruth(single, PHASE * single.parts.phases.reach)
+    return KernelTruth(single, PHASE * single.pair.phases.reach)
 
 
 def long(value: Real) -> np.longdouble:

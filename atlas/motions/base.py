@@ -558,7 +558,7 @@ class Motion(Shown, Generic[Single]):
 
     def _dynamics(self) -> Any:
         """Return moments, coupling, and the potential's linear and quadratic part, of one motion along its axes."""
-        return self._inputs_of(0).parts
+        return self._inputs_of(0).dynamics
 
     def _wheels(self) -> Wheels:
         """Return one motion as turns and a function of phases, see `atlas.motions.spectrum.Wheels`."""

@@ -215,7 +215,7 @@ class One:
 
     def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
         """Return dK/dt, or dOmega/dt: I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega]."""
-        J, k, linear, quadratic = self.inputs.parts
+        J, k, linear, quadratic = self.inputs.dynamics
         w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T
         if of == "field":
             return np.asarray(np.cross(b, w) @ self.axes)

@@ -78,7 +78,7 @@ def test_no_error_is_above_its_bound(family: str) -> None:
     motion, made, _ = drawn(family)
     (block,) = motion._blocks
     with np.errstate(all="ignore"):
-        r, means, held = block.roots, block.means, block.fine & block.roots.exact & block.roots.moving
+        r, means, held = block.roots, block.means, block.is_similar & block.roots.exact & block.roots.moving
         ends = (r.low / r.b, r.high / r.b) if family == "top" else (r.low, r.high)
         numbers = *ends, means.rate, *means.moduli, means.nome
         bounds = [np.broadcast_to(x.rel, held.shape) for x in numbers]

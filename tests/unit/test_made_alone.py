@@ -49,7 +49,7 @@ def swinging() -> Iterator[SingleTop]:
         yield top((1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (2.0 + e, 0.0, d), 0.0, 3.0)
     for regime in TOPS:
         for one in drawn(regime, 29 if regime == "top, near the cubic" else 9):
-            if isinstance(one, SingleTop) and isinstance(one.parts.swing, Swing):
+            if isinstance(one, SingleTop) and isinstance(one.pair.swing, Swing):
                 yield one
 
 
@@ -57,8 +57,8 @@ def test_the_further_turn_of_a_top_is_that_of_balls() -> None:
     """Its part that is periodic, all through half a period, within 8 ulp of one or of itself, in all its forms."""
     forms = set()
     for one in swinging():
-        swing = one.parts.swing
-        with ctx.workprec(one.parts.precision + 64):
+        swing = one.pair.swing
+        with ctx.workprec(one.pair.precision + 64):
             exact = one.exact.solution.swing
             half, rate = exact.lattice.half, exact.lattice.rate
             forms.add((swing.form, swing.sign))
@@ -79,8 +79,8 @@ def test_a_top_with_the_integrals_of_a_spin_moves_as_balls_do(k3: float) -> None
     """One of its two parameters is constant; R is within 16 ulp(1) at any time, whatever the further turn."""
     omega, potential = (0.0, 0.5, 2.0 - 6.0 * k3 / 5.0), (1.5625 + 2.0 * k3, -1.5625 - 2.0 * k3 * k3)
     one = top((1.0, 0.5), (0.0, k3), (4.0, 3.0), omega, potential)
-    assert one.parts.functions.constant
-    assert (one.parts.swing and one.parts.swing.is_large) == {0.0: None, 1.25: False, 20.0: True}[k3]
+    assert one.pair.functions.constant
+    assert (one.pair.swing and one.pair.swing.is_large) == {0.0: None, 1.25: False, 20.0: True}[k3]
     for t in (0.3, -7.7, 1e4):
         with ctx.workprec(300):
             true = [[float(x) for x in row] for row in one.exact.rotation(t)]

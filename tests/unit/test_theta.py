@@ -15,15 +15,15 @@ FACTOR = 0.75
 SUMS: dict[str, Callable[[Lattice], tuple[Sum, ...]]] = {
     "a zero": lambda lattice: (vanishing_at(lattice, arb("0.2"), beyond=False),),
     "a zero beyond": lambda lattice: (vanishing_at(lattice, arb("0.2"), beyond=True),),
-    "two poles, apart": lambda lattice: swing._apart(lattice, arb("0.4"), arb(FACTOR)),
+    "two poles, apart": lambda lattice: swing._poles_aside(lattice, arb("0.4"), arb(FACTOR)),
     "a double pole": lambda lattice: swing._merged(lattice, arb(FACTOR)),
-    "two poles, across": lambda lattice: swing._across(lattice, arb("0.2"), arb(FACTOR)),
-    "two poles, nearly one": lambda lattice: swing._across(lattice, lattice.imaginary * arb("0.999"), arb(1000)),
+    "two poles, across": lambda lattice: swing._poles_on_axis(lattice, arb("0.2"), arb(FACTOR)),
+    "two poles, nearly one": lambda lattice: swing._poles_on_axis(lattice, lattice.imaginary * arb("0.999"), arb(1000)),
 }
 SLOW: dict[str, Callable[[Lattice], tuple[Sum, ...]]] = {
     "a zero": lambda lattice: (vanishing_at(lattice, arb("0.0002"), beyond=False),),
     "a zero beyond": lambda lattice: (vanishing_at(lattice, arb("0.0002"), beyond=True),),
-    "two poles, across": lambda lattice: swing._across(lattice, arb("0.0002"), arb(FACTOR)),
+    "two poles, across": lambda lattice: swing._poles_on_axis(lattice, arb("0.0002"), arb(FACTOR)),
 }
 OBLIQUE = "a zero", "a zero beyond", "two poles, across", "two poles, nearly one"
 """Those of lattices that may be oblique."""

@@ -93,7 +93,7 @@ class ClosedMotion(ElementaryMotion):
 
     def _dynamics(self) -> Any:
         """Return moments, coupling and potential, as of the elementary motion that starts at the nearest double."""
-        return super()._inputs_of(0).parts
+        return super()._inputs_of(0).dynamics
 
     def _inputs_of(self, _: int) -> Any:
         """Raise DomainError: the input in the place of omega2 is a whole fraction."""

@@ -36,10 +36,10 @@ class Evaluation:
         self.sums = np.empty((2, len(self.table), size))
         self.circles, self.products = np.empty((2, 2, size)), Products(size)
 
-    def parts(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+    def components(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m).
 
-        `low` (m,) is what the times t lack, None for nothing.
+        `low` (m,) are corrections to the times t, or None.
         """
         if self.parameters.by_balls:
             return self.parameters.in_balls(t, low)
@@ -57,11 +57,11 @@ class Evaluation:
         np.subtract(u[0], u[1], out=sin[1])
         sums, result = self.sums[..., :m]
         np.matmul(self.table, self.rows[:, :m], out=sums)
-        pairs, turned = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
-        np.multiply(pairs, cos, out=turned)
+        pairs, rotated = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
+        np.multiply(pairs, cos, out=rotated)
         pairs *= sin
-        turned[:, 0] -= pairs[:, 1]
-        turned[:, 1] += pairs[:, 0]
+        rotated[:, 0] -= pairs[:, 1]
+        rotated[:, 1] += pairs[:, 0]
         if self.parameters.faint:
             result /= np.abs(result[:4]).max(axis=0)
         if self.signed:
@@ -74,12 +74,12 @@ class Evaluation:
         rows = self.rows[:, :m]
         if isinstance(functions, Hyperbolic) and functions.periodic:
             u, e = self._reduced(t, low)
-            x, rest = functions.line.at(u[2], e[2])
-            functions.fill(rows, x, rest)
+            x, errors = functions.line.at(u[2], e[2])
+            functions.fill(rows, x, errors)
             u, v = u[:2], u[2]
             u += functions.twist * v
             if self.parameters.swing:
-                u[1] += self.parameters.swing.half_on_line(x, rest, v, e[2])
+                u[1] += self.parameters.swing.half_on_line(x, errors, v, e[2])
             return np.asarray(u)
         if isinstance(functions, Trigonometric):
             return self._on_circle(functions, t, low)
@@ -87,11 +87,11 @@ class Evaluation:
         if isinstance(functions, Steady):
             functions.fill(rows, t)
             return np.asarray(u)
-        near = np.clip(t, -functions.line.longest, functions.line.longest)
-        x, rest = functions.line.at(near, 0.0 if low is None else low)
-        functions.fill(rows, x, rest)
+        clipped = np.clip(t, -functions.line.longest, functions.line.longest)
+        x, errors = functions.line.at(clipped, 0.0 if low is None else low)
+        functions.fill(rows, x, errors)
         if self.parameters.swing:
-            u[1] = self.parameters.swing.along(u[1], x, rest)
+            u[1] = self.parameters.swing.along(u[1], x, errors)
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
@@ -113,9 +113,9 @@ class Evaluation:
 
     def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
         """Return half the phases, reduced, and their rounding errors; keep the number of whole turns."""
-        half, rest, whole, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
-        self._keep(whole)
-        return half, rest
+        half, errors, half_turns, _ = self.parameters.phases.reduced(t, self.work[..., : t.size], low)
+        self._keep(half_turns)
+        return half, errors
 
     def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Return the same, rounded."""
@@ -124,14 +124,14 @@ class Evaluation:
         self._keep(turns)
         return half
 
-    def _keep(self, whole: FloatArray | None) -> None:
+    def _keep(self, half_turns: FloatArray | None) -> None:
         """Keep the number of whole turns, of which each is a last digit."""
-        if self.signed and whole is not None:
-            self.odd = whole.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
+        if self.signed and half_turns is not None:
+            self.odd = half_turns.view(np.int64)[: 3 if self.parameters.alternates else 2].sum(axis=0)
 
     def products_at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return the ten products at times t + low, (10, m)."""
-        return self.products.of_pair(self.parts(t, low))
+        return self.products.of_pair(self.components(t, low))
 
 
 class Products:
@@ -176,6 +176,6 @@ def _entries() -> FloatArray:
 ENTRIES = _entries()
 
 
-def entries(left: FloatArray, right: FloatArray) -> FloatArray:
+def entries(before: FloatArray, right: FloatArray) -> FloatArray:
     """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
-    return (left @ ENTRIES @ right).reshape(10, 9)
+    return (before @ ENTRIES @ right).reshape(10, 9)

@@ -71,8 +71,8 @@ class Nutating:
         """Return the kind of a separatrix, which may lead from pole to pole; None where no end is a multiple root."""
         roots = self.quartic.roots()
         ends = sorted(roots[place].multiplicity for place in (self.quartic.low, self.quartic.high))
-        more = {(2, 2): f" between {poles}", (1, 3): ", triple root", (1, 2): ""}.get((ends[0], ends[1]))
-        return None if more is None else f"separatrix{more}"
+        suffix = {(2, 2): f" between {poles}", (1, 3): ", triple root", (1, 2): ""}.get((ends[0], ends[1]))
+        return None if suffix is None else f"separatrix{suffix}"
 
     @property
     def turning_axis(self) -> Sequence[fmpq]:
@@ -157,16 +157,16 @@ class Nutating:
         lattice = self.solution.lattice
         unstable = self.is_steady and self.quartic.curvature != 0
         if infinite(lattice.half) and infinite(lattice.imaginary) and not unstable:
-            where = "At a triple root of Q, as at rest without a field,"
-            raise DomainError(f"{where} both periods are infinite: modulus and nome have no limit.")
+            case = "At a triple root of Q, as at rest without a field,"
+            raise DomainError(f"{case} both periods are infinite: modulus and nome have no limit.")
         return lattice.half, lattice.imaginary
 
     def _moduli(self) -> tuple[arb, arb]:
         half, imaginary = self._periods()
         if infinite(half) or infinite(imaginary):
             return (arb(1), arb(0)) if infinite(half) else (arb(0), arb(1))
-        _, second, third, fourth = (x.real for x in acb(0).modular_theta(acb(0, imaginary / half)))
-        return (second / third) ** 2, (fourth / third) ** 2
+        _, angle_of_beta, third, fourth = (x.real for x in acb(0).modular_theta(acb(0, imaginary / half)))
+        return (angle_of_beta / third) ** 2, (fourth / third) ** 2
 
     def _angles(self) -> tuple[arb, arb]:
         solution = self.solution
@@ -176,19 +176,19 @@ class Nutating:
         signs = self.quartic.sign_beside(-1), self.quartic.sign_beside(1)
         if not self.is_steady and len(self.quartic.polynomial) == 3:
             # the axis goes round a circle: alpha and beta go half round zero each, with the signs of their torques
-            both, apart = pi * (signs[0] + signs[1]), pi * (signs[0] - signs[1])
+            sum_of_angles, difference_of_angles = pi * (signs[0] + signs[1]), pi * (signs[0] - signs[1])
         else:
             # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
-            first, second = (
-                T * x.own + pi * x.turn if self.is_steady or sign else arb(0)
+            angle_of_alpha, angle_of_beta = (
+                T * x.own_rate + pi * x.turn if self.is_steady or sign else arb(0)
                 for x, sign in zip((solution.alpha, solution.beta), signs, strict=True)
             )
-            both, apart = first + second, first - second
-        precession = T * solution.precession + (arb(0) if self.precesses_evenly else both)
+            sum_of_angles, difference_of_angles = angle_of_alpha + angle_of_beta, angle_of_alpha - angle_of_beta
+        precession = T * solution.precession + (arb(0) if self.precesses_evenly else sum_of_angles)
         if self.swings_evenly:
             return precession, arb(0)
         further = solution.swing.kappa * solution.swing.rate * T if solution.swing else arb(0)
-        return precession, T * solution.spin + apart + further
+        return precession, T * solution.spin + difference_of_angles + further
 
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
@@ -225,10 +225,10 @@ class Nutating:
         w, x, y, _ = self.from_frame(a * phase, b * phase)
         vertical = self.field[0] == self.field[1] == 0
         n = (self.omega[0], self.omega[1]) if vertical else (self.field[1], -self.field[0])
-        along = arb(x * n[0] + y * n[1]) / length(*n)
-        square = w * w + along * along
+        component = arb(x * n[0] + y * n[1]) / length(*n)
+        square = w * w + component * component
         s, c = sin_cos(self.precession * t)
-        swing = turn((*n, fmpq(0)), (w * w - along * along) / square, 2 * w * along / square)
+        swing = turn((*n, fmpq(0)), (w * w - component * component) / square, 2 * w * component / square)
         return product(turn(self.field, c, s), swing)
 
     def column(self, j: int, t: Any) -> list[Real]:

@@ -4,7 +4,7 @@ They are, up to phases, the two entire functions whose ratio is the tangent of h
 converge at once. Each is a theta function of the time s since a turning point, with one zero in a cell of the lattice.
 Where the nome is small the sum is trigonometric in pi s/T; near the separatrix the lattice is turned by a right angle
 (Jacobi's imaginary transformation) and the sum is hyperbolic in the time within one period; on the separatrix one term
-is left, and at a triple root it is linear. Every sum carries the bound of what it leaves out.
+is left, and at a triple root it is linear. Every sum carries a bound on its remainder.
 """
 
 from collections.abc import Iterator, Sequence
@@ -71,7 +71,7 @@ class Lattice:
 class Sum:
     """A sum over n of ``odd[n]`` S(k rate s) + ``even[n]`` C(k rate s), k = 2n + 1, or 2n if ``doubled``.
 
-    S and C are sine and cosine, or sinh and cosh, or rate s and one. What is left out is at most ``bound`` times
+    S and C are sine and cosine, or sinh and cosh, or rate s and one. The remainder is at most ``bound`` times
     exp(m rate |s|) in a hyperbolic sum, m the first k left out. ``shifted``: the zero is that of another cell.
     """
 
@@ -99,8 +99,8 @@ class Sum:
             value += a * S + b * C
             slope += (a * C - b * S if circular else a * C + b * S) * k
         k = self.frequency(len(self.odd))
-        left = self.bound * ((k * abs(x)).exp() if form == "hyperbolic" else 1)
-        return _widened(value, left), _widened(slope, 2 * k * left) * self.lattice.rate
+        remainder = self.bound * ((k * abs(x)).exp() if form == "hyperbolic" else 1)
+        return _widened(value, remainder), _widened(slope, 2 * k * remainder) * self.lattice.rate
 
     def _functions(self, x: arb) -> Iterator[tuple[arb, arb]]:
         """Go through S and C of k x."""
@@ -142,12 +142,12 @@ def vanishing_at(lattice: Lattice, y: arb, *, beyond: bool) -> Sum:
     if lattice.form == "linear":
         return Sum(lattice, (acb(1),), (acb(0, -y),), arb(0))
     if lattice.form == "hyperbolic":
-        return theta_sum(lattice, arb(0), _along(zeta, doubled=beyond), doubled=beyond)
+        return theta_sum(lattice, arb(0), _hyperbolic_weights(zeta, doubled=beyond), doubled=beyond)
     shifted = lattice.oblique and bool(2 * abs(y).mid() > lattice.imaginary.mid())
     if shifted:
         cell = lattice.rate * lattice.imaginary
         zeta, beyond = zeta - (cell if y.mid() > 0 else -cell), not beyond
-    sums = theta_sum(lattice, abs(zeta), _beside(zeta, beyond=beyond))
+    sums = theta_sum(lattice, abs(zeta), _trigonometric_weights(zeta, beyond=beyond))
     return replace(sums, shifted=shifted)
 
 
@@ -161,7 +161,7 @@ def multiplied(S: arb, C: arb, s: arb, c: arb, circular: bool) -> tuple[arb, arb
     return S * c + C * s, C * c - S * s if circular else C * c + S * s
 
 
-def _along(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
+def _hyperbolic_weights(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
     """Go through the weights of a hyperbolic sum with a zero at i zeta, or at half a period from there if doubled."""
     s, c = zeta.sin_cos()
     turn = multiplied(s, c, s, c, True)
@@ -171,7 +171,7 @@ def _along(zeta: arb, *, doubled: bool) -> Iterator[tuple[acb, acb]]:
         s, c = multiplied(s, c, *turn, True)
 
 
-def _beside(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
+def _trigonometric_weights(zeta: arb, *, beyond: bool) -> Iterator[tuple[acb, acb]]:
     """Go through the weights of a trigonometric sum, cos k z and -sin k z for the zero z = i zeta, or pi/2 + i zeta."""
     s, c = zeta.sinh_cosh()
     turn, sign = multiplied(s, c, s, c, False), 1
@@ -205,8 +205,8 @@ def theta_sum(lattice: Lattice, depth: arb, weights: Iterator[tuple[acb, acb]], 
         factor *= 2 * step if doubled and not n else step
         step *= square
         n += 1
-    left = arb(0) if nome == 0 else 8 * size**power * (k * depth).exp()
-    return Sum(lattice, tuple(odd), tuple(even), left, doubled)
+    remainder = arb(0) if nome == 0 else 8 * size**power * (k * depth).exp()
+    return Sum(lattice, tuple(odd), tuple(even), remainder, doubled)
 
 
 def _widened(value: acb, radius: arb) -> acb:
@@ -220,12 +220,12 @@ def _widened(value: acb, radius: arb) -> acb:
 class Parameter:
     """A Cayley-Klein parameter up to the common factor: factor exp(i (rate t + twist s)) sum(s), s within a period.
 
-    Its rate is its ``own`` and that of the frame, ``frame``. ``turn`` is the sense, -1, 0 or 1, in which ``sum`` goes
-    half around zero in one period.
+    Its rate is the sum of ``own_rate`` and of the rate ``frame`` of the frame. ``turn`` is the sense, -1, 0 or 1, of
+    the half turn of ``sum`` about zero in one period.
     """
 
     factor: acb
-    own: arb
+    own_rate: arb
     frame: arb
     twist: arb
     sum: Sum
@@ -234,7 +234,7 @@ class Parameter:
     @property
     def rate(self) -> arb:
         """The whole rate."""
-        return self.own + self.frame
+        return self.own_rate + self.frame
 
     def at(self, t: Any, s: arb) -> tuple[acb, acb]:
         """Return the parameter and its derivative at time t, which is s in its own period."""
@@ -294,12 +294,12 @@ class Solution:
 
     def in_cell(self, s: arb) -> arb:
         """Return the time since the turning point, less whole periods where the sums are for one period only."""
-        whole = self._whole(s)
-        if whole == 0:
+        periods = self._whole_periods(s)
+        if periods == 0:
             return s
-        return arb("nan") if whole is None else s - self.period * whole
+        return arb("nan") if periods is None else s - self.period * periods
 
-    def _whole(self, s: arb) -> fmpz | None:
+    def _whole_periods(self, s: arb) -> fmpz | None:
         """Return how many whole periods are left out, None where that is not known."""
         if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
             return fmpz(0)
@@ -307,8 +307,8 @@ class Solution:
 
     def is_flipped(self, t: Any) -> bool:
         """Whether alpha and beta lack a sign at time t, for the whole periods that are left out."""
-        whole = self._whole(arb(t) + self.origin)
-        return whole is not None and int(whole) % 2 == 1 and self.alternates
+        periods = self._whole_periods(arb(t) + self.origin)
+        return periods is not None and int(periods) % 2 == 1 and self.alternates
 
 
 def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
@@ -325,11 +325,11 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
     return Solution(lattice, arb(0), alpha, beta, k, phi)
 
 
-def quaternion(R: Sequence[Sequence[Any]], near: Sequence[float]) -> list[arb]:
+def quaternion(R: Sequence[Sequence[Any]], doubles: Sequence[float]) -> list[arb]:
     """Return the unit quaternion (x, y, z, w) of a rotation matrix, that of the two which is near to some doubles."""
-    i = max(range(4), key=lambda i: abs(near[i]))
+    i = max(range(4), key=lambda i: abs(doubles[i]))
     row = quaternion_products([[arb(x) for x in row] for row in R])[i]
-    size = (-2 if near[i] < 0 else 2) * row[i].sqrt()
+    size = (-2 if doubles[i] < 0 else 2) * row[i].sqrt()
     return [x / size for x in row]
 
 

@@ -42,7 +42,7 @@ class TurningPoint:
     def quarter_slope(self) -> arb:
         """Q'(e)/4, as a product over the other roots."""
         product = acb(arb(self.quartic.leading) / 4)
-        for i in self.others:
+        for i in self.other_roots:
             if not self.roots[i].is_infinite:
                 product *= self.u - self.roots[i].value
         return product.real
@@ -52,50 +52,50 @@ class TurningPoint:
         return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
 
     @cached_property
-    def others(self) -> list[int]:
+    def other_roots(self) -> list[int]:
         """Places of the other three roots."""
         return [i for i, r in enumerate(self.roots) for _ in range(r.multiplicity) if i != self.place]
 
     def real_time(self, u: arb) -> arb:
         """Return the time from e to u, between the turning points."""
-        return acb.elliptic_rf(*(self._above(u, i) for i in self.others)).real
+        return acb.elliptic_rf(*(self._above(u, i) for i in self.other_roots)).real
 
     def imaginary_time(self, u: arb) -> arb:
         """Return y > 0 where u(i y) = u, for u beyond the interval."""
-        return acb.elliptic_rf(*(-self._above(u, i) for i in self.others)).real
+        return acb.elliptic_rf(*(-self._above(u, i) for i in self.other_roots)).real
 
     @cached_property
     def imaginary_time_to_infinity(self) -> arb:
         """The y > 0 where u(i y) is infinite."""
-        return acb.elliptic_rf(*(self.w(i) for i in self.others)).real
+        return acb.elliptic_rf(*(self.w(i) for i in self.other_roots)).real
 
     def real_time_to_infinity(self) -> arb:
         """Return x > 0 where u(x) is infinite, from an outermost root beyond which Q is positive."""
-        return acb.elliptic_rf(*(-self.w(i) for i in self.others)).real
+        return acb.elliptic_rf(*(-self.w(i) for i in self.other_roots)).real
 
     @cached_property
     def lattice(self) -> Lattice:
         """The lattice of Omega3, decided by the multiple roots there are."""
-        other = self.quartic.low + self.quartic.high - self.place
-        multiple = self.roots[other].multiplicity
+        opposite = self.quartic.low + self.quartic.high - self.place
+        multiple = self.roots[opposite].multiplicity
         if multiple == 3:
             return Lattice("linear", arb("inf"), arb("inf"), oblique=False, rate=arb(1))
         if multiple == 2:
-            (last,) = [i for i in self.others if i != other] or [other]
-            rate = (self.w(other) - self.w(last)).real.sqrt()
+            (remaining,) = [i for i in self.other_roots if i != opposite] or [opposite]
+            rate = (self.w(opposite) - self.w(remaining)).real.sqrt()
             return Lattice("hyperbolic", arb("inf"), arb.pi() / (2 * rate), oblique=False, rate=rate)
-        first = self.w(other)
-        second, third = (self.w(i) for i in self.others if i != other)
+        at_opposite = self.w(opposite)
+        second, third = (self.w(i) for i in self.other_roots if i != opposite)
         if not any(root.is_complex for root in self.roots):
             ends = sorted((second.real, third.real), key=lambda x: -x.mid())
-            longer, shorter = (first.real - ends[1]).sqrt(), (first.real - ends[0]).sqrt()
+            longer, shorter = (at_opposite.real - ends[1]).sqrt(), (at_opposite.real - ends[0]).sqrt()
             half = arb.pi() / (2 * longer.agm(shorter))
             if any(root.multiplicity == 2 for root in self.roots):
                 return Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb.pi() / (2 * half))
             imaginary = arb.pi() / (2 * longer.agm((ends[0] - ends[1]).sqrt()))
             return _balanced(half, imaginary, oblique=False)
         # the complex pair: sqrt(z) and its conjugate have the mean Re sqrt(z) and the product |z|
-        half, imaginary = (_of_pair(z) for z in (first - second, second - first))
+        half, imaginary = (_of_pair(z) for z in (at_opposite - second, second - at_opposite))
         return _balanced(half, imaginary, oblique=True)
 
     def _above(self, u: arb, place: int) -> acb:
@@ -120,7 +120,7 @@ class Nutation:
         if all(root.multiplicity == 2 for root in self.roots):
             return self._heteroclinic()
         self.start = self._start()
-        self.other = self.quartic.low + self.quartic.high - self.start.place
+        self.opposite = self.quartic.low + self.quartic.high - self.start.place
         self.lattice = self.start.lattice
         if trigonometric and not infinite(self.lattice.half):
             self.lattice = self.lattice.as_trigonometric()
@@ -166,7 +166,7 @@ class Nutation:
         twist = self.lattice.twist * y
         rate = arb(0)
         if turn:
-            # what alpha'/alpha, or beta'/beta, is at the turning point
+            # alpha'/alpha, or beta'/beta, at the turning point
             angular = sphere.torques[pole] / (2 * pole * (self.start.u - sphere.poles[pole]))
             rate = angular - twist - function.logarithmic_slope.imag
         value, tangent = function.at(origin)
@@ -175,15 +175,15 @@ class Nutation:
         factor *= acb(0, -twist * origin).exp()
         return Parameter(factor, rate, arb(sphere.frames[pole]), twist, function, turn)
 
-    def _function(self, which: int) -> tuple[Sum, arb, int]:
+    def _function(self, name: int) -> tuple[Sum, arb, int]:
         """Return the function with the zero of a pole, its imaginary part y, and the sense in which it turns.
 
         Where the vector meets the pole the function is real, up to a phase: then the sense is 0.
         """
-        q, pole, sense = self.quartic, self.sphere.poles[which], self.sphere.signs[which]
+        q, pole, sense = self.quartic, self.sphere.poles[name], self.sphere.signs[name]
         # the pole -1 is where Omega3 is highest
-        next_to = q.high if which == -1 else q.low
-        beyond = next_to != self.start.place and not self._through_infinity(which)
+        next_to = q.high if name == -1 else q.low
+        beyond = next_to != self.start.place and not self._through_infinity(name)
         if sense:
             y = (self.turning(next_to) if beyond else self.start).imaginary_time(pole)
             if not beyond and next_to != self.start.place:
@@ -194,23 +194,23 @@ class Nutation:
                 return constant(self.lattice), arb(0), 0
             if place == self.start.place:
                 return vanishing_at(self.lattice, arb(0), beyond=False), arb(0), 0
-            if place == self.other and not (self.lattice.oblique and self.lattice.form == "hyperbolic"):
+            if place == self.opposite and not (self.lattice.oblique and self.lattice.form == "hyperbolic"):
                 return vanishing_at(self.lattice, arb(0), beyond=True), arb(0), 0
             y, sense = self.lattice.imaginary, 1
         y = y if sense > 0 else -y
         function = vanishing_at(self.lattice, y, beyond=beyond)
         return function, y, -sense if function.shifted else sense
 
-    def _through_infinity(self, which: int) -> bool:
+    def _through_infinity(self, name: int) -> bool:
         """Whether u moves from the turning point where it starts, in imaginary time, by infinity to a pole."""
         if self.quartic.bend >= 0:
             return False
         if len(self.real) <= 2:
             return True
         # the other two roots must not lie between
-        pole = self.sphere.poles[which]
-        beyond = pole - self.real[-1] if which == -1 else self.real[0] - pole
-        return bool(beyond > 0) or (self.sphere.signs[which] == 0 and bool(beyond.overlaps(arb(0))))
+        pole = self.sphere.poles[name]
+        beyond = pole - self.real[-1] if name == -1 else self.real[0] - pole
+        return bool(beyond > 0) or (self.sphere.signs[name] == 0 and bool(beyond.overlaps(arb(0))))
 
     def _heteroclinic(self) -> Solution:
         """Return the motion between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, and no phase but the frame's.

@@ -95,7 +95,7 @@ def constants(tilt: Sequence[Any], solution: Solution, places: tuple[int, ...] =
 
 def _flat(x: Sum, factor: acb) -> list[acb]:
     """Return the weights of a sum times a factor, odd and even ones by turns: next to a steady motion one vanishes."""
-    return [y * factor for both in zip(x.odd, x.even, strict=True) for y in both]
+    return [y * factor for pair_of_weights in zip(x.odd, x.even, strict=True) for y in pair_of_weights]
 
 
 def variations(
@@ -108,8 +108,8 @@ def variations(
     """
     h = [scale / fmpq(2) ** STEP_BITS for scale in scales]
 
-    def at(moved: Sequence[int], sign: int) -> Constants:
-        return make(*(x + sign * h[i] if i in moved else x for i, x in enumerate(values)))
+    def at(changed: Sequence[int], sign: int) -> Constants:
+        return make(*(x + sign * h[i] if i in changed else x for i, x in enumerate(values)))
 
     with workprec(4 * STEP_BITS + 64):
         try:
@@ -132,8 +132,8 @@ def variations(
 def variation(make: Callable[..., Constants], values: Sequence[fmpq], place: int, scales: Sequence[fmpq]) -> Variation:
     """Return the derivatives of constants in the input at a place, also next to a border, by central differences."""
     small = min((abs(x) / size for x, size in zip(values, scales, strict=True) if x != 0), default=fmpq(1))
-    lost = max(0, int(small.q).bit_length() - int(small.p).bit_length())
-    bits = STEP_BITS + lost
+    lost_bits = max(0, int(small.q).bit_length() - int(small.p).bit_length())
+    bits = STEP_BITS + lost_bits
     for _ in range(MAX_TRIES):
         h = scales[place] / fmpq(2) ** bits
         with workprec(4 * bits + 64):
@@ -150,9 +150,9 @@ def _differences(
     """Return values and slopes by differences over h; None where they are not known well enough."""
 
     def at(steps: int) -> Constants | None:
-        moved = [*values[:place], values[place] + steps * h, *values[place + 1 :]]
+        changed = [*values[:place], values[place] + steps * h, *values[place + 1 :]]
         try:
-            return make(*moved)
+            return make(*changed)
         except DomainError:
             return None
 
@@ -165,17 +165,17 @@ def _differences(
         three = [at(n) for n in nodes]
         if nodes[1] == 0 and three[1] is None:
             raise DomainError(SEPARATRIX)
-        whole = [x for x in three if x is not None]
-        if len(whole) < len(three) or any(x.form != whole[0].form for x in whole):
+        complete = [x for x in three if x is not None]
+        if len(complete) < len(three) or any(x.form != complete[0].form for x in complete):
             continue
-        groups = Groups(whole)
-        first, second, third = groups.rows
-        if not groups.are_smooth(second, *(_combined(x, (1, -1)) for x in ((third, second), (second, first)))):
+        groups = Groups(complete)
+        lower, second, third = groups.rows
+        if not groups.are_smooth(second, *(_combined(x, (1, -1)) for x in ((third, second), (second, lower)))):
             continue
         mean, slope = _combined(groups.rows, weights), _scaled(_combined(groups.rows, slopes), 1 / arb(h))
         if not groups.are_known(mean, [(slope, scale)]):
             return None
-        return Variation(whole[0].form, groups.tables(mean), groups.tables(slope))
+        return Variation(complete[0].form, groups.tables(mean), groups.tables(slope))
     return None
 
 
@@ -196,17 +196,17 @@ class Groups:
 
     def tables(self, row: Row) -> Tables:
         """Return constants by groups."""
-        rest = iter(row)
-        return {name: [next(rest) for _ in range(n)] for name, n in self.lengths.items()}
+        entries = iter(row)
+        return {name: [next(entries) for _ in range(n)] for name, n in self.lengths.items()}
 
     def are_smooth(self, middle: Row, ups: Row, downs: Row) -> bool:
         """Return whether slopes do not change over two steps, beside the sizes of the constants and of the slopes."""
         size, up, down = (sizes_of(x) for x in (middle, ups, downs))
         bend = sizes_of(_combined((ups, downs), (1, -1)))
-        largest, whole = self._largest(np.maximum(up, down)), self._largest(size)
+        largest, complete = self._largest(np.maximum(up, down)), self._largest(size)
         return bool(
-            (bend <= MAX_SLOPE_CHANGE * (largest + np.ldexp(whole, -STEP_BITS))).all()
-            and ((up <= MAX_SLOPE_CHANGE * whole) | (whole == 0)).all()
+            (bend <= MAX_SLOPE_CHANGE * (largest + np.ldexp(complete, -STEP_BITS))).all()
+            and ((up <= MAX_SLOPE_CHANGE * complete) | (complete == 0)).all()
         )
 
     def are_known(self, mean: Row, slopes: Sequence[tuple[Row, fmpq]]) -> bool:

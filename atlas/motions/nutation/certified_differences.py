@@ -20,7 +20,7 @@ from atlas.motions.nutation.certified_derivatives import (
 )
 
 SIDES = (((1, 0, -1), (1, 0, -1)), ((0, -1, -2), (3, -4, 1)), ((0, 1, 2), (-3, 4, -1)))
-"""Steps h and the weights of twice a difference: on both sides or, at the border of what bodies there are, on one."""
+"""Steps h and the weights of twice a difference: on both sides, or on one at the border of possible bodies."""
 
 MAX_DERIVATIVE_CHANGE = 2.0**-30
 """Largest change of a derivative over a step, in parts of it: of a difference that errs by the square of this."""
@@ -40,16 +40,16 @@ class Differences:
         scales: Sequence[fmpq],
     ) -> None:
         self.make, self.values, self.places, self.scales = make, values, places, scales
-        self._at(STEP_BITS + 20)
+        self._make_neighbours(STEP_BITS + 20)
 
-    def _at(self, bits: int) -> None:
+    def _make_neighbours(self, bits: int) -> None:
         """Make the motions beside this one in each input."""
         self.bits = bits
         with workprec(8 * bits):
             self.here = self.make(*self.values)
-            self.beside = [self._beside(i, self.scales[i] / fmpq(2) ** bits) for i in self.places]
+            self.neighbours = [self._neighbours(i, self.scales[i] / fmpq(2) ** bits) for i in self.places]
 
-    def _beside(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
+    def _neighbours(self, place: int, h: fmpq) -> list[tuple[Any, arb, arb]]:
         """Return motions with the weights whose sums are the derivative in an input, and that input's change over h."""
         for steps, weights in SIDES:
             try:
@@ -67,26 +67,26 @@ class Differences:
             with workprec(8 * self.bits):
                 here = self._state(self.here, time)
                 R, Omega = [here[i : i + 3] for i in (0, 3, 6)], here[9:]
-                turns, changes, bends = zip(*(self._one(here, R, x, time) for x in self.beside), strict=True)
+                turns, changes, bends = zip(*(self._derivative(here, R, x, time) for x in self.neighbours), strict=True)
                 axis = [row[2] for row in R], [row[0] * Omega[1] - row[1] * Omega[0] for row in R]
             v, faster = (np.array([[float(x.mid()) for x in row] for row in rows]) for rows in (turns, changes))
             sizes = 1 + abs(v).max(1)
             radii = np.array([radii_of(x).max() for x in turns])
             if ((radii <= MAX_RADIUS * sizes) & (np.array(bends) <= MAX_DERIVATIVE_CHANGE * sizes)).all():
                 return v, faster, *(np.array([float(arb(x).mid()) for x in y]) for y in axis)
-            self._at(2 * self.bits)
+            self._make_neighbours(2 * self.bits)
         raise DomainError("The motion is too near to a case of its own for derivatives.")
 
     def _state(self, motion: Any, t: fmpq) -> Row:
         """Return the entries of R, by rows, and Omega."""
         return [*chain.from_iterable(motion.rotation(t)), *motion.angular_velocity(t)]
 
-    def _one(
-        self, here: Row, R: Sequence[Row], beside: Sequence[tuple[Any, arb, arb]], t: fmpq
+    def _derivative(
+        self, here: Row, R: Sequence[Row], neighbours: Sequence[tuple[Any, arb, arb]], t: fmpq
     ) -> tuple[Row, Row, float]:
         """Return v and R dOmega/dp of one input, and by how much the derivative of R changes over a step."""
-        rows = [here if x is self.here else self._state(x, t) for x, _, _ in beside]
-        _, slopes, bends = zip(*beside, strict=True)
+        rows = [here if x is self.here else self._state(x, t) for x, _, _ in neighbours]
+        _, slopes, bends = zip(*neighbours, strict=True)
         change, bend = ([dot(x, w) for x in zip(*rows, strict=True)] for w in (slopes, bends))
-        turned = [[dot(change[3 * i : 3 * i + 3], R[j]) for j in range(3)] for i in range(3)]
-        return [turned[2][1], turned[0][2], turned[1][0]], [dot(row, change[9:]) for row in R], sizes_of(bend[:9]).max()
+        spin = [[dot(change[3 * i : 3 * i + 3], R[j]) for j in range(3)] for i in range(3)]
+        return [spin[2][1], spin[0][2], spin[1][0]], [dot(row, change[9:]) for row in R], sizes_of(bend[:9]).max()

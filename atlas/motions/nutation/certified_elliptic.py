@@ -57,7 +57,7 @@ class EllipticMotion(Nutating):
 
     def _start(self) -> None:
         self.places = self._order()
-        e, K = self._turned(self._e), self._turned(self.field)
+        e, K = self._permuted(self._e), self._permuted(self.field)
         self.quartic: EllipticQuartic = EllipticQuartic(e, K, self.square, self.branch)
         self.kind = self._kind()
 
@@ -66,12 +66,12 @@ class EllipticMotion(Nutating):
         e, K = self._e, self.field
         low, middle, high = sorted(range(3), key=lambda i: e[i])
         if sum(x != 0 for x in K) == 1:
-            last = next(i for i in range(3) if K[i] != 0)
+            nutating = next(i for i in range(3) if K[i] != 0)
         elif e[middle] in (e[low], e[high]):  # of two equal ones neither; of a ball any
-            last = high if e[middle] == e[low] else low
+            nutating = high if e[middle] == e[low] else low
         else:
-            last = low if sum((c - e[middle]) * x * x for c, x in zip(e, K, strict=True)) > 0 else high
-        return (last + 1) % 3, (last + 2) % 3, last
+            nutating = low if sum((c - e[middle]) * x * x for c, x in zip(e, K, strict=True)) > 0 else high
+        return (nutating + 1) % 3, (nutating + 2) % 3, nutating
 
     def _kind(self) -> str:
         e, K = self._e, self.field
@@ -111,9 +111,9 @@ class EllipticMotion(Nutating):
 
     def _change(self) -> fmpq:
         """Return the squared frequency of a small change in the family of a K that is constant."""
-        first, second, last = self.places
+        left, right, nutating = self.places
         e = self._e
-        return (e[first] - e[last]) * (e[second] - e[last]) * self.square * self.quartic.N
+        return (e[left] - e[nutating]) * (e[right] - e[nutating]) * self.square * self.quartic.N
 
     @property
     def is_steady(self) -> bool:
@@ -137,7 +137,7 @@ class EllipticMotion(Nutating):
         return -v * self._e[0], -v * self._e[1], -v * self._e[2]
 
     @property
-    def omega(self) -> list[Real]:  # type: ignore[override]  # it is a root of what is given
+    def omega(self) -> list[Real]:  # type: ignore[override]  # a root of the inputs
         """The initial angular velocity."""
         return self.rate_of(self.field)
 
@@ -160,7 +160,7 @@ class EllipticMotion(Nutating):
     @by_precision
     def sphere(self) -> Sphere:
         """The sphere of K, at the precision of the moment, its last axis a."""
-        K, b = self._turned(self.field), self.b
+        K, b = self._permuted(self.field), self.b
         torque, zero = arb(root(self.square)) * self.quartic.torque, fmpq(0)
         start, length = (K, b) if self.quartic.N else ((zero, zero, fmpq(1)), fmpq(1))
         return Sphere(
@@ -177,10 +177,10 @@ class EllipticMotion(Nutating):
 
     def steady_rates(self) -> tuple[Real, Real]:
         """Return the rates k about the field and phi about the axis a of a motion that is two turns."""
-        first, _, last = self.places
+        left, _, nutating = self.places
         if self.kind != "elementary":  # K is constant, along an axis or where E is a number
             return self.precession, fmpq(0)
-        return (self.E[first] - self.frame) * self.b, (self.E[last] - self.E[first]) * self.field[last]
+        return (self.E[left] - self.frame) * self.b, (self.E[nutating] - self.E[left]) * self.field[nutating]
 
     @property
     def period(self) -> arb:
@@ -197,10 +197,10 @@ class EllipticMotion(Nutating):
     @property
     def circled(self) -> int:
         """Place of the axis about which K goes round, of the largest or the least E; of two equal E the third axis."""
-        e, (first, second, last) = self._e, self.places
+        e, (left, right, nutating) = self._e, self.places
         if len(set(e)) == 2:
             return next(i for i in range(3) if e.count(e[i]) == 1)
-        return last if self.is_steady else max((first, second), key=lambda i: abs(e[i] - e[last]))
+        return nutating if self.is_steady else max((left, right), key=lambda i: abs(e[i] - e[nutating]))
 
     @property
     def is_middle(self) -> bool:
@@ -221,9 +221,9 @@ class EllipticMotion(Nutating):
         precession, spin = super()._angles()
         if self.kind in ("elementary", "at rest"):
             return precession, spin
-        c, last = self.circled, self.places[2]
-        other = self.places[0] if c == last else last
-        sense = -self.branch if self._e[c] > self._e[other] else self.branch
+        c, nutating = self.circled, self.places[2]
+        opposite = self.places[0] if c == nutating else nutating
+        sense = -self.branch if self._e[c] > self._e[opposite] else self.branch
         turn = 2 * arb.pi() * sense
         return precession - turn, spin + (turn if self.field[c] > 0 else -turn)
 
@@ -271,7 +271,7 @@ class EllipticMotion(Nutating):
         q = super().from_frame(a, b)
         return [q[0], *(q[1 + self.places.index(i)] for i in range(3))]
 
-    def _turned(self, vector: Any) -> Any:
+    def _permuted(self, vector: Any) -> Any:
         """Return components in the order of the axes."""
         return tuple(vector[i] for i in self.places)
 
@@ -309,13 +309,13 @@ class EulerTop(EllipticMotion):
 
 def check_moments(moments: tuple[fmpq, ...]) -> None:
     """Raise DomainError for three numbers that are no moments of a body."""
-    shown = ", ".join(str(nearest(I)) for I in moments)
+    listed = ", ".join(str(nearest(I)) for I in moments)
     if min(moments) <= 0:
-        raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")
+        raise DomainError(f"No body has the moments of inertia {listed}: all three are positive.")
     if max(moments) * (2 - ROUNDING) > sum(moments):
         most = nearest(sum(moments) - max(moments))
         raise DomainError(
-            f"No body has the moments of inertia {shown}: the largest is at most the sum of the others, {most}."
+            f"No body has the moments of inertia {listed}: the largest is at most the sum of the others, {most}."
         )
 
 

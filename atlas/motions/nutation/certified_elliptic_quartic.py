@@ -27,19 +27,19 @@ class EllipticQuartic(Quartic):
         self.K, self._e = K, e
         self.N = sum((x * x for x in K), fmpq(0))
         self.h = sum((c * x * x for c, x in zip(e, K, strict=True)), fmpq(0))
-        first = fmpq_poly([e[1] * self.N - self.h, 0, e[2] - e[1]])
-        second = fmpq_poly([self.h - e[0] * self.N, 0, e[0] - e[2]])
-        self.polynomial = rational_polynomial((square * first * second).coeffs())
+        lower_factor = fmpq_poly([e[1] * self.N - self.h, 0, e[2] - e[1]])
+        upper_factor = fmpq_poly([self.h - e[0] * self.N, 0, e[0] - e[2]])
+        self.polynomial = rational_polynomial((square * lower_factor * upper_factor).coeffs())
         self.rate = Surd.rational(sign * K[0] * K[1] * (e[1] - e[0]))
         self.u = Surd.rational(-K[2])
         self.torque = sign * (e[2] * self.N - self.h)
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots: of a quadratic in u^2."""
-        (first, second, last), h, N = self._e, self.h, self.N
-        if last in (first, second):
+        (lower_factor, upper_factor, third), h, N = self._e, self.h, self.N
+        if third in (lower_factor, upper_factor):
             return super()._isolated()
-        squares = [(h - c * N) / (last - c) for c in (first, second)]
+        squares = [(h - c * N) / (third - c) for c in (lower_factor, upper_factor)]
         counts = {x: squares.count(x) * (1 if x else 2) for x in squares}
         precision = ctx.prec
         while True:

@@ -58,9 +58,9 @@ class GeneralMotion(Nutating):
     def _kind(self) -> str:
         q = self.quartic
         if q.K2 == 0 or q.is_constant:
-            rest = all(w == 0 for w in self.omega)
-            steady = "at rest" if rest else "precession" if q.across != 0 else "spin along the field"
-            return "free body" if q.K2 == 0 and not rest else steady
+            is_at_rest = all(w == 0 for w in self.omega)
+            steady = "at rest" if is_at_rest else "precession" if q.transverse_square != 0 else "spin along the field"
+            return "free body" if q.K2 == 0 and not is_at_rest else steady
         if self.I == 1:
             return "ball"
         if name := self._separatrix("B and -B"):
@@ -133,15 +133,17 @@ class GeneralMotion(Nutating):
         q, (w1, w2, w3) = self.quartic, self.omega
         if self.kind == "free body":
             return root(w1**2 + w2**2 + (self.I * w3) ** 2), (1 - self.I) * w3
-        if q.across == 0:
+        if q.transverse_square == 0:
             return fmpq(0), w3
-        return q.along * self.b / q.across, w3 - self.field[2] * q.along / q.across
+        return q.transverse_product * self.b / q.transverse_square, w3 - self.field[
+            2
+        ] * q.transverse_product / q.transverse_square
 
     def _steady_turn(self) -> fmpq:
         """Return the rate at which (Omega1, Omega2) turns in the body where Omega3 is constant."""
         q, (w1, w2, w3) = self.quartic, self.omega
-        across = w1**2 + w2**2
-        return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.along / across if across != 0 else 0)
+        equatorial = w1**2 + w2**2
+        return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.transverse_product / equatorial if equatorial != 0 else 0)
 
     @property
     def _half(self) -> arb:
@@ -239,10 +241,10 @@ class Symmetric:
     """The motion of a body with two equal moments, whatever the order of its axes."""
 
     def __init__(self, moments: tuple[fmpq, ...], Omega: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
-        last = next(i for i in range(3) if moments[i - 1] == moments[i - 2])
-        places = (last - 2) % 3, (last - 1) % 3, last
+        axis_place = next(i for i in range(3) if moments[i - 1] == moments[i - 2])
+        places = (axis_place - 2) % 3, (axis_place - 1) % 3, axis_place
         spin, field = ([x[i] for i in places] for x in (Omega, K))
-        self.exact = GeneralMotion.at_state(moments[last] / moments[last - 1], spin, field)
+        self.exact = GeneralMotion.at_state(moments[axis_place] / moments[axis_place - 1], spin, field)
         self._back = [places.index(i) for i in range(3)]
 
     def rotation(self, t: Any) -> list[list[Real]]:

@@ -65,8 +65,8 @@ class Quartic:
         (w1, w2, w3), (K1, K2, _) = Omega, K
         self.I, self.u, self.Omega, self.K = I, Surd.rational(w3), Omega, K
         self.E, self.K2, self.c3, self.c5 = conserved = integrals(I, Omega, K)
-        self.across = K1**2 + K2**2
-        self.along = w1 * K1 + w2 * K2
+        self.transverse_square = K1**2 + K2**2
+        self.transverse_product = w1 * K1 + w2 * K2
         self.rate = Surd.rational(w1 * K2 - w2 * K1)
         self.momentum = along_field(I, (w1 + K1, w2 + K2, self.c3), K)
         self.polynomial = rational_polynomial(quartic(I, *conserved))
@@ -108,8 +108,8 @@ class Quartic:
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
-        beside: Surd = Surd.root(self.K2) * (-pole * self.I * self.c3) + self.momentum
-        return beside.sign
+        torque: Surd = Surd.root(self.K2) * (-pole * self.I * self.c3) + self.momentum
+        return torque.sign
 
     def roots(self) -> list[Root]:
         """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
@@ -144,8 +144,8 @@ class Quartic:
                     high = next(i for i, x in enumerate(real) if x > u)
                     return high - 1, high
                 if not self.sense and len(hits) == 1:
-                    first, second = hits[0], hits[0] + self.bias
-                    return min(first, second), max(first, second)
+                    place, second = hits[0], hits[0] + self.bias
+                    return min(place, second), max(place, second)
             precision *= 2
 
     @property
@@ -178,12 +178,12 @@ class TopQuartic(Quartic):
         (w1, w2, w3), (k2, k3), (n2, n3), (linear, quadratic) = omega, coupling, direction, potential
         N = n2 * n2 + n3 * n3
         size = Surd.root(N)
-        self.across, self.nu = size * (n2 / N), size * (n3 / N)
+        self.transverse, self.nu = size * (n2 / N), size * (n3 / N)
         self.u = -self.nu
-        M2 = self.across * k2 + w2
+        M2 = self.transverse * k2 + w2
         self.M3 = self.nu * k3 + I * w3
-        self.p = M2 * self.across + self.M3 * self.nu
-        self.rate = self.across * w1
+        self.p = M2 * self.transverse + self.M3 * self.nu
+        self.rate = self.transverse * w1
         self.kappa = k2 - k3 / I
         self.linear = linear
         self.a = self.M3 * self.kappa + linear
@@ -194,10 +194,10 @@ class TopQuartic(Quartic):
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of p + M3 for `pole` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
-        beside: Surd = self.p - self.M3 * pole
-        return beside.sign
+        torque: Surd = self.p - self.M3 * pole
+        return torque.sign
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots; those that have gone to infinity come last."""
-        lost = 5 - len(self.polynomial)
-        return super()._isolated() + [Root(INFINITY, lost)] * bool(lost)
+        infinite = 5 - len(self.polynomial)
+        return super()._isolated() + [Root(INFINITY, infinite)] * bool(infinite)

@@ -4,7 +4,7 @@
 
 s the time since a turning point, less whole periods where the sums are for one only. O and E are the odd and the even
 part of a theta function with its zero where nu is infinite: two simple poles for A != 0. As A goes to 0 they become a
-double one, and O a multiple of sqrt(|A|): so O/sqrt(|A|) is what is kept, at A = 0 the derivative of E.
+double one, and O a multiple of sqrt(|A|): so O/sqrt(|A|) is kept, at A = 0 the derivative of E.
 """
 
 from collections.abc import Callable, Iterator
@@ -62,13 +62,13 @@ class Swing:
             return most
         unit = 8 / self.lattice.rate if infinite(half) else half
 
-        def found() -> arb:
+        def largest_oscillation() -> arb:
             sizes = [abs(self.kappa * self.oscillation(unit * k / 8)) / 2 for k in range(1, 9)]
             return max(sizes, key=lambda x: float(x.mid()))
 
         with workprec(ROUGH_BITS):
-            rough = found()
-        return rough if rough.rel_accuracy_bits() > ROUGH_BITS // 4 else found()
+            rough = largest_oscillation()
+        return rough if rough.rel_accuracy_bits() > ROUGH_BITS // 4 else largest_oscillation()
 
     def oscillation(self, s: arb) -> arb:
         """Return the part that is no multiple of time."""
@@ -114,21 +114,21 @@ def swing(nutation: Nutation, quartic: TopQuartic) -> Swing:
     if quartic.A > 0:
         outermost = nutation.turning(0 if sense > 0 else len(nutation.real) - 1)
         depth = lattice.rate * outermost.real_time_to_infinity()
-        odd, even = _apart(lattice, depth, sense / A.sqrt())
+        odd, even = _poles_aside(lattice, depth, sense / A.sqrt())
     elif quartic.A < 0:
-        odd, even = _across(lattice, nutation.start.imaginary_time_to_infinity, sense / (-A).sqrt())
+        odd, even = _poles_on_axis(lattice, nutation.start.imaginary_time_to_infinity, sense / (-A).sqrt())
     elif quartic.a.is_zero:
-        amplitude = nutation.roots[nutation.other].value.real - nutation.start.u
+        amplitude = nutation.roots[nutation.opposite].value.real - nutation.start.u
         like = Sum(lattice, (), (), arb(0), doubled=True)
         odd, even = _split(like, [arb(0), amplitude / (8 * lattice.rate)], [arb(1), arb(0)], arb(1))
     else:
         odd, even = _merged(lattice, lattice.rate / arb(quartic.a.value))
     # nu is that of the turning point at s = 0
-    whole = -nutation.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
-    twist, width = arb(0), abs(nutation.roots[nutation.other].value.real - nutation.start.u)
+    total = -nutation.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
+    twist, width = arb(0), abs(nutation.roots[nutation.opposite].value.real - nutation.start.u)
     if lattice.form == "hyperbolic" and not infinite(lattice.half):
         twist = -turn_of(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
-    return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth, width)
+    return Swing(lattice, arb(quartic.kappa), A, total - twist, twist, odd, even, depth, width)
 
 
 def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
@@ -136,7 +136,7 @@ def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
     return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
 
 
-def _apart(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
+def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
     """Return O, times a factor, and E for poles at s = x + i imaginary, `depth` being rate x."""
     if lattice.form == "trigonometric":
         return _beside_imaginary(lattice, arb(0), -factor, lambda k: (depth * k).sin_cos())
@@ -149,7 +149,7 @@ def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
     return _beside_imaginary(lattice, STEEP, sign * factor, lambda k: (arb(k), arb(1)))
 
 
-def _across(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
+def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
     """Return O, times a factor, and E for poles at s = i y."""
     if lattice.form == "trigonometric":
         function = _inclined(lattice, y)
@@ -186,8 +186,8 @@ def _beside_imaginary(
             sign = 1 if doubled else (-1) ** n  # terms of the turned lattice do not alternate
             yield acb(sign * odd), acb(sign * even)
 
-    whole = theta_sum(lattice, depth, pairs(), doubled=doubled)
-    return _split(whole, [x.real for x in whole.odd], [x.real for x in whole.even], factor)
+    total = theta_sum(lattice, depth, pairs(), doubled=doubled)
+    return _split(total, [x.real for x in total.odd], [x.real for x in total.even], factor)
 
 
 def _inclined(lattice: Lattice, y: arb) -> Sum:
@@ -199,11 +199,11 @@ def _inclined(lattice: Lattice, y: arb) -> Sum:
     while True:
         up = (-1) ** n * (nome ** (n * (n + 1))).real * (2 * n * eta).exp()
         down = (-1) ** (n - 1) * (nome ** (n * (n - 1))).real * (-2 * n * eta).exp() if n else arb(0)
-        first = (size ** (n * (n + 1)) * (2 * n * eta).exp() + size ** (n * (n - 1)) * (-2 * n * eta).exp()) * 4
+        size_of_term = (size ** (n * (n + 1)) * (2 * n * eta).exp() + size ** (n * (n - 1)) * (-2 * n * eta).exp()) * 4
         falls = n and size ** (2 * n) * ((2 * eta).exp() * size**2 + (-2 * eta).exp()) < 0.25
-        if (nome == 0 and n > 1) or (falls and first < arb(2) ** -(ctx.prec + 8)):
+        if (nome == 0 and n > 1) or (falls and size_of_term < arb(2) ** -(ctx.prec + 8)):
             break
         odd.append(acb(up + down) if n else acb(0))
         even.append(acb(up - down))
         n += 1
-    return Sum(lattice, tuple(odd), tuple(even), arb(0) if nome == 0 else first, doubled=True)
+    return Sum(lattice, tuple(odd), tuple(even), arb(0) if nome == 0 else size_of_term, doubled=True)

@@ -51,7 +51,7 @@ class TopMotion(Nutating):
         if q.is_constant:
             if all(w == 0 for w in self.omega):
                 return "at rest"
-            return "vertical spin" if q.across.is_zero else "steady precession"
+            return "vertical spin" if q.transverse.is_zero else "steady precession"
         if len(q.polynomial) == 3:
             return "regular nutation"
         if name := self._separatrix("n and -n"):
@@ -105,7 +105,7 @@ class TopMotion(Nutating):
         M3, p = arb(q.M3.value), arb(q.p.value)
         spin = (q.M3 / self.I - q.M3).value
         return Sphere(
-            start=(fmpq(0), q.across.value, q.nu.value),
+            start=(fmpq(0), q.transverse.value, q.nu.value),
             length=fmpq(1),
             poles={pole: arb(-pole) for pole in POLES},
             torques={pole: p - pole * M3 for pole in POLES},
@@ -120,7 +120,7 @@ class TopMotion(Nutating):
     def invariants(self) -> list[Real]:
         """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction."""
         q, (k2, k3), (a0, A0), (w1, w2, w3) = self.quartic, self.coupling, self.potential, self.omega
-        energy, M3, p = constants(self.I, k2, k3, q.across, q.nu, a0, A0, w1, w2, w3)
+        energy, M3, p = constants(self.I, k2, k3, q.transverse, q.nu, a0, A0, w1, w2, w3)
         return [(energy / 2).value, M3.value, p.value]
 
     def _solved(self, *, trigonometric: bool = False) -> Solution:
@@ -135,9 +135,9 @@ class TopMotion(Nutating):
     def steady_rates(self) -> tuple[Real, Real]:
         """Return the rates k about n and phi about the body's axis where theta is constant."""
         q, (_, w2, w3) = self.quartic, self.omega
-        if q.across.is_zero:
+        if q.transverse.is_zero:
             return fmpq(0), w3
-        return (q.across.of(w2) / q.across).value, (q.across.of(w3) - q.nu * w2 / q.across).value
+        return (q.transverse.of(w2) / q.transverse).value, (q.transverse.of(w3) - q.nu * w2 / q.transverse).value
 
     @property
     def roots(self) -> list[acb]:
@@ -176,9 +176,9 @@ class TopMotion(Nutating):
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame."""
-        across, other, along = super().angular_velocity(t)
+        transverse, second, third = super().angular_velocity(t)
         # without k3 there is no torque about the axis that is not one of n
-        return [across, other, along if self.coupling[1] else self.omega[2]]
+        return [transverse, second, third if self.coupling[1] else self.omega[2]]
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return b(t) = R^T n, the direction n in the body."""

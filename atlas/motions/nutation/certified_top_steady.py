@@ -25,7 +25,7 @@ class SteadyPrecession(NamedTuple):
 
 def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession]:
     """Return the steady precessions with the nu and M3 of a quartic, the slower one in w first; `precession` is k2."""
-    if q.across.is_zero:
+    if q.transverse.is_zero:
         return []
     nu, M3, push = q.nu, q.M3, q.a + q.nu * q.A
     level = (1 - 3 * nu * nu) * q.A - 2 * nu * q.a + M3 * M3
@@ -45,12 +45,12 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
     rates = []
     for x, y, d in precessions:
         # w^2 + (M3 - nu w)^2 + ..., with w = x + y sqrt(d)
-        whole = (1 + nu * nu) * (x * x + y * y * d) - 2 * M3 * nu * x + level
+        discriminant = (1 + nu * nu) * (x * x + y * y * d) - 2 * M3 * nu * x + level
         torque = 2 * (1 + nu * nu) * x * y - 2 * M3 * nu * y
-        sign = sign_of_sum(whole, torque, d)
+        sign = sign_of_sum(discriminant, torque, d)
         rates.append(
             SteadyPrecession(
-                _value(x - precession, y, d), _value(whole, torque, d), sign > 0 or (sign == 0 and fourfold)
+                _value(x - precession, y, d), _value(discriminant, torque, d), sign > 0 or (sign == 0 and fourfold)
             )
         )
     return rates
@@ -65,10 +65,10 @@ def _any_rate(push: Surd) -> list[SteadyPrecession]:
 
 def sign_of_sum(x: Surd, y: Surd, d: Surd) -> int:
     """Return the sign of x + y sqrt(d), d not negative."""
-    first, second = x.sign, y.sign * d.sign
-    if first * second >= 0:
-        return first or second
-    return first * (x * x - y * y * d).sign
+    sign_of_first, second = x.sign, y.sign * d.sign
+    if sign_of_first * second >= 0:
+        return sign_of_first or second
+    return sign_of_first * (x * x - y * y * d).sign
 
 
 def _value(x: Surd, y: Surd, d: Surd) -> Real:
@@ -90,7 +90,7 @@ def stable(q: TopQuartic) -> bool:
         return sign < 0
     third = evaluated(derivative(second), -q.nu).sign
     if third:  # along n there is but one side: u = -nu grows from -1, falls from 1
-        return bool(q.across.is_zero and third * q.nu.sign < 0)
+        return bool(q.transverse.is_zero and third * q.nu.sign < 0)
     return bool(q.A < 0)
 
 

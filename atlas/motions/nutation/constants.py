@@ -52,7 +52,7 @@ class CayleyKlein:
             self.precision = _doubled(self.precision)
 
     def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
-        """Return what `Evaluation.parts` does, each time by itself: where the turn of a top is too long for words."""
+        """Return the arrays of `Evaluation.components` from balls, where the turn of a top is too long for words."""
         self.phases.check(t)
         lacks = np.zeros(t.size) if low is None else np.broadcast_to(low, t.shape)
         times = [rational(x) + rational(y) for x, y in zip(t.tolist(), lacks.tolist(), strict=True)]
@@ -66,13 +66,15 @@ class CayleyKlein:
                 solution = self._solution()
                 a, b, da, db = solution.parameters(t, turning=False)
                 unit = (abs(a) ** 2 + abs(b) ** 2).sqrt() * (-1 if solution.is_flipped(t) else 1)
-                parts = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
-                parts += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
-                sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in parts]
+                components = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
+                components += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
+                sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in components]
                 if all(
-                    _radius(x) <= WEIGHT_RADIUS * float(y) for four, y in zip(parts, sizes, strict=True) for x in four
+                    _radius(x) <= WEIGHT_RADIUS * float(y)
+                    for four, y in zip(components, sizes, strict=True)
+                    for x in four
                 ):
-                    return [float(x.mid()) for four in parts for x in four]
+                    return [float(x.mid()) for four in components for x in four]
             precision = _doubled(precision)
 
     def _are_constants_known(self, solution: Callable[[], Solution], precision: int) -> bool:
@@ -98,7 +100,7 @@ class CayleyKlein:
             self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else _crossed(constants)
             self.phases = self._phases()
             self.values = np.concatenate([_real_parts(table, largest) for table in tables])
-            self.lost = self._lost(tables[0])
+            self.is_lost = self._are_lost(tables[0])
             least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
             self.faint = bool(least < MIN_WEIGHT or lattice.reach > -np.log(MIN_WEIGHT))
         return True
@@ -109,7 +111,7 @@ class CayleyKlein:
         with workprec(self.precision):
             return self.periodic and self._solution().alternates
 
-    def _lost(self, values: list[list[acb]]) -> bool:
+    def _are_lost(self, values: list[list[acb]]) -> bool:
         """Return whether alpha or beta is too small for a float beside the other, but not zero."""
         pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
         return any(not weights.any() and not all(x.is_zero() for x in exact) for exact, weights in pairs)
@@ -163,8 +165,8 @@ def _turns(solution: Solution, periodic: bool) -> tuple[list[arb], arb]:
         return turns, arb(0)
     # the phase is 2v where only sin v / cos v is wanted, else v
     odd = solution.lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
-    whole = (2 if odd else 4) * solution.lattice.half
-    return [*turns, 1 / whole], solution.origin / whole
+    cell = (2 if odd else 4) * solution.lattice.half
+    return [*turns, 1 / cell], solution.origin / cell
 
 
 def _reducible(turns: list[arb], origin: arb) -> bool:

@@ -33,27 +33,40 @@ class Weighted:
 
     In the frame of the field, that of the body's axis where alpha and beta stand for R, v is across = b_p p - a_p q and
     along = Im(a_p u* + b_p w*), with u = 2 a/(|a|^2 + |b|^2), p = u times the phase of the frame, and w, q so from b;
-    a_p and b_p are the derivatives. `left` (3, 3) takes vectors into the laboratory, `names` (N, P) are combinations of
-    inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its own, besides.
+    a_p and b_p are the derivatives. `to_laboratory` (3, 3) takes vectors into the laboratory, `names` (N, P) are
+    combinations of inputs; `turns` (N, 3) and `spins` (N,) turn the body about axes of the laboratory, and about its
+    own, besides.
     """
 
     def __init__(
-        self, pair: VariedPair, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
+        self, pair: VariedPair, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
     ) -> None:
-        self.pair, self.axes, self.names = pair, left @ pair.axes, names
-        self.parts = []
+        self.pair, self.axes, self.names = pair, to_laboratory @ pair.axes, names
+        self.tables = []
         for i, table in enumerate(pair.tables):
             rows = np.concatenate([table[:2], names @ table[2:]])
-            both = np.array([rows, pair.slope(rows, i)])
-            self.parts.append(np.stack([both.real, both.imag], 1))
-        (first, second), turned, spun = pair.twisting, pair.turned @ left.T, np.outer(spins, np.eye(7)[3])
-        columns = np.column_stack(
-            [pair.faster, -pair.cells, pair.rates[:, 1], pair.chi, first - second, pair.rates[:, 0], first + second]
+            sloped = np.array([rows, pair.slope(rows, i)])
+            self.tables.append(np.stack([sloped.real, sloped.imag], 1))
+        (alpha_twist, beta_twist), turning, spun = (
+            pair.twisting,
+            pair.turning @ to_laboratory.T,
+            np.outer(spins, np.eye(7)[3]),
         )
-        self.fixed, combined = names @ turned + turns, names @ columns + spun
+        columns = np.column_stack(
+            [
+                pair.faster,
+                -pair.cells,
+                pair.rates[:, 1],
+                pair.chi,
+                alpha_twist - beta_twist,
+                pair.rates[:, 0],
+                alpha_twist + beta_twist,
+            ]
+        )
+        self.fixed, combined = names @ turning + turns, names @ columns + spun
         self.columns = np.array([np.column_stack([combined, x]) for x in self.fixed.T])
-        # of terms before they are combined, since what cancels may do so there
-        sizes, fixed = abs(names), (abs(names) @ abs(turned) + abs(turns)).max(1)
+        # of terms before they are combined, where cancellation may happen
+        sizes, fixed = abs(names), (abs(names) @ abs(turning) + abs(turns)).max(1)
         self.sizes = np.column_stack([sizes @ abs(columns) + abs(spun), fixed])
         self.weights = [sizes @ (abs(x[2:].real) + abs(x[2:].imag)) for x in pair.tables]
         sizes = sum(x.sum(1) for x in self.weights) + self.sizes[:, 3::4].max(1)
@@ -65,7 +78,7 @@ class Weighted:
         turn, s, count = pair.places(t)
         f, levels = self._functions(s), range(1 + slopes)
         # by level, part, row and time: a, its slope, its derivatives
-        A, B = (np.matmul(x[: 1 + slopes], y) for x, y in zip(self.parts, f, strict=True))
+        A, B = (np.matmul(x[: 1 + slopes], y) for x, y in zip(self.tables, f, strict=True))
         a, b = (x[:, 0, 0] + 1j * x[:, 1, 0] for x in (A, B))
         square = (a[0] * a[0].conj() + b[0] * b[0].conj()).real
         ways, axis, nu = self._directions(a, b, square, turn + pair.twist * s)
@@ -129,9 +142,9 @@ class Weighted:
         return np.asarray(np.matmul(self.axes, ways.reshape(3, -1)).reshape(ways.shape))
 
     @staticmethod
-    def _sum(ways: Sequence[FloatArray], parts: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
+    def _sum(ways: Sequence[FloatArray], factors: Sequence[FloatArray], level: int, rows: slice) -> FloatArray:
         """Return the terms of v, or of dv/dt, from rows of derivatives, shape (3, rows, m)."""
-        pairs = [(ways[i], parts[level - i][:, rows]) for i in range(level + 1)]
+        pairs = [(ways[i], factors[level - i][:, rows]) for i in range(level + 1)]
         terms = [(way[:, j, None], derivative[j]) for way, derivative in pairs for j in range(4)]
         total = np.multiply(*terms[0])
         product = np.empty_like(total)
@@ -170,24 +183,27 @@ class Varied:
         """Evaluator of derivatives at single times."""
         return self._make()
 
-    def weighted(self, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
+    def weighted(
+        self, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
+    ) -> list[Weighted]:
         """Return the evaluators of v for combinations of inputs, see `Weighted`; v is the sum of all."""
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
-            rest = 0 if weighted else 1
-            weighted.append(Weighted(pair, left, names[:, group], rest * turns, rest * spins))
+            share = 0 if weighted else 1
+            weighted.append(Weighted(pair, to_laboratory, names[:, group], share * turns, share * spins))
         return weighted
 
     def vectors(
-        self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray,
-        known: list[Weighted],
+        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray,
+        spins: FloatArray,
+        combinations: list[Weighted],
     ) -> list[FloatArray]:  # fmt: skip
         """Return v of combinations of inputs at times (m,), (m, N, 3), and dv/dt if asked for."""
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             block = slice(i, i + BLOCK)
-            terms: Any = 0.0 if known else np.nan
-            for n, combination in enumerate(known):
+            terms: Any = 0.0 if combinations else np.nan
+            for n, combination in enumerate(combinations):
                 values, sizes = combination.at(t[block], slopes)
                 terms = terms + sizes
                 for x, y in zip(out, values, strict=True):
@@ -197,12 +213,12 @@ class Varied:
                         x[block] = y.transpose(2, 1, 0)
             if not np.any(terms):
                 continue
-            alone = ~(terms <= LOST_TERM * (1 + abs(out[0][block]).max(2).T)).all(0)
-            for j in (i + np.flatnonzero(alone)).tolist():
-                v, faster, axis, more = self.differences.at(float(t[j]))
-                out[0][j] = names @ v @ left.T + turns + np.outer(spins, left @ axis)
+            singles = ~(terms <= LOST_TERM * (1 + abs(out[0][block]).max(2).T)).all(0)
+            for j in (i + np.flatnonzero(singles)).tolist():
+                v, faster, axis, rate = self.differences.at(float(t[j]))
+                out[0][j] = names @ v @ to_laboratory.T + turns + np.outer(spins, to_laboratory @ axis)
                 if slopes:
-                    out[1][j] = names @ faster @ left.T + np.outer(spins, left @ more)
+                    out[1][j] = names @ faster @ to_laboratory.T + np.outer(spins, to_laboratory @ rate)
         return out
 
 
@@ -211,12 +227,12 @@ def _alike(variations: Sequence[Variation]) -> list[list[int]]:
     groups: list[list[int]] = []
     for i, x in enumerate(variations):
         for group in groups:
-            other = variations[group[0]]
-            same = other.values is x.values or (
-                other.form == x.form
+            reference = variations[group[0]]
+            same = reference.values is x.values or (
+                reference.form == x.form
                 and all(
                     len(row) == len(x.values[name]) and all(map(_same, row, x.values[name]))
-                    for name, row in other.values.items()
+                    for name, row in reference.values.items()
                 )
             )
             if same:

@@ -28,7 +28,7 @@ NUTATION: dict[str, Callable[[Any], Any]] = {name: attrgetter(name) for name in 
 class Inputs:
     """Exact inputs of one motion by name, their sizes, the constructor of its certified counterpart, and its scalars.
 
-    `parts` are moments, coupling, and the potential's linear and quadratic
+    `dynamics` are moments, coupling, and the potential's linear and quadratic
     part, from which the angular acceleration follows; `field` is the field in the body at t = 0 with its derivatives in
     the inputs. Where `along_body` vectors are along the axes of the body that were given, not along those of the class.
     """
@@ -38,7 +38,7 @@ class Inputs:
     scales: tuple[fmpq, ...]
     twin: Callable[..., Any]
     scalars: Mapping[str, Callable[[Any], Any]]
-    parts: tuple[FloatArray, FloatArray, float, float]
+    dynamics: tuple[FloatArray, FloatArray, float, float]
     field: FloatArray
     fields: Mapping[str, FloatArray]
     along_body: bool = False
@@ -102,13 +102,13 @@ def of_top(row: Sequence[Any]) -> Inputs:
     pull, push = (rational(float(np.sqrt(abs(x / row[0])))) for x in row[9:])
     w, n = size_of(k2 / I2, k3 / I3, w1, w2, w3, pull, push), size_of(n2, n3)
     unit = np.array([0.0, row[4], row[5]]) / np.hypot(row[4], row[5])
-    across = np.outer(np.array([0.0, -unit[2], unit[1]]), [-unit[2], unit[1]]) / np.hypot(row[4], row[5])
+    transverse = np.outer(np.array([0.0, -unit[2], unit[1]]), [-unit[2], unit[1]]) / np.hypot(row[4], row[5])
     return Inputs(
         ("I2", "I3", "k2", "k3", "n2", "n3", "omega1", "omega2", "omega3", "linear", "quadratic"), values,
         (I2, I3, I2 * w, I2 * w, n, n, w, w, w, I2 * w * w, I2 * w * w),
         lambda *x: TopMotion(x[:2], x[2:4], x[4:6], x[6:9], *x[9:]), NUTATION,
         (np.array([row[0], row[0], row[1]]), np.array([row[2], row[2], row[3]]), row[9], row[10]),
-        unit, {"n2": across[:, 0], "n3": across[:, 1]},
+        unit, {"n2": transverse[:, 0], "n3": transverse[:, 1]},
     )  # fmt: skip
 
 

@@ -60,44 +60,44 @@ class VariedPair:
         row, twist, sign = value[f"sum {i}"], twists[i] * acb(0, 1), 1 if self.hyperbolic else -1
         k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
         # S and C change places: the derivative by rate s is odd C -+ even S
-        turned = [k[n] * (row[n - 1] if n % 2 else sign * row[n + 1]) for n in range(len(row))]
-        slope = [twist * x + rate * y for x, y in zip(row, turned, strict=True)]
-        still = [slope]
+        turning = [k[n] * (row[n - 1] if n % 2 else sign * row[n + 1]) for n in range(len(row))]
+        slope = [twist * x + rate * y for x, y in zip(row, turning, strict=True)]
+        at_rest = [slope]
         for x in slopes:
             origin = x["times"][1] if x["times"] else arb(0)
             # in balls: next to a steady motion the origin moves fast, and the weights against it
-            still.append([y + origin * z for y, z in zip(x[f"sum {i}"], slope, strict=True)])
-        rows = [row, *still]
+            at_rest.append([y + origin * z for y, z in zip(x[f"sum {i}"], slope, strict=True)])
+        rows = [row, *at_rest]
         if self.hyperbolic:  # of exponentials: sinh and cosh would cancel
             rows = [[(x[n - n % 2 + 1] + (-1) ** n * x[n - n % 2]) / 2 for n in range(len(x))] for x in rows]
         table, frequencies = np.array([_double(x) for x in rows]), np.array(k[::2], dtype=float)
         reach = self.rate * self.cell / 2 if self.hyperbolic else 0.0
         size = abs(table).reshape(len(table), -1, 2).max(2)
         with np.errstate(over="ignore", invalid="ignore"):
-            grown = size * np.exp(frequencies * reach)
-            largest = np.maximum(grown.max(1, keepdims=True), grown[0].max())  # of each: one may be 1e9 times another
-            count = int(np.nonzero(grown > NEGLIGIBLE * largest)[1].max(initial=0)) + 1
-        if not np.isfinite(grown).all():
+            growth = size * np.exp(frequencies * reach)
+            largest = np.maximum(growth.max(1, keepdims=True), growth[0].max())  # of each: one may be 1e9 times another
+            count = int(np.nonzero(growth > NEGLIGIBLE * largest)[1].max(initial=0)) + 1
+        if not np.isfinite(growth).all():
             raise TooNearError("The motion is too near to a separatrix for derivatives in floats.")
         self.tables.append(table[:, : 2 * count])
         self.frequencies.append(frequencies[:count])
 
     def _place(self, tilt: FloatArray, tilts: FloatArray, order: FloatArray) -> None:
-        """Keep what takes vectors out of the frame of the field, and how that turns for each input."""
+        """Keep the axes of the frame of the field, and their rotation vectors for each input."""
         (c, sine, C, S), (dc, ds, dC, dS) = tilt, tilts
         cos, sin = c * c - sine * sine, 2 * c * sine
         self.chi, lean = C * dS - S * dC, -2 * (c * ds - sine * dc)
         self.axes = order @ np.array([[C, S * cos, S * sin], [-S, C * cos, C * sin], [0, -sin, cos]])
-        self.turned = np.stack([C * lean, -S * lean, -self.chi], -1) @ order.T
+        self.turning = np.stack([C * lean, -S * lean, -self.chi], -1) @ order.T
 
     def places(self, t: FloatArray) -> tuple[Array, FloatArray, FloatArray]:
         """Return lambda t, s, and the count of whole cells."""
-        half, rest, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
-        turn = 2 * (half + rest)
+        half, errors, *_ = self.phases.reduced(t, room(1 + (not self.steady), t.size))
+        turn = 2 * (half + errors)
         if self.steady:
             return turn[0], np.zeros(t.size), np.zeros(t.size)
-        parts = turn[1] / float(TURN)
-        return turn[0], parts * self.cell, np.rint(t / self.cell + self.start - parts)
+        values = turn[1] / float(TURN)
+        return turn[0], values * self.cell, np.rint(t / self.cell + self.start - values)
 
     def functions(self, s: FloatArray, doubled: bool, count: int) -> FloatArray:
         """Return sin and cos of k x by turns, x = rate s, or exp(k x) and exp(-k x); k = 1, 3, ... or 0, 2, ...."""
@@ -120,10 +120,12 @@ class VariedPair:
         return out.reshape(2 * count, s.size)
 
     def slope(self, table: Array, i: int) -> Array:
-        """Return the weights of the slopes by s of what has some weights in alpha or beta."""
+        """Return the weights of the derivatives by s of functions given by their weights in alpha or beta."""
         k, pairs = self.rate * self.frequencies[i], table.reshape(len(table), -1, 2)
-        first, second = (pairs[..., 0], -pairs[..., 1]) if self.hyperbolic else (-pairs[..., 1], pairs[..., 0])
-        return 1j * self.twists[i] * table + np.stack([k * first, k * second], -1).reshape(table.shape)
+        upper_weights, lower_weights = (
+            (pairs[..., 0], -pairs[..., 1]) if self.hyperbolic else (-pairs[..., 1], pairs[..., 0])
+        )
+        return 1j * self.twists[i] * table + np.stack([k * upper_weights, k * lower_weights], -1).reshape(table.shape)
 
 
 class Swing:
@@ -143,46 +145,46 @@ class Swing:
         self.columns[:, 6] = -self.change(np.eye(len(As)), start, zero)[:, 0]
 
     def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
-        """Return the derivatives of the angle in combinations of inputs, but for what grows with time, (N, m)."""
-        parts, bys, functions = [], [], []
-        for i, both in enumerate(self.sums):
+        """Return the derivatives of the angle in combinations of inputs, without their secular terms, (N, m)."""
+        values, bys, functions = [], [], []
+        for i, weights in enumerate(self.sums):
             doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
-            k = np.arange(len(both), dtype=float) * 2 + (not doubled)
-            f = self.pair.functions(s, doubled, len(both))
+            k = np.arange(len(weights), dtype=float) * 2 + (not doubled)
+            f = self.pair.functions(s, doubled, len(weights))
             if hyperbolic:
                 up, down = f[::2], f[1::2]
                 f = np.stack([(up - down) / 2, (up + down) / 2], 1).reshape(f.shape)
-            turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1)
+            turning = np.stack([(1 if hyperbolic else -1) * k * weights[:, 1], k * weights[:, 0]], 1)
             functions.append(f)
-            parts.append(both.ravel() @ f)
-            bys.append(turned.ravel() @ f)
-        (o, e), (o_s, e_s) = parts, bys
+            values.append(weights.ravel() @ f)
+            bys.append(turning.ravel() @ f)
+        (o, e), (o_s, e_s) = values, bys
         by_s = 2 * self.kappa * (o_s * e - o * e_s) / (e * e - self.A * o * o)
         slope = self.kappa * self.twist + self.pair.rate * by_s
-        integral, by_A = self._bent(o, e)
+        integral, by_A = self._integral_of_nu(o, e)
         basis = np.array([
             self.twist * s + integral, self.kappa * s, self.kappa * by_A, s * by_s, slope, count * slope,
             np.ones(s.size),
         ])  # fmt: skip
         changes = (names @ self.columns) @ basis
         weight = 2 * self.kappa / (e * e - self.A * o * o)
-        for change, f, other in zip(self.changes, functions, (e, -o), strict=True):
-            changes += (names @ change) @ (f * (weight * other))
+        for change, f, factor in zip(self.changes, functions, (e, -o), strict=True):
+            changes += (names @ change) @ (f * (weight * factor))
         return np.asarray(changes)
 
-    def _bent(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _integral_of_nu(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return 2 at(sqrt(|A|) o/e)/sqrt(|A|), and its derivative in A."""
         A, size = self.A, np.sqrt(abs(self.A))
         integral = 2 * o / e
         if A:
             integral = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
         by_A = (o * e / (e * e - A * o * o) - integral / 2) / A if A else 2 * (o / e) ** 3 / 3
-        near = abs(A) * o * o < MAX_SERIES_ARGUMENT * e * e
-        u = o[near] / e[near]
+        is_small = abs(A) * o * o < MAX_SERIES_ARGUMENT * e * e
+        u = o[is_small] / e[is_small]
         square, series = A * u * u, np.zeros(u.size)
         for n in range(SERIES_TERMS, 0, -1):
             series = series * square + 2 * n / (2 * n + 1)
-        by_A[near] = series * u**3
+        by_A[is_small] = series * u**3
         return integral, by_A
 
     def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:

@@ -98,10 +98,10 @@ class Drift:
             Motion that starts at the least cos theta.
         """
         b, nu = self.bodies[i], float(self.nu[i, 0])
-        across = float(np.sqrt(max(1 - nu * nu, 0.0)))
-        w2 = ((self.p[i] - self.M3[i] * nu) / across - b.k2 * across) / b.I2 if across else 0.0
+        transverse = float(np.sqrt(max(1 - nu * nu, 0.0)))
+        w2 = ((self.p[i] - self.M3[i] * nu) / transverse - b.k2 * transverse) / b.I2 if transverse else 0.0
         w3 = (self.M3[i] - b.k3 * nu) / b.I3
-        return TopMotion((b.I2, b.I3), (b.k2, b.k3), (across, nu), (0.0, w2, w3), b.linear, b.quadratic)
+        return TopMotion((b.I2, b.I3), (b.k2, b.k3), (transverse, nu), (0.0, w2, w3), b.linear, b.quadratic)
 
 
 def drift(
@@ -165,9 +165,9 @@ def drift(
         raise DomainError(f"The field is gone at t = {-1 / rates[0]:g}: 1 + field t must stay positive.")
 
     def body_at(time: float) -> Body:
-        grown = 1 + rates[0] * time
+        growth = 1 + rates[0] * time
         return body._replace(
-            k2=body.k2 * grown, k3=body.k3 * grown,
+            k2=body.k2 * growth, k3=body.k3 * growth,
             linear=body.linear + rates[1] * time, quadratic=body.quadratic + rates[2] * time,
         )  # fmt: skip
 
@@ -175,11 +175,11 @@ def drift(
         nonlocal nu
         b, f = body_at(time), rates[0] / (1 + rates[0] * time)
         x = Averages(b, y[:3], nu, WITHIN_A_STEP)
-        nu, third, along = x.middle, x.Omega3, x.along
+        nu, third, axial = x.middle, x.Omega3, x.axial
         h = -d2 * b.I2 * x.mean(x.square) - d3 * b.I3 * x.mean(third**2)
-        h -= f * x.mean(b.k2 * along + b.k3 * third * x.nu)
+        h -= f * x.mean(b.k2 * axial + b.k3 * third * x.nu)
         h += rates[1] * x.mean(x.nu) + rates[2] * x.mean(x.nu**2) / 2
-        p = x.mean(-d2 * b.I2 * along - d3 * b.I3 * third * x.nu)
+        p = x.mean(-d2 * b.I2 * axial - d3 * b.I3 * third * x.nu)
         return np.array([h, -d3 * b.I3 * x.mean(third), p, *x.rates])
 
     start = np.array([*state, 0.0, 0.0, 0.0])
@@ -193,32 +193,31 @@ def drift(
         rows = solution.sol(times).T
     else:
         rows = np.tile(start, (times.size, 1))
-    nu, each, bodies = nu if times[-1] == 0 else _start(motion)[2], [], tuple(map(body_at, times.tolist()))
+    nu, records, bodies = nu if times[-1] == 0 else _start(motion)[2], [], tuple(map(body_at, times.tolist()))
     for b, y in zip(bodies, rows, strict=True):
         x = Averages(b, y[:3], nu)
         nu = x.middle
-        each.append([x.action, *x.rates, *x.ends])
-    action, nutation, precession, spin, *ends = np.array(each).T
+        records.append([x.action, *x.rates, *x.ends])
+    action, nutation, precession, spin, *ends = np.array(records).T
     h, M3, p = rows[:, :3].T
     return Drift(times, h, M3, p, action, nutation, precession, spin, rows[:, 3:], np.array(ends).T, bodies)
 
 
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:
     """Return a body, its energy, M3 and p, and nu at t = 0."""
-    own = getattr(motion, "own", motion)
-    given = set(getattr(own, "arguments", ()))
-    if getattr(own, "shape", None) != () or not (given > {"ratio", "field"} or "coupling" in given):
-        three = {"inertia", "field"} <= given
+    unplaced = getattr(motion, "own", motion)
+    names = set(getattr(unplaced, "arguments", ()))
+    if getattr(unplaced, "shape", None) != () or not (names > {"ratio", "field"} or "coupling" in names):
+        three = {"inertia", "field"} <= names
         why = ": a body with three moments has two phases to average over" if three else ""
-        raise AtlasError(
-            f"A drift is that of one GeneralMotion, ElementaryMotion or TopMotion, not of {type(own).__name__}{why}."
-        )
-    Omega, b = own.angular_velocity(0.0), own.field_in_body(0.0)
-    if "coupling" in given:
-        (I2, I3), (k2, k3) = own.inertia, own.coupling
-        body = Body(I2, I3, k2, k3, own.linear, own.quadratic)
+        name = type(unplaced).__name__
+        raise AtlasError(f"A drift takes one GeneralMotion, ElementaryMotion or TopMotion, not {name}{why}.")
+    Omega, b = unplaced.angular_velocity(0.0), unplaced.field_in_body(0.0)
+    if "coupling" in names:
+        (I2, I3), (k2, k3) = unplaced.inertia, unplaced.coupling
+        body = Body(I2, I3, k2, k3, unplaced.linear, unplaced.quadratic)
     else:
-        size, (I2, I3) = float(np.linalg.norm(b)), moments(own.ratio)
+        size, (I2, I3) = float(np.linalg.norm(b)), moments(unplaced.ratio)
         if not size:
             raise DomainError("A body without a field has no direction: take a TopMotion with no coupling.")
         body, b = Body(1.0, I3 / I2, size, size * I3 / I2, 0.0, 0.0), b / size
@@ -233,7 +232,7 @@ def _start(motion: Any) -> tuple[Body, FloatArray, float]:
 class Averages:
     """One nutation, from energy, M3 and p: nu at the nodes of the midpoint rule, and functions of nu there."""
 
-    def __init__(self, body: Body, state: FloatArray, near: float, lacking: float = MIN_WIDTH) -> None:
+    def __init__(self, body: Body, state: FloatArray, guess: float, deficit: float = MIN_WIDTH) -> None:
         self.body, self.state = body, state
         (I2, I3, k2, k3, a, A), (h, M3, p) = body, state
         # I2 nu'^2/(1 - nu^2) + ..., by powers of nu
@@ -243,16 +242,16 @@ class Averages:
             2 * I2 * (h - M3 * M3 / (2 * I3)) + 2 * k2 * p - k2 * k2,
         ]
         Q = np.polysub(np.polymul([-1.0, 0.0, 1.0], g), [M3 * M3, -2 * p * M3, p * p]) / I2**2
-        self.ends = _turning_points(Q, near, lacking)
+        self.ends = _turning_points(Q, guess, deficit)
         low, high = self.ends
         self.middle, half = (low + high) / 2, (high - low) / 2
-        rest = np.polydiv(Q, np.polymul([1.0, -low], [-1.0, high]))[0]
+        cofactor = np.polydiv(Q, np.polymul([1.0, -low], [-1.0, high]))[0]
         count, before = FIRST_NODES, np.full(3, np.nan)
-        more = np.array([0.0, abs(k2 / I2) + abs(M3 / I2), abs(M3) + abs(p)])
+        scales = np.array([0.0, abs(k2 / I2) + abs(M3 / I2), abs(M3) + abs(p)])
         while True:
             s = (np.arange(count) + 0.5) * (np.pi / count)
             self.nu = self.middle - half * np.cos(s)
-            root = np.sqrt(np.maximum(np.polyval(rest, self.nu), 0.0))
+            root = np.sqrt(np.maximum(np.polyval(cofactor, self.nu), 0.0))
             with np.errstate(divide="ignore"):
                 self.weights = 1 / root
             self.period = float(2 * np.pi * self.weights.mean())
@@ -260,7 +259,7 @@ class Averages:
             self.action = float(I2 * np.mean((half * np.sin(s)) ** 2 * root / sine2))
             turning = (p - M3 * self.nu) / (I2 * sine2) - k2 / I2
             means = np.array([self.period, self.mean(turning), self.action])
-            if np.all(abs(means - before) <= SETTLED * (abs(means) + more)):
+            if np.all(abs(means - before) <= SETTLED * (abs(means) + scales)):
                 break
             count, before = 2 * count, means
             if count > MAX_NODES or not np.isfinite(self.period):
@@ -268,7 +267,7 @@ class Averages:
                     "The motion comes to a separatrix or a pole, where averaging over its nutation fails."
                 )
         self.Omega3 = (M3 - k3 * self.nu) / I3
-        self.along = (p - M3 * self.nu - k2 * sine2) / I2
+        self.axial = (p - M3 * self.nu - k2 * sine2) / I2
         potential = a * self.nu + A * self.nu**2 / 2
         self.square = 2 / I2 * (h - potential - I3 * self.Omega3**2 / 2)
         self.rates = 2 * np.pi / self.period, float(means[1]), self.mean(self.Omega3 - self.nu * turning)
@@ -278,7 +277,7 @@ class Averages:
         return float((values * self.weights).mean() / self.weights.mean())
 
 
-def _turning_points(Q: FloatArray, near: float, lacking: float) -> tuple[float, float]:
+def _turning_points(Q: FloatArray, guess: float, deficit: float) -> tuple[float, float]:
     """Return the two roots of Q between -1 and 1 that enclose a nu or are next to it; of a steady motion one twice."""
     roots = np.roots(Q)
     inside = np.sort(roots.real[(abs(roots.imag) < MIN_WIDTH) & (abs(roots.real) < 1 + MIN_WIDTH)].clip(-1.0, 1.0))
@@ -288,8 +287,8 @@ def _turning_points(Q: FloatArray, near: float, lacking: float) -> tuple[float, 
         tops = [
             x.real for x in extremes if abs(x.imag) < MIN_WIDTH and abs(x) < 1 and np.polyval(np.polyder(Q, 2), x) < 0
         ]
-        if not tops or np.polyval(Q, tops).max() < -lacking * abs(Q).max():
+        if not tops or np.polyval(Q, tops).max() < -deficit * abs(Q).max():
             raise DomainError("There is no motion with these constants: the drift is too fast for averages.")
-        top = float(min(tops, key=lambda x: abs(x - near)))
+        top = float(min(tops, key=lambda x: abs(x - guess)))
         return top, top
-    return min(pairs, key=lambda x: max(x[0] - near, near - x[1]))
+    return min(pairs, key=lambda x: max(x[0] - guess, guess - x[1]))

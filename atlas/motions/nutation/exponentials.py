@@ -16,7 +16,7 @@ FINE_TIMES = 128
 """Times in the fine table."""
 
 MAX_CANCELLATION = 8.0
-"""The sums are used where the weights exceed what they leave at any time by no more than this factor."""
+"""Largest ratio of the sum of the weights to the sum of the terms at any time: beyond, digits cancel."""
 
 MAX_PERIOD_RATIO = 6.0
 """Ratio of the real to the imaginary period from which on the sums are not even tried."""
@@ -42,19 +42,19 @@ class Exponentials:
         self.turns = [middle((parameter.rate + f) / (2 * arb.pi())) for f, _ in terms]
         self.weights = np.array([complex(float(z.real.mid()), float(z.imag.mid())) for _, z in terms])
 
-    def coarse(self, start: fmpq, step: fmpq) -> Phases:
+    def coarse_phases(self, start: fmpq, step: fmpq) -> Phases:
         """Return the phases at start + i step as functions of i."""
-        return Phases(self._turned(step), self._turned(start))
+        return Phases(self._phases_at(step), self._phases_at(start))
 
-    def fine(self, step: fmpq) -> FloatArray:
+    def fine_table(self, step: fmpq) -> FloatArray:
         """Return z_m exp(i f_m j step), j < FINE_TIMES, rows for cos and sin of coarse phases, (2 M, 2, FINE_TIMES)."""
-        phases, work = Phases(self._turned(step)), room(len(self.turns), FINE_TIMES)
-        half, rest, sign, _ = phases.angles(np.arange(float(FINE_TIMES)), work)
-        angle = 2 * (half.astype(np.longdouble) + rest)
+        phases, work = Phases(self._phases_at(step)), room(len(self.turns), FINE_TIMES)
+        half, errors, sign, _ = phases.angles(np.arange(float(FINE_TIMES)), work)
+        angle = 2 * (half.astype(np.longdouble) + errors)
         z = 2 * self.weights[:, None] * (sign * np.cos(angle) + 1j * (sign * np.sin(angle))).astype(complex)
         return np.concatenate([np.stack([z.real, z.imag], 1), np.stack([-z.imag, z.real], 1)])
 
-    def _turned(self, t: fmpq) -> list[arb]:
+    def _phases_at(self, t: fmpq) -> list[arb]:
         """Return the phases at a time, less whole turns."""
         with workprec():
             return [turn_of(f * t) for f in self.turns]
@@ -71,8 +71,8 @@ def exponentials(exact: Nutating, precision: int) -> tuple[Exponentials, Exponen
             and float(solution.lattice.half / solution.lattice.imaginary) > MAX_PERIOD_RATIO
         ):
             return None
-        parts = (solution.alpha, solution.beta)
-        unit = max(abs(x.factor * w) for x in parts for w in (*x.sum.odd, *x.sum.even))
+        parameters = (solution.alpha, solution.beta)
+        unit = max(abs(x.factor * w) for x in parameters for w in (*x.sum.odd, *x.sum.even))
         pair = Exponentials(solution.alpha, solution.origin, unit), Exponentials(solution.beta, solution.origin, unit)
     return pair if all(len(x.turns) <= MAX_TERMS for x in pair) and cancelling(*pair) <= MAX_CANCELLATION else None
 

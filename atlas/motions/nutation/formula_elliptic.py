@@ -26,8 +26,8 @@ def split(moments: Vector, square: Number, s: Number, z: Number) -> Number:
     """Return C/D^2 of any K with sum K_i^2 = square and sum K_i^2/(z + D/I_i) = s."""
     D = moments[0] * moments[1] * moments[2]
     x, y, w = places(moments, z)
-    P, first, second = x * y * w, x * y + y * w + w * x, 2 * (x + y + w)
-    return (4 * square * P + s * (first * first - 2 * P * second)) / (D * D)
+    P, lower_sum, second = x * y * w, x * y + y * w + w * x, 2 * (x + y + w)
+    return (4 * square * P + s * (lower_sum * lower_sum - 2 * P * second)) / (D * D)
 
 
 def places(moments: Vector, z: Number) -> tuple[Number, ...]:

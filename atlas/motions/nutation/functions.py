@@ -63,10 +63,10 @@ class Trigonometric:
         sin, cos = rows[:2]
         square = u * u
         if self.constant:
-            whole = np.add(square, WHOLE, out=rows[-1])
+            denominator = np.add(square, WHOLE, out=rows[-1])
             np.subtract(WHOLE, square, out=cos)
             np.add(u, u, out=sin)
-            factor = np.divide(cos, whole, out=square)
+            factor = np.divide(cos, denominator, out=square)
             factor *= factor
             factor *= 4.0
         else:
@@ -106,15 +106,15 @@ class Hyperbolic:
         if self.periodic:
             # W = part (exp 2x + exp -2x), part = peak^2
             self.inverse = 2 * (2 * self.reach).cosh()
-            self.peak, self.part = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
+            self.peak, self.share = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
             slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
-            first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
-            self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
+            alpha_twist, beta_twist = (x.twist * 2 * lattice.half / arb.pi() for x in (solution.alpha, solution.beta))
+            self.twist = np.array([[float(x.mid())] for x in (alpha_twist + beta_twist, alpha_twist - beta_twist)])
         self.line = Line(slope, start)
         self.distant = words(self.reach, 2) if self.periodic and self.reach > MAX_EXPONENT else None
         self.sech = any(sum_.doubled for sum_ in sums)
         polynomials = [self._polynomials(sum_) for sum_ in sums]
-        self.powers = max(self._needed(weights) for weights in polynomials)
+        self.powers = max(self._count_terms(weights) for weights in polynomials)
         self.count = 2 * self.powers * (1 + self.sech)
 
     def weights(self, sum_: Sum) -> list[acb]:
@@ -127,7 +127,7 @@ class Hyperbolic:
             polynomial = [x / SECH_SCALE for x in polynomial]
         return none + polynomial if sum_.doubled else polynomial + none
 
-    def _needed(self, weights: list[acb]) -> int:
+    def _count_terms(self, weights: list[acb]) -> int:
         """Return how many powers of W matter."""
         sizes = [float(abs(x).mid()) for x in weights]
         least = NEGLIGIBLE * max(sizes[:2])
@@ -139,15 +139,15 @@ class Hyperbolic:
         powers = _powers(pairs, doubled=sum_.doubled)
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
 
-    def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
+    def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
         """Fill the rows (m, N) from x + rest, both (N,)."""
-        # m = exp|x| - 1 keeps its digits for small and large x; what x lacks is added to first order
+        # m = exp|x| - 1 keeps its digits for small and large x; the low word of x is added to first order
         m = np.expm1(np.minimum(np.abs(x), MAX_EXPONENT))
         up = m + WHOLE
-        rest = np.copysign(1.0, x) * rest
-        lacking = rest * up
-        m += lacking
-        up += lacking
+        low = np.copysign(1.0, x) * low
+        correction = low * up
+        m += correction
+        up += correction
         down = WHOLE / up
         E = down * down
         over = WHOLE / (E + WHOLE)
@@ -158,12 +158,12 @@ class Hyperbolic:
         rows[1] = 1.0
         if self.powers > 1:
             if self.distant:  # all that is left of W
-                W = np.exp(2 * (np.abs(x) - self.distant[0] + (rest - self.distant[1])))
+                W = np.exp(2 * (np.abs(x) - self.distant[0] + (low - self.distant[1])))
             else:
                 W = up
                 W *= self.peak
                 W *= W
-                E *= self.part
+                E *= self.share
                 W += E
             pairs = rows[: 2 * self.powers].reshape(self.powers, 2, -1)
             for j in range(1, self.powers):
@@ -188,9 +188,9 @@ class Linear:
         """Return the weight of each row in a sum."""
         return [sum_.odd[0], sum_.even[0]]
 
-    def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
+    def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
         """Fill the rows (m, N) from x + rest, both (N,)."""
-        x = x + rest
+        x = x + low
         size = np.maximum(np.abs(x), 1.0)
         np.divide(x, size, out=rows[0])
         np.divide(1.0, size, out=rows[1])
@@ -202,7 +202,7 @@ Functions: TypeAlias = Steady | Trigonometric | Hyperbolic | Linear
 class Line:
     """x = slope t + start as the sum of two doubles, slope and start being exact.
 
-    If what is made of x `saturates`, no more than the `longest` time has to be asked for.
+    If the function of x `saturates`, times beyond `longest` need not be told apart.
     """
 
     def __init__(self, slope: arb, start: arb, *, saturates: bool = True) -> None:
@@ -212,26 +212,26 @@ class Line:
         self.halves = float(head), float(self.slope - head)
         self.longest = (2 * MAX_EXPONENT + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
-    def at(self, t: FloatArray, rest: FloatArray | float) -> tuple[FloatArray, FloatArray]:
+    def at(self, t: FloatArray, low: FloatArray | float) -> tuple[FloatArray, FloatArray]:
         """Return x at t + rest, and its rounding error."""
         upper = t * SPLITTER
         upper -= upper - t
         lower = t - upper
         x = self.slope * t
-        left = self.halves[0] * upper
-        left -= x
-        left += self.halves[0] * lower
-        left += self.halves[1] * upper
-        left += self.halves[1] * lower
-        left += self.slope_rest * t
-        left += self.slope * rest
+        error = self.halves[0] * upper
+        error -= x
+        error += self.halves[0] * lower
+        error += self.halves[1] * upper
+        error += self.halves[1] * lower
+        error += self.slope_rest * t
+        error += self.slope * low
         if self.start:
             total = x + self.start
             rounded = total - x
-            left += (x - (total - rounded)) + (self.start - rounded)
-            left += self.start_rest
+            error += (x - (total - rounded)) + (self.start - rounded)
+            error += self.start_rest
             x = total
-        return x, left
+        return x, error
 
 
 F, HALF = fmpq_poly([0, 1]), fmpq(1, 2)
@@ -245,9 +245,9 @@ ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
 def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
     """Return the weights of both functions times powers of F by turns, from those for rising k."""
     total = list[acb]()
-    for n, both in enumerate(weights):
+    for n, weights_of_k in enumerate(weights):
         total += [acb(0), acb(0)]
-        for place, weight in enumerate(both):
+        for place, weight in enumerate(weights_of_k):
             for j, c in _multiple(n, place, doubled=doubled):
                 total[2 * j + place] += weight * c
     return total
@@ -266,8 +266,10 @@ def _terms(sum_: Sum) -> int:
     """Return how many terms of a trigonometric sum matter."""
     if sum_.doubled:
         return 1
-    needed = 1
+    term_count = 1
     for weights in (sum_.odd, sum_.even):
-        first = float(abs(weights[0]).mid())
-        needed = max([needed, *(n + 1 for n, x in enumerate(weights) if float(abs(x).mid()) > NEGLIGIBLE * first)])
-    return needed
+        alpha_twist = float(abs(weights[0]).mid())
+        term_count = max(
+            [term_count, *(n + 1 for n, x in enumerate(weights) if float(abs(x).mid()) > NEGLIGIBLE * alpha_twist)]
+        )
+    return term_count

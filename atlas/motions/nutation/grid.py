@@ -61,7 +61,7 @@ def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) 
     count = len(out)
     if not count:
         return
-    check_grid(start, step, count, motion.parts.phases.reach)
+    check_grid(start, step, count, motion.pair.phases.reach)
     grid = Grid(motion, start, step)
     length = window(grid, count) if count >= MIN_GRID_COUNT else 0
     if length:
@@ -71,12 +71,12 @@ def fill_grid(motion: SingleMotion, start: float, step: float, out: FloatArray) 
     if sums is None:
         fill_each(grid, out)
         return
-    blocks, rest = divmod(count, FINE_TIMES)
+    blocks, remainder = divmod(count, FINE_TIMES)
     fill_products(motion, sums, rational(start), rational(step), out[: blocks * FINE_TIMES])
-    if rest:
-        fill_each(grid, out[count - rest :], blocks * FINE_TIMES)
-    if step and 0 <= (first := -rational(start) / rational(step)) < count:
-        i = int(first.ceil())
+    if remainder:
+        fill_each(grid, out[count - remainder :], blocks * FINE_TIMES)
+    if step and 0 <= (start_index := -rational(start) / rational(step)) < count:
+        i = int(start_index.ceil())
         fill_each(grid, out[i : i + 1], i)
 
 
@@ -90,29 +90,31 @@ class Grid:
 
     def fill(self, evaluation: Evaluation, index: FloatArray, rows: FloatArray) -> None:
         """Fill rows (m, 9) with the matrices of the numbers i, the first and last of which are the extreme ones."""
-        times = moments(self.motion.parts.phases, self.start, self.step, index)
+        times = moments(self.motion.pair.phases, self.start, self.step, index)
         combined(evaluation.products_at(*times), self.motion.entries, rows)
 
 
 def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
-    """Return the times start + i step as doubles and what these lack, None for nothing; first and last i are extreme.
+    """Return the times start + i step as doubles, and their low words or None; first and last i are extreme.
 
-    What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times not too many
+    A low word is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times not too many
     and the start not far beyond them, start and step are cut instead where the last digit of a double twice as large as
     any time is: then the first words are exact, and the rest is known to 2^-85 of the time; that next to zero is made
     by itself.
     """
-    first, last = (start + step * float(index[i]) for i in (0, -1))
-    far = max(abs(first), abs(last))
-    digit = 2.0 ** (frexp(far)[1] - 52)
+    start_index, end_coefficients = (start + step * float(index[i]) for i in (0, -1))
+    longest = max(abs(start_index), abs(end_coefficients))
+    digit = 2.0 ** (frexp(longest)[1] - 52)
     away = (
         start == 0
-        or far == 0
-        or first / far > NEAR_ZERO_TIME < last / far
-        or -first / far > NEAR_ZERO_TIME < -last / far
+        or longest == 0
+        or start_index / longest > NEAR_ZERO_TIME < end_coefficients / longest
+        or -start_index / longest > NEAR_ZERO_TIME < -end_coefficients / longest
     )
     if not (
-        abs(start) <= far <= phases.near and digit > MIN_TIME_DIGIT and (away or abs(step) > 2 * NEAR_ZERO_TIME * far)
+        abs(start) <= longest <= phases.near
+        and digit > MIN_TIME_DIGIT
+        and (away or abs(step) > 2 * NEAR_ZERO_TIME * longest)
     ):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low
@@ -123,28 +125,28 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
         low = index * (step - stride)
         low += start - origin
         i = 0 if away else np.abs(times).argmin()
-        if start and abs(times[i]) <= NEAR_ZERO_TIME * far:
+        if start and abs(times[i]) <= NEAR_ZERO_TIME * longest:
             moment = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
             times[i], low[i] = moment.hi, moment.low
     return times, low
 
 
-def fill_each(grid: Grid, out: FloatArray, first: int = 0) -> None:
+def fill_each(grid: Grid, out: FloatArray, start_index: int = 0) -> None:
     """Fill the matrices time by time, i = first, first + 1, ..."""
     rows = out.reshape(len(out), 9)
 
     def fill(low: int, high: int) -> None:
-        evaluation = Evaluation(grid.motion.parts, min(high - low, BLOCK))
+        evaluation = Evaluation(grid.motion.pair, min(high - low, BLOCK))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
-            grid.fill(evaluation, first + np.arange(float(i), float(j)), rows[i:j])
+            grid.fill(evaluation, start_index + np.arange(float(i), float(j)), rows[i:j])
 
     shared(fill, len(out), BLOCK)
 
 
 @cache
 def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return NODES of the times 0 ... length - 1, and what takes values there to all times and to two coefficients.
+    """Return NODES of the times 0 ... length - 1, and the matrices to values at all times and to two coefficients.
 
     The nodes are Chebyshev's, with the ends, rounded to whole numbers; the coefficients are the last in his series.
     """
@@ -153,11 +155,11 @@ def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     long = nodes.astype(np.longdouble)
     above = np.tile(np.arange(length)[:, None, None] - long, (1, NODES, 1))
     below = long[:, None] - long
-    own = np.arange(NODES)
-    above[:, own, own] = below[own, own] = 1
+    diagonal = np.arange(NODES)
+    above[:, diagonal, diagonal] = below[diagonal, diagonal] = 1
     table = (above / below).prod(axis=-1).astype(np.float64)
-    last = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes / half - 1, NODES - 1))[-2:]
-    return nodes, table, np.asarray(last)
+    end_coefficients = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes / half - 1, NODES - 1))[-2:]
+    return nodes, table, np.asarray(end_coefficients)
 
 
 class Windows:
@@ -166,7 +168,7 @@ class Windows:
     def __init__(self, grid: Grid, length: int, size: int) -> None:
         self.grid, self.length = grid, length
         self.nodes, self.table, self.last = interpolation(length)
-        self.evaluation = Evaluation(grid.motion.parts, NODES * size)
+        self.evaluation = Evaluation(grid.motion.pair, NODES * size)
         self.values = np.empty((NODES * size, 9))
 
     def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
@@ -180,7 +182,7 @@ class Windows:
 
 def window(grid: Grid, count: int) -> int:
     """Return the number of times that one polynomial may serve, estimated from the first windows; zero if too few."""
-    angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.parts.frequencies)
+    angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.motion.pair.frequencies)
     for length in LENGTHS:
         size = min(count // length, MAX_WINDOWS_TRIED)
         if length * angle <= MAX_WINDOW_TURN and Windows(grid, length, size).at(0, size)[1]:
@@ -210,8 +212,8 @@ def fill_products(
     motion: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
 ) -> None:
     """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE_TIMES."""
-    phases = [x.coarse(start, step * FINE_TIMES) for x in sums]
-    tables = [np.ascontiguousarray(x.fine(step).swapaxes(0, 1)) for x in sums]
+    phases = [x.coarse_phases(start, step * FINE_TIMES) for x in sums]
+    tables = [np.ascontiguousarray(x.fine_table(step).swapaxes(0, 1)) for x in sums]
     rows = out.reshape(-1, 9)
 
     def fill(low: int, high: int) -> None:
@@ -219,10 +221,10 @@ def fill_products(
         q, products = np.empty((4, COARSE_TIMES, FINE_TIMES)), Products(COARSE_TIMES * FINE_TIMES)
         for i in range(low, high, GROUP):
             j = min(i + GROUP, high)
-            coarse = [circles(x, np.arange(float(i), float(j))) for x in phases]
+            coarse_table = [circles(x, np.arange(float(i), float(j))) for x in phases]
             for k in range(i, j, COARSE_TIMES):
                 m = min(COARSE_TIMES, j - k)
-                for place, (functions, table) in enumerate(zip(coarse, tables, strict=True)):
+                for place, (functions, table) in enumerate(zip(coarse_table, tables, strict=True)):
                     for half in (0, 1):
                         np.matmul(functions[k - i : k - i + m], table[half], out=q[place + 2 * half, :m])
                 matrices = products.of_pair(q[:, :m].reshape(4, m * FINE_TIMES))

@@ -58,7 +58,7 @@ class NutatingMotion(Motion[Nutation]):
     @kept
     def kind(self) -> NameOrArray:
         """Type of the motion, see the Notes of the class: a string, or an array of strings."""
-        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
+        return self._of_all("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
 
     @kept
     def period(self) -> FloatOrArray:
@@ -180,23 +180,23 @@ class NutatingMotion(Motion[Nutation]):
             return self._scalar(f"{name}_rate")
         rates = np.array(np.divide(getattr(self, f"{name}_per_period"), self.period))
         for i in np.flatnonzero(np.isnan(rates)).tolist():
-            rates.flat[i] = scalar(self._single(i).exact, f"{name}_rate", alone=False)
+            rates.flat[i] = scalar(self._single(i).exact, f"{name}_rate", strict=False)
         values: FloatOrArray = plain(rates)
         return values
 
     def _scalar(self, name: str) -> FloatOrArray:
         """Return a number for each motion, in an array NaN for a motion that has none."""
-        return self._each(name, lambda exact: scalar(exact, name, alone=not self.shape))
+        return self._of_all(name, lambda exact: scalar(exact, name, strict=not self.shape))
 
-    def _each(
-        self, name: str, value: Callable[[Any], Value], shown: Callable[[Any], Any] = np.asarray
+    def _of_all(
+        self, name: str, value: Callable[[Any], Value], as_values: Callable[[Any], Any] = np.asarray
     ) -> Value | NDArray[Any]:
         """Return one value for each motion: a scalar or an array; uncertain entries come from balls."""
         if 0 < prod(self.shape) < self._min_array_motions or name not in self._in_arrays:
             return self._of_each(lambda single: value(single.exact))
-        values, certain = self._scalars[name]
-        rows = np.moveaxis(shown(values), -1, 0)
-        for i in np.flatnonzero(~certain).tolist():
+        values, is_certain = self._scalars[name]
+        rows = np.moveaxis(as_values(values), -1, 0)
+        for i in np.flatnonzero(~is_certain).tolist():
             rows[i] = value(self._single(i).exact)
         return np.asarray(rows.reshape(self.shape + rows.shape[1:]))
 
@@ -213,12 +213,12 @@ class NutatingMotion(Motion[Nutation]):
         fill_grid(single, start, step, out)
 
 
-def scalar(exact: Any, name: str, *, alone: bool) -> float:
-    """Return a number of a motion in balls, rounded once; where there is none NaN, and DomainError if it is `alone`."""
+def scalar(exact: Any, name: str, *, strict: bool) -> float:
+    """Return a number of a motion in balls, rounded once; without one NaN, or DomainError if `strict`."""
     try:
         ball = enclosed(lambda: arb(getattr(exact, name)), BITS)
     except DomainError:
-        if alone:
+        if strict:
             raise
         return np.nan
     number = nearest(ball)
@@ -236,12 +236,12 @@ class SymmetricMotion(NutatingMotion[Nutation]):
         -----
         Roots at infinity are inf and come last: two for I = 1, all four for B = 0.
         """
-        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
+        return self._of_all("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
     @kept
     def turning_points(self) -> tuple[FloatOrArray, FloatOrArray]:
         """Least and largest Omega3 in rad/time, for tops nu = cos theta; on a separatrix one is only approached."""
-        ends: Any = self._each(
+        ends: Any = self._of_all(
             "turning_points", lambda exact: [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
         )
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)

@@ -81,17 +81,17 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
     _blocks_of, _motions_of, _scalars_of = EllipticBlocks, EllipticAtTimes, EllipticScalars
 
     def __init__(self, inertia: BodyLike, field: FieldLike, z: RealArrayLike, branch: RealArrayLike = 1) -> None:
-        parts = [
+        columns = [
             *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
             *components(field, ("B1", "B2", "B3"), "The field", RATE),
             *components((z, branch), ("z", "branch"), "The point of the curve"),
         ]
-        super().__init__(lambda *row: SingleElliptic(balls(*row)), *parts)
-        _ = self.kind  # what is no motion is refused here
+        super().__init__(lambda *row: SingleElliptic(balls(*row)), *columns)
+        _ = self.kind  # inputs of no motion are refused here
         self.inertia, self.field, (self.z, self.branch) = (
-            tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
+            tuple(plain(x) for x in columns[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
         )
-        field = tuple(map(as_given, parts[3:6]))
+        field = tuple(map(as_given, columns[3:6]))
         self.arguments = {"inertia": self.inertia, "field": field, "z": self.z, "branch": self.branch}
 
     @kept
@@ -150,7 +150,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         zero. The answer is decided exactly. At rest and for Omega = -2 K the curve is that of the second flow, along
         which neighbours drift slowly.
         """
-        return self._each("stability", lambda exact: exact.stability)
+        return self._of_all("stability", lambda exact: exact.stability)
 
     @kept
     def splitting(self) -> FloatOrArray:
@@ -188,7 +188,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         DomainError
             If a component exceeds the largest float.
         """
-        omega: Any = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
+        omega: Any = self._of_all("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
         finite(omega, "omega")
         return (omega[..., 0], omega[..., 1], omega[..., 2]) if self.shape else tuple(omega)
 
@@ -245,7 +245,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
             For a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
-            constants = self._each(
+            constants = self._of_all(
                 "invariants", lambda exact: list(map(nearest, enclosed(lambda: exact.invariants, BITS)))
             )
             columns = np.moveaxis(finite(np.reshape(constants, (*self.shape, len(CONSTANTS))), "H"), -1, 0)

@@ -150,8 +150,8 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
             return {name: finite(plain(x), name) for name, x in zip(CONSTANTS, self._constants, strict=True)}
         Omega, K = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
         four = integrals(self.ratio, Omega, K)
-        along = finite(plain((self._momentum(Omega + K) * K).sum(-1)), CONSTANTS[-1])
-        return dict(zip(CONSTANTS, (four.E, four.K2, four.c3, four.c5, along), strict=True))
+        axial = finite(plain((self._momentum(Omega + K) * K).sum(-1)), CONSTANTS[-1])
+        return dict(zip(CONSTANTS, (four.E, four.K2, four.c3, four.c5, axial), strict=True))
 
     @kept
     def _constants(self) -> Any:

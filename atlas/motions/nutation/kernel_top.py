@@ -46,10 +46,10 @@ def _constants(*row: float) -> list[float]:
 
 def _in_plane(*numbers: Number) -> tuple[Number, ...]:
     """Return n2, n3, omega, and cosine and sine, after the turn about e3 that makes n1 zero."""
-    n1, n2, n3, w1, w2, w3, one = numbers
+    n1, n2, n3, w1, w2, w3, unity = numbers
     size = length(n1, n2)
-    unit = select(size, size, one)
-    c, s = select(size, n2 / unit, one), n1 / unit
+    unit = select(size, size, unity)
+    c, s = select(size, n2 / unit, unity), n1 / unit
     return size, n3, c * w1 - s * w2, s * w1 + c * w2, w3, c, s
 
 
@@ -118,14 +118,14 @@ class TopMotion(SymmetricMotion[SingleTop]):
         quadratic: RealArrayLike = 0.0,
     ) -> None:
         *top, a0, A0 = inputs_of_top(inertia, coupling, direction, linear, quadratic)
-        parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE), a0, A0]
-        super().__init__(lambda *row: SingleTop(balls(*row)), *parts)
+        columns = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE), a0, A0]
+        super().__init__(lambda *row: SingleTop(balls(*row)), *columns)
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
-            tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
+            tuple(plain(x) for x in columns[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
         )
         names = ("inertia", "coupling", "direction", "omega", "linear", "quadratic")
-        kept = (tuple(map(as_given, parts[i:j])) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9)))
-        self.arguments = dict(zip(names, (*kept, *map(as_given, parts[9:])), strict=True))
+        kept = (tuple(map(as_given, columns[i:j])) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9)))
+        self.arguments = dict(zip(names, (*kept, *map(as_given, columns[9:])), strict=True))
 
     @classmethod
     def heavy(
@@ -173,8 +173,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         if g < 0:
             raise DomainError(f"The gravity g must not be negative, but is {g}: turn the direction round instead.")
         i2, m_, g_, l_ = (rational(float(x)) for x in (I2, m, g, l))
-        across, linear = map(exact_number, (i2 + m_ * l_ * l_, m_ * g_ * l_))
-        return cls((across, I3), (0.0, 0.0), direction, omega, linear=linear)
+        transverse, linear = map(exact_number, (i2 + m_ * l_ * l_, m_ * g_ * l_))
+        return cls((transverse, I3), (0.0, 0.0), direction, omega, linear=linear)
 
     @classmethod
     def charged(
@@ -244,12 +244,12 @@ class TopMotion(SymmetricMotion[SingleTop]):
         if not isinstance(charges, ChargeMoments):
             raise AtlasError(f"The charges are ChargeMoments (of a shape, of points, or J2 and J3), not {charges!r}.")
         if units is not None and c != 1:
-            raise AtlasError(f"Give units or c, not both: {units!r} says what c is.")
+            raise AtlasError(f"Give units or c, not both: {units!r} implies c.")
         c = c if units is None else system(units).c
         if hasattr(field, "pair"):
             raise AtlasError("A charged top takes B itself, in the units that are said, not a Field, which has B'.")
-        parts = components(field, ("B2", "B3"), "The field", SI_FIELDS["B"] if c == 1 else "")
-        B2, B3 = (number(x, "A component of the field") for x in parts)
+        columns = components(field, ("B2", "B3"), "The field", SI_FIELDS["B"] if c == 1 else "")
+        B2, B3 = (number(x, "A component of the field") for x in columns)
         if not (B2 or B3):
             raise DomainError("Without a field a charged top has no direction: it is a free body, FreeMotion.")
         with workprec():
@@ -272,7 +272,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         -----
         Stability is decided exactly. At its border the next derivatives of the potential decide.
         """
-        return self._each("stable", lambda exact: exact.stable)
+        return self._of_all("stable", lambda exact: exact.stable)
 
     @property
     def steady_precessions(self) -> list[SteadyPrecession]:
@@ -347,8 +347,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         if np.any(n[0]):
             n2, n3, w1, w2, w3, c, s = given(_in_plane, *n, *w, 1.0, unit=slice(3, 6), count=7)
             n, w = [0.0, n2, n3], [w1, w2, w3]
-            zero, one, c, s = np.broadcast_arrays(0.0, 1.0, np.asarray(c), np.asarray(s))
-            axes = np.moveaxis(np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]), (0, 1), (-2, -1))
+            zero, unity, c, s = np.broadcast_arrays(0.0, 1.0, np.asarray(c), np.asarray(s))
+            axes = np.moveaxis(np.array([[c, -s, zero], [s, c, zero], [zero, zero, unity]]), (0, 1), (-2, -1))
         I = start.body.moments
         return cls((plain(I[..., 1]), plain(I[..., 2])), direction=n[1:], omega=w, **parameters), axes
 

@@ -80,9 +80,9 @@ class PseudoOscillator:
         with np.errstate(over="ignore", invalid="ignore"):
             start = self.omega1**2 + self.omega2**2
             slope = two_less * (self.B3 + self.omega3) - (self.omega3 + u)
-            rest = I * (self.omega3 + u) * L - start * (2 * self.B3 + d)
-            rest = rest - slope * (2 * self.omega2 * self.B2 + d * slope)
-            return finite(plain((self.omega1 * self.B2) ** 2 + d * rest), "The first integral Q(u)")
+            constant_term = I * (self.omega3 + u) * L - start * (2 * self.B3 + d)
+            constant_term = constant_term - slope * (2 * self.omega2 * self.B2 + d * slope)
+            return finite(plain((self.omega1 * self.B2) ** 2 + d * constant_term), "The first integral Q(u)")
 
     def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
         """Return u, d = omega3 - u and P, D, L (see `quartic`) as they stand in (49)."""

@@ -1,6 +1,6 @@
 """Many motions in arrays at a few times each: matrices, fields and angular velocities; none is made by itself.
 
-What two words do not hold for certain is not certain, and is left to the motion made by itself: next to a separatrix or
+Values that double-double does not hold for certain are left to single motions: next to a separatrix or
 a triple root, where the sums are long or cancel; where theta is constant, for the matrix; where the inputs are of very
 different sizes.
 """
@@ -27,13 +27,13 @@ MAX_OMEGA3_CHANGE = 3.0
 """By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
 
 MAX_RATE_TERMS = 16.0
-"""By how much the sizes of what the rates are sums of may exceed the largest rate: up to 12 they were within 3 ulp."""
+"""Largest ratio of the sizes of the terms of the rates to the largest rate: up to 12, rates were within 3 ulp."""
 
 
 class Third(NamedTuple):
-    """The third component of Omega at t = 0, and what it changes by, see `Change`; `start` are cos and sin of 2 y0.
+    """The third component of Omega at t = 0, and its change, see `Change`; `start` are cos and sin of 2 y0.
 
-    `reach` bounds what it changes by, of which it has an error of some u.
+    `reach` bounds the change, whose error is some u of that.
     """
 
     value: FloatArray
@@ -66,14 +66,14 @@ class Rows:
     @cached_property
     def field(self) -> tuple[Any, ...]:
         """Constants of the axis and of the field of all motions."""
-        return self._of(self._motions.constants)
+        return self._constants(self._motions.constants)
 
     @cached_property
     def velocity(self) -> tuple[Any, ...]:
         """Constants of the angular velocity, and of its third component."""
-        return self._of(_velocity)
+        return self._constants(_velocity)
 
-    def _of(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
+    def _constants(self, constants: Callable[[Block], tuple[Any, ...]]) -> tuple[Any, ...]:
         with np.errstate(all="ignore"):
             kinds = zip(*map(constants, self.blocks), strict=True)
             return tuple(
@@ -131,20 +131,20 @@ class MotionsAtTimes:
     def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
         """Write Omega into (m, 3): its pair is that of (Omega2, Omega1, -sqrt(I) Omega3)."""
         constants, third = self._rows.velocity
-        pair, third = self._pair(constants), self._taken(third)
-        pair.vector(out, first=1)
+        pair, third = self._pair(constants), self._selected(third)
+        pair.vector(out, offset=1)
         out[:, 2] = pair.third(third)
         pair.turn_back(out)
         self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > MAX_OMEGA3_CHANGE * largest(out)))
 
     def _pair(self, constants: Constants, swings: Swings | None = None) -> "CayleyKleinAtTimes":
         """Return a pair, and keep which motions it does not hold."""
-        own = self._taken(swings) if swings and swings.twisted[self._index].any() else None
-        pair = CayleyKleinAtTimes(self._taken(constants), self._times, own)
+        selected = self._selected(swings) if swings and swings.twisted[self._index].any() else None
+        pair = CayleyKleinAtTimes(self._selected(constants), self._times, selected)
         self.extreme = pair.extreme
         return pair
 
-    def _taken(self, constants: Any) -> Any:
+    def _selected(self, constants: Any) -> Any:
         """Return the constants of these motions."""
         return type(constants)(*(x[..., self._index] for x in constants))
 
@@ -174,7 +174,7 @@ class CayleyKleinAtTimes:
     sin y, 1/2 u for a weight, 3/2 u for products and sums; 3 u more for exp(i l t) F. Where that sum is below
     MAX_CANCELLATION times the length of (alpha, beta), each entry of R is within
     2 sqrt(2) 4 u MAX_CANCELLATION + 10 u = 8.7e-15.
-    Of tops `swings` add what the integral of nu turns; `kappa` is as it is in Omega3.
+    Of tops `swings` add the rotation by the integral of nu; `kappa` is its factor in Omega3.
     """
 
     def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None = None) -> None:
@@ -187,33 +187,33 @@ class CayleyKleinAtTimes:
             self.circle = start
             circles = [*islice(multiples(*start), c.terms.max(initial=1))]
             sums = sum(a * x + 1j * (b * y) for a, b, (x, y) in zip(c.even, c.odd, circles, strict=False))
-            self.turned = (cos[:2] + 1j * sin[:2]) * c.factor
-            self.pair = sums * self.turned
+            self.rotated = (cos[:2] + 1j * sin[:2]) * c.factor
+            self.pair = sums * self.rotated
             self.square = (self.pair.real**2 + self.pair.imag**2).sum(axis=0)
             sizes = abs(c.rates)
-            good = (
+            is_good = (
                 c.is_certain
                 & (c.weight <= MAX_CANCELLATION * np.sqrt(self.square))
                 & (abs(c.sizes) > 1 / MAX_FREQUENCY).all(axis=0)
             )
-            good &= ((c.lack * abs(t) <= MAX_LOST_PHASE) & (sizes * abs(t) <= MAX_PHASE) & (sizes < MAX_FREQUENCY)).all(
-                axis=0
-            )
+            is_good &= (
+                (c.frequency_error * abs(t) <= MAX_LOST_PHASE) & (sizes * abs(t) <= MAX_PHASE) & (sizes < MAX_FREQUENCY)
+            ).all(axis=0)
             if swings:
                 turn, error = swings.half(half, t)
-                both = np.cos(turn).astype(float) + 1j * np.sin(turn).astype(float)
-                for x in (self.pair, self.turned):
-                    x[:] = np.where(swings.twisted, x * [both, both.conj()], x)
+                phases = np.cos(turn).astype(float) + 1j * np.sin(turn).astype(float)
+                for x in (self.pair, self.rotated):
+                    x[:] = np.where(swings.twisted, x * [phases, phases.conj()], x)
                 long = abs(c.words[0, :2] * t).max(axis=0) > MAX_PHASE / np.pi
-                good &= ~(swings.twisted & (long | ~(error < TURN_ERROR)))
-            self.extreme = np.flatnonzero(~good)
+                is_good &= ~(swings.twisted & (long | ~(error < TURN_ERROR)))
+            self.extreme = np.flatnonzero(~is_good)
 
     def column(self, j: int, out: FloatArray) -> None:
         """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
         x, y, z = (self._entry(i, j - 1) for i in range(3))
         (cos, sin), side = self.constants.tilt, self.constants.azimuth[0]
-        first, third = (side, 1.0) if j == 3 else (1.0, side)
-        out[:, 0], out[:, 1], out[:, 2] = x * first, (cos * y + sin * z) * first, (cos * z - sin * y) * third
+        offset, third = (side, 1.0) if j == 3 else (1.0, side)
+        out[:, 0], out[:, 1], out[:, 2] = x * offset, (cos * y + sin * z) * offset, (cos * z - sin * y) * third
 
     def quaternion(self, out: FloatArray) -> None:
         """Write the quaternions into (m, 4): that of the pair after the tilt at the start, turned back."""
@@ -236,14 +236,14 @@ class CayleyKleinAtTimes:
             cos, sin = (z.reshape(-1, *[1] * (x.ndim - 1)) for z in self.constants.plane)
             out[..., 0], out[..., 1] = cos * x + sin * y, cos * y - sin * x
 
-    def vector(self, out: FloatArray, first: int = 0) -> None:
-        """Write the vector into (m, 3), its first two components from the `first` on."""
-        (cos, sin), (across, along) = self.constants.azimuth, self.constants.sizes
+    def vector(self, out: FloatArray, offset: int = 0) -> None:
+        """Write the vector into (m, 3), its first two components from the `offset` on."""
+        (cos, sin), (equatorial, axial) = self.constants.azimuth, self.constants.sizes
         x, y, z = (self._entry(2, j) for j in range(3))
-        out[:, first], out[:, 1 - first], out[:, 2] = (
-            across * (cos * x + sin * y),
-            across * (cos * y - sin * x),
-            along * z,
+        out[:, offset], out[:, 1 - offset], out[:, 2] = (
+            equatorial * (cos * x + sin * y),
+            equatorial * (cos * y - sin * x),
+            axial * z,
         )
 
     def third(self, third: Third) -> FloatArray:
@@ -261,18 +261,18 @@ class CayleyKleinAtTimes:
         if i == j:
             k, n = (i + 1) % 3, (i + 2) % 3
             return np.asarray((w * w + v[i] * v[i] - v[k] * v[k] - v[n] * v[n]) / self.square)
-        across = v[3 - i - j] * w
-        return np.asarray(2 * (v[i] * v[j] + (across if (i - j) % 3 == 1 else -across)) / self.square)
+        equatorial = v[3 - i - j] * w
+        return np.asarray(2 * (v[i] * v[j] + (equatorial if (i - j) % 3 == 1 else -equatorial)) / self.square)
 
 
 def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
     """Return cosines and sines of phases, frequencies in half turns and two words (2, n, m), at times (m,).
 
-    Half the last phase, less whole quarter turns, comes after them, and what rounding left out of it.
+    Half the last phase, less whole quarter turns, comes after them, with its rounding error.
     """
-    half, rest, sign, _ = Phases.of_words(words).angles(t, room(*words.shape[1:]))
+    half, errors, sign, _ = Phases.of_words(words).angles(t, room(*words.shape[1:]))
     cos, sin = np.cos(2 * half), np.sin(2 * half)
-    return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])
+    return (cos - 2 * errors * sin) * sign, (sin + 2 * errors * cos) * sign, (half[-1], errors[-1])
 
 
 def velocity(pair: CayleyKleinAtTimes, out: FloatArray) -> FloatArray:
@@ -282,7 +282,7 @@ def velocity(pair: CayleyKleinAtTimes, out: FloatArray) -> FloatArray:
         circles = [*islice(multiples(*pair.circle), c.terms.max(initial=1))]
         terms = zip(range(1, 2 * len(circles), 2), c.even, c.odd, circles, strict=False)
         rising = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
-        slope = 1j * rates[:2] * pair.pair + rates[2] * rising * pair.turned
+        slope = 1j * rates[:2] * pair.pair + rates[2] * rising * pair.rotated
         sizes = (abs(c.even) + abs(c.odd)) * (2 * np.arange(len(c.even)) + 1)[:, None, None]
         bound = abs(rates[:2]) * c.weight + abs(rates[2]) * (sizes.sum(axis=0) * abs(c.factor)).sum(axis=0)
         (w, x), (dw, dx) = pair.pair.real, slope.real

@@ -34,14 +34,14 @@ WEIGHT_RADIUS = 2.0**-57
 class Constants(NamedTuple):
     """Constants of the pairs of motions in a row, the last axis of each.
 
-    `words` (2, 3, m) and `lack` (3, m) are the frequencies l of alpha and beta and M in half turns, in two words, and
-    what they may be off; `rates` (3, m) the same in radians. `even` and `odd` (MAX_TERMS, 2, m), of which `terms`
-    matter, `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m)
-    are cos and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
+    `words` (2, 3, m) are the frequencies l of alpha and beta and M in half turns, in two words, `frequency_error` (3,
+    m) bounds on their errors; `rates` (3, m) are the frequencies in radians. `even` and `odd` (MAX_TERMS, 2, m), of
+    which `terms` matter, `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|.
+    `tilt` (2, m) are cos and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
     """
 
     words: FloatArray
-    lack: FloatArray
+    frequency_error: FloatArray
     rates: FloatArray
     even: FloatArray
     odd: FloatArray
@@ -63,7 +63,7 @@ class Block:
     rows: slice
     roots: Roots
     exponents: Any
-    fine: Any
+    is_similar: Any
 
     @cached_property
     def means(self) -> Means:
@@ -91,7 +91,7 @@ class Block:
     def swings(self) -> Swings | None:
         """Evaluator of that rotation of tops at times."""
         top = self.roots.top
-        return top and Swings.of(self.swing, self.means, self.roots, top, self.exponents)
+        return top and Swings.of_block(self.swing, self.means, self.roots, top, self.exponents)
 
     @property
     def constants(self) -> Constants:
@@ -101,29 +101,30 @@ class Block:
             return constants
         half = self.swing_rate.scaled(-1)
         rates = self.pair.rates + stacked(half, -half, constant(0.0, half))
-        words, lack = in_half_turns(rates, self.exponents)
+        words, error = in_half_turns(rates, self.exponents)
         twisted = self.roots.top.twisted
         return constants._replace(
-            words=np.where(twisted, words, constants.words), lack=np.where(twisted, lack, constants.lack)
+            words=np.where(twisted, words, constants.words),
+            frequency_error=np.where(twisted, error, constants.frequency_error),
         )
 
     def constants_of(self, pair: SpherePair) -> Constants:
         """Return the constants of a pair."""
         r, means, sphere = self.roots, pair.means, pair.sphere
-        (words, lack), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
+        (words, error), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
         even, odd, terms, *_ = pair.sums
-        factor, lost = pair.factors
-        known = ((lost < WEIGHT_RADIUS) & (pair.zeros.growth.rel < WEIGHT_RADIUS)).all(axis=0) & (
+        factor, error_of_factor = pair.factors
+        is_known = ((error_of_factor < WEIGHT_RADIUS) & (pair.zeros.growth.rel < WEIGHT_RADIUS)).all(axis=0) & (
             means.nome.rel < WEIGHT_RADIUS
         )
-        known &= (
-            np.isfinite(lack).all(axis=0)
+        is_known &= (
+            np.isfinite(error).all(axis=0)
             & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < WEIGHT_RADIUS)
             & (terms <= MAX_TERMS)
         )
         return Constants(
             words,
-            lack,
+            error,
             np.ldexp(pair.rates.hi, self.exponents),
             even,
             odd,
@@ -135,7 +136,7 @@ class Block:
             np.array(sphere.azimuth),
             np.ldexp(np.array(sphere.sizes), self.exponents if r.top is None else 0),
             r.plane if r.plane is not None else np.stack([np.ones_like(r.b.hi), np.zeros_like(r.b.hi)]),
-            known & r.exact & self.fine & ~r.free,
+            is_known & r.exact & self.is_similar & ~r.is_excluded,
         )
 
 
@@ -148,7 +149,7 @@ def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, Floa
 class Blocks:
     """Motions I2, I3, B1, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
 
-    What is known of a single block is kept for whoever asks next; of many it would take too much memory.
+    Results of a single block are cached; those of many would take too much memory.
     """
 
     _unit = slice(2, None)
@@ -169,9 +170,9 @@ class Blocks:
         """Make the blocks."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
-            fine = _alike([abs(np.asarray(x).reshape(-1)[rows]) for x in columns[self._unit]])
+            is_similar = _alike([abs(np.asarray(x).reshape(-1)[rows]) for x in columns[self._unit]])
             power, ordinary = exponents or (0, True)
-            yield self._block(rows, roots, power, fine & ordinary)
+            yield self._block(rows, roots, power, is_similar & ordinary)
 
     @staticmethod
     def _roots(*inputs: DoubleDouble) -> Any:
@@ -188,21 +189,23 @@ class TopBlocks(Blocks):
         """Make the blocks."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
-            given = [part(x, slice(start, start + BLOCK)) for x in columns]
-            rows_of_block = [np.asarray(x) for x in given]
+            inputs_of_block = [part(x, slice(start, start + BLOCK)) for x in columns]
+            rows_of_block = [np.asarray(x) for x in inputs_of_block]
             powers, exponents = _powers(rows_of_block)
-            scaled = [x if power is None else ldexp(x, -power) for x, power in zip(given, powers, strict=True)]
+            scaled = [
+                x if power is None else ldexp(x, -power) for x, power in zip(inputs_of_block, powers, strict=True)
+            ]
             shape = scaled[0].shape
             for rows, _, extreme, (roots,) in blocks(roots_of_tops, scaled, shape, slice(0)):
                 I2, _, k2, k3, n2, n3, *omega, linear, quadratic = (abs(np.asarray(x)) for x in scaled)
                 potential = np.sqrt(linear / I2), np.sqrt(quadratic / I2)
-                fine = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])
-                fine = fine if extreme is None else fine & extreme[1]
+                is_similar = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])
+                is_similar = is_similar if extreme is None else is_similar & extreme[1]
                 # a number that the scaling made zero is none
-                fine &= np.logical_and.reduce(
+                is_similar &= np.logical_and.reduce(
                     [(x == 0) == (np.asarray(y) == 0) for x, y in zip(rows_of_block, scaled, strict=True)]
                 )
-                yield Block(slice(start, start + rows.stop), roots, exponents, fine)
+                yield Block(slice(start, start + rows.stop), roots, exponents, is_similar)
 
 
 def _powers(columns: list[FloatArray]) -> tuple[list[Any], Any]:

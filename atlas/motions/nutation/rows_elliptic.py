@@ -33,11 +33,11 @@ PLANE_FACTOR = 1 + 1e-12
 
 @dataclass(frozen=True)
 class EllipticRoots(TurningPoints):
-    """The turning points of u + K_a, with what else the sphere of K takes, for rows (m,).
+    """The turning points of u + K_a, with further constants of the sphere of K, for rows (m,).
 
     `turning` is u_t and `w` the square of the other roots in u, `torque` that at both poles, `precession` (E_a - 1) b,
     `rates` are E_i - 1, from K to Omega; `sense` are the signs of E_c less the other E_i and of K_c, c the axis about
-    which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `across`, `along`),
+    which K goes round; `frame` (3, 3, m) has the axes in which K starts as (0, `transverse`, `axial`),
     the third one a, as columns. Only where `elliptic` all this is certain to be a motion of that kind.
     """
 
@@ -45,8 +45,8 @@ class EllipticRoots(TurningPoints):
     w: DoubleDouble
     K: Sequence[DoubleDouble]
     v: DoubleDouble
-    along: DoubleDouble
-    across: DoubleDouble
+    axial: DoubleDouble
+    transverse: DoubleDouble
     b: DoubleDouble
     torque: DoubleDouble
     precession: DoubleDouble
@@ -74,14 +74,14 @@ class EllipticRoots(TurningPoints):
         return stacked(ends, ends)
 
     @property
-    def free(self) -> Any:
+    def is_excluded(self) -> Any:
         """Where the motion is of another kind."""
         return ~self.elliptic
 
     @property
     def tilt(self) -> FloatArray:
         """Cosine and sine of the angle between axis and field at the start, (2, m)."""
-        return np.array([(self.along / self.b).hi, (self.across / self.b).hi])
+        return np.array([(self.axial / self.b).hi, (self.transverse / self.b).hi])
 
 
 class Pencil:
@@ -111,31 +111,38 @@ class Pencil:
         return np.array([np.broadcast_to(y, self.shape) for y in above])
 
     @staticmethod
-    def of(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
+    def component(axis: Any, numbers: Sequence[DoubleDouble]) -> DoubleDouble:
         """Return the component of `numbers` along an axis."""
-        first, second, third = numbers
-        return chosen(axis == 0, first, chosen(axis == 1, second, third))
+        K_following, K_preceding, third = numbers
+        return chosen(axis == 0, K_following, chosen(axis == 1, K_preceding, third))
 
     def difference(self, i: Any, j: Any) -> DoubleDouble:
         """Return e_j - e_i."""
-        of = self.of
-        return self.z * (of(i, self.I) - of(j, self.I)) * of(i, self.e) * of(j, self.e)
+        component = self.component
+        return self.z * (component(i, self.I) - component(j, self.I)) * component(i, self.e) * component(j, self.e)
 
-    def share(self, third: Any, other: Any, axis: Any) -> DoubleDouble:
+    def share(self, third: Any, outer_axis: Any, axis: Any) -> DoubleDouble:
         """Return (e_third - e_other)/(e_third - e_axis) K_other^2, by moments."""
-        of, I, x = self.of, self.I, self.x
-        size = of(other, self.K)
-        up = (of(third, I) - of(other, I)) * of(axis, I) * of(axis, x)
-        return up / ((of(third, I) - of(axis, I)) * of(other, I) * of(other, x)) * (size * size)
+        component, I, x = self.component, self.I, self.x
+        size = component(outer_axis, self.K)
+        up = (component(third, I) - component(outer_axis, I)) * component(axis, I) * component(axis, x)
+        return (
+            up
+            / ((component(third, I) - component(axis, I)) * component(outer_axis, I) * component(outer_axis, x))
+            * (size * size)
+        )
 
     @cached_property
     def nutation_axis(self) -> tuple[Any, Any, Any]:
         """The axis a that nutates, the middle one of e, and the outer one about which K goes round."""
-        of, K, e = self.of, self.K, self.e
+        component, K, e = self.component, self.K, self.e
         low, middle, high = (np.argmax(self.order == n, axis=0) for n in range(3))
         # (h - e_m N)/(z e_m), whose sign with that of z e_m says about which of the outer axes K does not circle
-        outer = [(of(middle, self.I) - of(i, self.I)) * of(i, e) * of(i, K) * of(i, K) for i in (low, high)]
-        beyond = (outer[0] + outer[1]).hi * np.sign(self.z.hi) * np.sign(of(middle, e).hi) > 0
+        outer = [
+            (component(middle, self.I) - component(i, self.I)) * component(i, e) * component(i, K) * component(i, K)
+            for i in (low, high)
+        ]
+        beyond = (outer[0] + outer[1]).hi * np.sign(self.z.hi) * np.sign(component(middle, e).hi) > 0
         return np.where(beyond, low, high), middle, np.where(beyond, high, low)
 
     @cached_property
@@ -146,7 +153,7 @@ class Pencil:
     def is_elliptic(self, w: DoubleDouble) -> Any:
         """Return where this is certain to be an elliptic motion; w is negative then."""
         sizes, rank = np.array([np.broadcast_to(y.hi, self.shape) for y in self.I]), self.order
-        certain = [
+        conditions = [
             (sizes > 0).all(0) & (2 * PLANE_FACTOR * sizes.max(0) < sizes.sum(0)) & (abs(self.branch.hi) == 1),
             *(y.rel < 0.5 for y in self.x), self.square.hi > 0,
             (rank.max(0) == 2) & (rank.sum(0) == 3),  # no two of e are one
@@ -154,47 +161,56 @@ class Pencil:
             w.hi < 0, w.rel < 0.5,
             *(y.rel < WEIGHT_RADIUS for y in self.rates),  # next to rest they are 1 - x for x near 1
         ]  # fmt: skip
-        return np.logical_and.reduce([np.broadcast_to(y, self.shape) for y in certain])
+        return np.logical_and.reduce([np.broadcast_to(y, self.shape) for y in conditions])
 
 
 def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     """Return the turning points and the constants of the sphere of K from I1, I2, I3, B1, B2, B3, z, branch."""
     pencil = Pencil(*inputs)
-    of, I, K, e, v = pencil.of, pencil.I, pencil.K, pencil.e, pencil.v
-    axis, middle, other = pencil.nutation_axis
-    along = of(axis, K)
-    own = along * along
-    rise, fall = pencil.share(other, middle, axis), pencil.share(middle, other, axis)
-    w = own + fall
-    turning = (own + rise).sqrt()
-    farther = turning + abs(along)
-    nearer = rise / farther
-    up = along.hi > 0  # v = u + K_a
-    left, right = (axis + 1) % 3, (axis + 2) % 3
-    first, second = of(left, K), of(right, K)
-    sides = [pencil.difference(i, axis) for i in (left, right)]
-    squares = first * first, second * second
+    component, I, K, e, v = pencil.component, pencil.I, pencil.K, pencil.e, pencil.v
+    axis, middle, outer_axis = pencil.nutation_axis
+    axial = component(axis, K)
+    square_of_axial = axial * axial
+    rise, fall = pencil.share(outer_axis, middle, axis), pencil.share(middle, outer_axis, axis)
+    w = square_of_axial + fall
+    turning = (square_of_axial + rise).sqrt()
+    long_way = turning + abs(axial)
+    short_way = rise / long_way
+    up = axial.hi > 0  # v = u + K_a
+    following, preceding = (axis + 1) % 3, (axis + 2) % 3
+    K_following, K_preceding = component(following, K), component(preceding, K)
+    sides = [pencil.difference(i, axis) for i in (following, preceding)]
+    squares = K_following * K_following, K_preceding * K_preceding
     flat = squares[0] + squares[1]
-    across, b = flat.sqrt(), (flat + own).sqrt()
+    transverse, b = flat.sqrt(), (flat + square_of_axial).sqrt()
     L = -(pencil.square * sides[0] * sides[1])
     return EllipticRoots(
-        rate=v * first * second * pencil.z * (of(left, I) - of(right, I)) * of(left, e) * of(right, e),
-        low=-chosen(up, nearer, farther),
-        high=chosen(up, farther, nearer),
-        f=(-(L * fall), -(L * along).scaled(1), L),
-        poles=poles_of(along, flat, b),
+        rate=v
+        * K_following
+        * K_preceding
+        * pencil.z
+        * (component(following, I) - component(preceding, I))
+        * component(following, e)
+        * component(preceding, e),
+        low=-chosen(up, short_way, long_way),
+        high=chosen(up, long_way, short_way),
+        f=(-(L * fall), -(L * axial).scaled(1), L),
+        poles=poles_of(axial, flat, b),
         turning=turning,
         w=w,
         K=K,
         v=v,
-        along=along,
-        across=across,
+        axial=axial,
+        transverse=transverse,
         b=b,
         torque=v * (sides[0] * squares[0] + sides[1] * squares[1]),
-        precession=of(axis, pencil.rates) * b,
+        precession=component(axis, pencil.rates) * b,
         rates=pencil.rates,
-        sense=(np.where(other == (pencil.order == 2).argmax(0), -1.0, 1.0) * np.sign(v.hi), np.sign(of(other, K).hi)),
-        frame=_frame(axis, (first / across).hi, (second / across).hi, pencil.shape),
+        sense=(
+            np.where(outer_axis == (pencil.order == 2).argmax(0), -1.0, 1.0) * np.sign(v.hi),
+            np.sign(component(outer_axis, K).hi),
+        ),
+        frame=_frame(axis, (K_following / transverse).hi, (K_preceding / transverse).hi, pencil.shape),
         elliptic=pencil.is_elliptic(w),
     )
 
@@ -203,8 +219,12 @@ def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
     """Return axes in which (x, y) along the two that follow `axis` in the cyclic order is along the second one."""
     axes = np.zeros((3, 3, *shape))
     for k in range(3):
-        own, left, right = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
-        axes[k] = np.where(left, y, np.where(right, -x, 0.0)), np.where(left, x, np.where(right, y, 0.0)), own
+        square_of_axial, following, preceding = axis == k, (axis + 1) % 3 == k, (axis + 2) % 3 == k
+        axes[k] = (
+            np.where(following, y, np.where(preceding, -x, 0.0)),
+            np.where(following, x, np.where(preceding, y, 0.0)),
+            square_of_axial,
+        )
     return axes
 
 
@@ -212,7 +232,7 @@ def _frame(axis: Any, x: Any, y: Any, shape: tuple[int, ...]) -> FloatArray:
 class EllipticBlock(Block):
     """Elliptic motions of a block."""
 
-    roots: EllipticRoots  # type: ignore[assignment]  # what both have is a Turning
+    roots: EllipticRoots  # type: ignore[assignment]  # both are TurningPoints
 
     @cached_property
     def pair(self) -> SpherePair:
@@ -225,7 +245,7 @@ class EllipticBlock(Block):
                 roots=r,
                 poles=r.poles,
                 torques=stacked(r.torque, r.torque),
-                amplitudes=half_angles(r.along, r.across, r.b),
+                amplitudes=half_angles(r.axial, r.transverse, r.b),
                 meets=np.zeros((2, length.size), dtype=bool),
                 slopes=np.zeros((2, length.size)),
                 frames=stacked(half, half),
@@ -258,7 +278,7 @@ def _scalars(block: Block) -> dict[str, Rounded]:
         shape = r.elliptic.shape
         turn = HALF_TURN.scaled(1) * DoubleDouble(r.sense[0])  # by which the axis that K goes round lags in a period
         scalars = of_period(block) | {
-            "kind": Rounded(np.zeros(shape, int), block.fine),
+            "kind": Rounded(np.zeros(shape, int), block.is_similar),
             "precession_per_period": rounded((HALF_TURN / block.means.rate).scaled(-1) * mean - turn, block),
             "spin_per_period": rounded(turn * DoubleDouble(r.sense[1]), block),
             "v": rounded(r.v, block),

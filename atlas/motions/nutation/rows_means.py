@@ -32,7 +32,7 @@ class Level:
     sum: DoubleDouble
 
     @property
-    def parts(self) -> tuple[DoubleDouble, ...]:
+    def numbers(self) -> tuple[DoubleDouble, ...]:
         """All five."""
         return self.a, self.g, self.difference, self.product, self.sum
 
@@ -63,16 +63,23 @@ class Means:
     def _levels(self) -> list[Level]:
         """Return the means from the first."""
         a, g = self.plus.sqrt().scaled(-1), self.N.sqrt()
-        both = a + g
+        total = a + g
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
-        levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / both, larger * smaller, both)]
+        levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / total, larger * smaller, total)]
         while len(levels) < MAX_MEANS and not levels[-1].is_merged.all():
-            last = levels[-1]
-            a, g = last.sum.scaled(-1), last.product.sqrt()
-            both, square = a + g, last.difference * last.difference
-            more = Level(a, g, (square / both).scaled(-2), a * g, both)
+            previous = levels[-1]
+            a, g = previous.sum.scaled(-1), previous.product.sqrt()
+            total, square = a + g, previous.difference * previous.difference
+            following = Level(a, g, (square / total).scaled(-2), a * g, total)
             # means that are one stay as they are: no motion depends on those beside it
-            levels.append(Level(*(chosen(last.is_merged, x, y) for x, y in zip(last.parts, more.parts, strict=True))))
+            levels.append(
+                Level(
+                    *(
+                        chosen(previous.is_merged, x, y)
+                        for x, y in zip(previous.numbers, following.numbers, strict=True)
+                    )
+                )
+            )
         return levels
 
     def level(self, n: int) -> Level:
@@ -82,20 +89,20 @@ class Means:
     @cached_property
     def rate(self) -> DoubleDouble:
         """M = pi/T."""
-        last = self.levels[-1]
-        M = last.sum.scaled(-1)
-        return DoubleDouble(M.hi, M.lo, M.rel + last.difference.hi / M.hi)
+        previous = self.levels[-1]
+        M = previous.sum.scaled(-1)
+        return DoubleDouble(M.hi, M.lo, M.rel + previous.difference.hi / M.hi)
 
     @cached_property
     def moduli(self) -> tuple[DoubleDouble, DoubleDouble]:
         """Modulus and complementary modulus."""
-        first = self.levels[0]
+        top = self.levels[0]
         root = abs(self.D).sqrt()
         square = (self.S + root).scaled(-1)
         c = abs(self.minus).sqrt().scaled(-1)
         return (
-            chosen(self.four, (root / square).sqrt(), c / first.a),
-            chosen(self.four, self.N / square, first.g / first.a),
+            chosen(self.four, (root / square).sqrt(), c / top.a),
+            chosen(self.four, self.N / square, top.g / top.a),
         )
 
     @cached_property
@@ -114,20 +121,20 @@ class Means:
         square, below = r.ends[0].scaled(-2) * r.high, -r.low
         scaled = self.N * below
         C, D = square - scaled, (square * below).sqrt().scaled(1)
-        whole = _unit(C, self.levels[0].a * D)
+        whole_angle = _unit(C, self.levels[0].a * D)
         turns = []
         for m in self.levels:
             squares, weighted = C * C, m.product * D * D
             size, product = squares + weighted, C * D
             turns.append(_unit(size, -(product * m.difference)))
             C, D = (squares - weighted) / size, product.scaled(1) / size
-        one, zero = constant(1.0, C), constant(0.0, C)
-        rest = one, zero
+        unity, zero = constant(1.0, C), constant(0.0, C)
+        remainder = unity, zero
         for m, turn in zip(reversed(self.levels), reversed(turns), strict=True):
-            cos, sin = _half(_turned(turn, rest))
-            # once the means are one nothing is added, and what C and D have lost by then does not count
-            rest = chosen(m.is_merged, one, cos), chosen(m.is_merged, zero, sin)
-        cos, sin = _half(_turned(whole, rest))
+            cos, sin = _half(_sum_of_angles(turn, remainder))
+            # once the means are one nothing is added, and earlier losses of C and D do not count
+            remainder = chosen(m.is_merged, unity, cos), chosen(m.is_merged, zero, sin)
+        cos, sin = _half(_sum_of_angles(whole_angle, remainder))
         return cos, chosen(r.rate.hi < 0, -sin, sin)
 
 
@@ -137,9 +144,9 @@ def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
     return x / size, y / size
 
 
-def _turned(angle: Circle, other: Circle) -> Circle:
+def _sum_of_angles(angle: Circle, increment: Circle) -> Circle:
     """Return cosine and sine of the sum of two angles."""
-    (a, b), (c, d) = angle, other
+    (a, b), (c, d) = angle, increment
     return a * c - b * d, a * d + b * c
 
 

@@ -25,7 +25,7 @@ from atlas.motions.nutation.rows_means import MEANS_TOLERANCE, Circle, Level, Me
 from atlas.motions.nutation.rows_spheres import Sphere
 
 MAX_MEANS = 60
-"""Steps of what is made along with the means."""
+"""Steps of the sums and products along with the means."""
 
 MAX_TERMS = 9
 """Most terms of a sum."""
@@ -37,10 +37,10 @@ NEGLIGIBLE = 2.0**-58
 class Zeros(NamedTuple):
     """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
 
-    `beside` is where it is the former, `sense` the sign of y, `growth` is exp y.
+    `is_at_low` is where it is the former, `sense` the sign of y, `growth` is exp y.
     """
 
-    beside: Any
+    is_at_low: Any
     sense: FloatArray
     growth: DoubleDouble
 
@@ -79,14 +79,14 @@ class SpherePair:
     def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
         """p^2, and after the first step p and p - a, (2, m)."""
         m, k = self.means, self.sphere
-        r, first = m.roots, m.levels[0]
-        square = stacked(r.ends[0], r.ends[1]).scaled(-2) * abs(k.near) / k.far
+        r, top = m.roots, m.levels[0]
+        square = stacked(r.ends[0], r.ends[1]).scaled(-2) * abs(k.near_distance) / k.far_distance
         p = square.sqrt()
         after = (square + m.N) / p.scaled(1)
-        both = (after + chosen(m.four, first.a, first.g)) * abs(k.near) * k.far
-        by_torque = k.torques * r.width / both.scaled(2)
+        sum_of_two = (after + chosen(m.four, top.a, top.g)) * abs(k.near_distance) * k.far_distance
+        by_torque = k.torques * r.width / sum_of_two.scaled(2)
         root = (square - m.N) / (p + m.N.sqrt())
-        beyond = chosen(m.four, by_torque * by_torque * (after + first.a), root * root / p.scaled(1))
+        beyond = chosen(m.four, by_torque * by_torque * (after + top.a), root * root / p.scaled(1))
         return square, after, beyond
 
     @cached_property
@@ -94,27 +94,27 @@ class SpherePair:
         """The sum of Gauss's complete integrals of the third kind, and exp of the depths of zeros, (2, m)."""
         m, (square, p, d) = self.means, self._starts
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
-        first = m.levels[0]
-        x = chosen(first.difference.hi == 0, constant(0.0, d), first.difference / d)
+        top = m.levels[0]
+        x = chosen(top.difference.hi == 0, constant(0.0, d), top.difference / d)
         levels = [m.level(n) for n in range(MAX_MEANS + 1)]
         total, product = _steps(levels, p, d, x, Q)
-        return Q + total + ONE, ((p + first.a) / d * product).sqrt().sqrt()
+        return Q + total + ONE, ((p + top.a) / d * product).sqrt().sqrt()
 
     @cached_property
     def zeros(self) -> Zeros:
         """Zeros of alpha and beta."""
         inside, k = self._starts[0].hi > self.means.N.hi, self.sphere
         # where the vector starts at a pole, that of beta belongs to `low` and that of alpha to `high`
-        beside = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
-        sense = np.where(beside, -1.0, 1.0) * np.sign(k.torques.hi) * np.array([[1.0], [-1.0]])
+        is_at_low = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
+        sense = np.where(is_at_low, -1.0, 1.0) * np.sign(k.torques.hi) * np.array([[1.0], [-1.0]])
         depth = chosen(k.meets, constant(1.0, k.torques), self._third[1])
-        return Zeros(beside, sense, chosen(sense > 0, depth, ONE / depth))
+        return Zeros(is_at_low, sense, chosen(sense > 0, depth, ONE / depth))
 
     @cached_property
     def angles(self) -> DoubleDouble:
         """Twice the mean rates of alpha and beta, relative to their frame: shape (2, m), in 1/time."""
         k, width = self.sphere, self.means.roots.width
-        angles = k.torques / k.far * (width / abs(k.near).scaled(1) * self._third[0] + ONE)
+        angles = k.torques / k.far_distance * (width / abs(k.near_distance).scaled(1) * self._third[0] + ONE)
         return chosen(k.torques.hi == 0, k.torques, angles)
 
     @cached_property
@@ -123,23 +123,23 @@ class SpherePair:
 
         Of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error.
         """
-        M, own = self.means.rate, self.angles.scaled(-1)
-        pair = self.sphere.frames + own - signed(M, self.zeros.sense)
+        M, own_rates = self.means.rate, self.angles.scaled(-1)
+        pair = self.sphere.frames + own_rates - signed(M, self.zeros.sense)
         return stacked(pair[0], pair[1], M)
 
     @cached_property
     def sums(self) -> Sums:
         """The sums, of exp(i k y) times the depth's exponential to the power k, and of its inverse."""
         zeros, square = self.zeros, self.means.nome * self.means.nome
-        up, sign = zeros.growth, np.where(zeros.beside, -1.0, 1.0)
+        up, sign = zeros.growth, np.where(zeros.is_at_low, -1.0, 1.0)
         down, weight, power = ONE / up, constant(1.0, self.means.nome), constant(1.0, self.means.nome)
-        more, less = up * up, down * down
+        increment, less = up * up, down * down
         even, odd = np.zeros((2, MAX_TERMS, *up.hi.shape))
         terms, matters = np.ones(weight.hi.shape, dtype=int), np.ones(weight.hi.shape, dtype=bool)
         zero = constant(0.0, up)
         sums, ends = (zero, zero), (zero, zero)
         for n, circle in zip(range(MAX_TERMS), multiples(*self.means.start), strict=False):
-            flip = self._signs[n] * np.where(zeros.beside, (-1.0) ** n, 1.0)
+            flip = self._signs[n] * np.where(zeros.is_at_low, (-1.0) ** n, 1.0)
             weights, lower = signed(weight, flip), signed(down, sign)
             # a term that does not matter in a row is none of it, whatever the rows beside it need
             a, b = (chosen(matters, weights * x, zero) for x in (up + lower, up - lower))
@@ -147,7 +147,7 @@ class SpherePair:
             sums = sums[0] + a * circle[0], sums[1] + b * circle[1]
             ends = ends[0] + a, ends[1] + signed(b, (-1.0) ** n)
             power = power * square
-            up, down, weight = up * more, down * less, weight * power
+            up, down, weight = up * increment, down * less, weight * power
             size = weight.hi * np.maximum(up.hi, down.hi)
             matters &= (size > NEGLIGIBLE * np.maximum(abs(even[0]), abs(odd[0]))).any(axis=0)
             terms[matters] = n + 2
@@ -182,17 +182,17 @@ class SpherePair:
     def _length(self, sums: DoubleDouble) -> DoubleDouble:
         """Return |alpha|^2 + |beta|^2 where the sums are these."""
         x, y = self.sums.start
-        both = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
-        return both[0] + both[1]
+        sum_of_two = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
+        return sum_of_two[0] + sum_of_two[1]
 
     @cached_property
     def factors(self) -> tuple[Any, FloatArray]:
         """Factors of the sums, shape (2, m), complex, and their relative error."""
         k, (x, y) = self.sphere, self.sums.start
         size = x * x + y * y
-        lost = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
+        error = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
         factors = (k.amplitudes * x / size).hi - 1j * (k.amplitudes * y / size).hi
-        return np.where(k.meets, self._by_slopes, factors) if k.meets.any() else factors, np.where(k.meets, 0.0, lost)
+        return np.where(k.meets, self._by_slopes, factors) if k.meets.any() else factors, np.where(k.meets, 0.0, error)
 
     @property
     def _by_slopes(self) -> Any:
@@ -215,12 +215,12 @@ def multiples(cos: Any, sin: Any) -> Iterator[tuple[Any, Any]]:
 def _steps(
     levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
 ) -> tuple[DoubleDouble, DoubleDouble]:
-    """Return what the steps from p = a + d on add to the sum after Q, and make of the depth, x = (a - g)/d."""
+    """Return the sum after Q and the factor of the depth of the steps from p = a + d on, x = (a - g)/d."""
     m, after = levels[0], levels[1]
-    whole, above, more = p * p + m.product, p + m.a, x + ONE
-    Q = (Q * (d * above + m.a * m.difference) / whole).scaled(-1)
-    term = (p + m.g) / (above * more)
-    x = x * x / more * p / after.sum.scaled(1)
+    denominator, above, increment = p * p + m.product, p + m.a, x + ONE
+    Q = (Q * (d * above + m.a * m.difference) / denominator).scaled(-1)
+    term = (p + m.g) / (above * increment)
+    x = x * x / increment * p / after.sum.scaled(1)
     # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
     by_product = d * (d + m.difference) / p.scaled(1)
     half = (p + m.product / p).scaled(-1)
@@ -230,17 +230,17 @@ def _steps(
     if not going.any() or len(levels) == 2:
         return ended
     rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
-    rest = [Level(*(y[..., rows] for y in level.parts)) for level in levels[1:]]
+    levels_after = [Level(*(y[..., rows] for y in level.numbers)) for level in levels[1:]]
     Q, term, p, d, x = (y[..., rows] for y in (Q, term, p, d, x))
-    total, product = _steps(rest, p, d, x, Q)
-    return _where(going, rows, Q + total, ended[0]), _where(going, rows, (term * product).sqrt(), ended[1])
+    total, product = _steps(levels_after, p, d, x, Q)
+    return _merged(going, rows, Q + total, ended[0]), _merged(going, rows, (term * product).sqrt(), ended[1])
 
 
-def _where(going: Any, rows: Any, x: DoubleDouble, other: DoubleDouble) -> DoubleDouble:
+def _merged(going: Any, rows: Any, x: DoubleDouble, fallback: DoubleDouble) -> DoubleDouble:
     """Return x, of some rows or of all, where a condition holds, and the other elsewhere."""
     if isinstance(rows, slice):
-        return chosen(going, x, other)
-    words = [np.array(np.broadcast_to(y, other.hi.shape)) for y in (other.hi, other.low, other.rel)]
+        return chosen(going, x, fallback)
+    words = [np.array(np.broadcast_to(y, fallback.hi.shape)) for y in (fallback.hi, fallback.low, fallback.rel)]
     for word, y in zip(words, (x.hi, x.low, x.rel), strict=True):
         word[:, rows] = y
     return DoubleDouble(*words)

@@ -57,8 +57,8 @@ class TurningPoints:
         vertex, low, high = -f1 / (2 * f2), self.low.hi, self.high.hi
         margin = 1e-9 * (high - low) + 1e-12 * abs(vertex)
         inside = (f2 < 0) & (vertex > low - margin) & (vertex < high + margin)
-        apart = ~inside | ((self.discriminant.hi < 0) & (self.discriminant.rel < 0.5))
-        return apart & ((self.ends.hi > 0) & (self.ends.rel < 0.5)).all(axis=0)
+        are_apart = ~inside | ((self.discriminant.hi < 0) & (self.discriminant.rel < 0.5))
+        return are_apart & ((self.ends.hi > 0) & (self.ends.rel < 0.5)).all(axis=0)
 
     @cached_property
     def width(self) -> DoubleDouble:
@@ -79,7 +79,7 @@ class TurningPoints:
         return -((f2 * v + f1) * v + f0)
 
     @cached_property
-    def others(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+    def other_roots(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
         """Two real roots of the other factor, or their real part twice, and their imaginary part."""
         f0, f1, f2 = self.f
         half, real = -f1.scaled(-1), self.discriminant.hi > 0
@@ -95,7 +95,7 @@ class TurningPoints:
 
 @dataclass(frozen=True)
 class Roots(TurningPoints):
-    """The turning points of motions, with what else their spheres take; `a` and `top` of tops alone.
+    """The turning points of motions, with further constants of their spheres; `a` and `top` of tops alone.
 
     `moving`, `steady` are where theta is certain to vary, or not to; `b` is the length of (n2, n3), I c3 the momentum
     M3 along the axis, M2 that along e2; `frame` is the rate k2/I2 of the frame about n; `plane` (2, m) are cosine and
@@ -119,7 +119,7 @@ class Roots(TurningPoints):
     moving: Any
 
     @cached_property
-    def free(self) -> Any:
+    def is_excluded(self) -> Any:
         """Where there is no field."""
         return self.b.hi == 0
 
@@ -129,12 +129,12 @@ class Roots(TurningPoints):
         return (self.less.hi == 0) & (self.top is None)
 
     @cached_property
-    def along(self) -> Any:
+    def starts_on_field(self) -> Any:
         """Where the axis starts along the field."""
         return self.n2.hi == 0
 
     @cached_property
-    def still(self) -> Any:
+    def at_rest(self) -> Any:
         """Where the body starts at rest."""
         return np.logical_and.reduce([w.hi == 0 for w in self.omega])
 
@@ -174,7 +174,7 @@ def roots_of(
 
         Q(v) = (n2^2 + 2 n3 v - v^2)(g + 2 c v - A v^2) - (n2 M2 + M3 v)^2,    g = omega1^2 + M2^2,  c = a + A n3,
 
-    where what stands in the field at rest does not cancel. A = 0 leaves a cubic, whose fourth root is not asked for
+    where the terms of a rest in the field do not cancel. A = 0 leaves a cubic, whose fourth root is not asked for
     anywhere. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K).
 
         >>> I2, I3, B2, B3, *omega = (DoubleDouble(np.array([x])) for x in (1.0, 1.5, 1.0, 2.0, 0.3, 0.7, 0.2))
@@ -184,17 +184,17 @@ def roots_of(
         True
     """
     I, less = I3 / I2, (I2 - I3) / I2
-    (n2, n3), (w1, w2, w3), (across, along) = n, omega, couplings
-    square, c3, M2, rate = n2 * n2, w3 + along * n3, w2 + across * n2, w1 * n2
+    (n2, n3), (w1, w2, w3), (k_across, k_along) = n, omega, couplings
+    square, c3, M2, rate = n2 * n2, w3 + k_along * n3, w2 + k_across * n2, w1 * n2
     A, a = (top.A, top.linear + I * c3 * top.kappa) if top else (-less, None)
     q = from_start(I, n, omega, (M2, I * c3), couplings, A, a, top)
     b = (square + n3 * n3).sqrt()
     poles = poles_of(n3, square, b)
-    still = q[0].hi == 0
-    known = np.broadcast_to(q[1].rel, q[1].hi.shape) < 0.5
+    starts_flat = q[0].hi == 0
+    is_known = np.broadcast_to(q[1].rel, q[1].hi.shape) < 0.5
     low, high, f = turning(q, poles)
-    steady, moving = still & (q[1].hi == 0) & known, ~still | ((q[1].hi != 0) & known)
-    frame = across * b
+    steady, moving = starts_flat & (q[1].hi == 0) & is_known, ~starts_flat | ((q[1].hi != 0) & is_known)
+    frame = k_across * b
     return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, plane, steady, moving)
 
 
@@ -209,9 +209,9 @@ def from_start(
     top: Any = None,
 ) -> tuple[Number, ...]:
     """Return the coefficients of Q(v), the constant one first, see `roots_of`; `momenta` are M2 and M3."""
-    (n2, n3), (w1, w2, w3), (M2, M3), (across, along) = n, omega, momenta, couplings
-    square, rest, rate, bend = n2 * n2, across * n2, w1 * n2, A * n3
-    q1 = n3 * (w1 * w1 + w2 * (M2 + rest)) - I * n2 * (w3 * (w2 + along * n2) + along * w2 * n3)
+    (n2, n3), (w1, w2, w3), (M2, M3), (k_across, k_along) = n, omega, momenta, couplings
+    square, coupling, rate, bend = n2 * n2, k_across * n2, w1 * n2, A * n3
+    q1 = n3 * (w1 * w1 + w2 * (M2 + coupling)) - I * n2 * (w3 * (w2 + k_along * n2) + k_along * w2 * n3)
     if top:
         q1 = q1 + square * (top.linear + top.quadratic * n3)
     q2 = w1 * w1 + M2 * M2 + A * square + M3 * M3 - (plus(a, bend) * n3).scaled(2)
@@ -233,9 +233,9 @@ def in_plane(
     return (chosen(turns, size, n2), n3), (c * w1 - s * w2, s * w1 + c * w2, w3), np.array([c.hi, s.hi])
 
 
-def poles_of(along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+def poles_of(k_along: DoubleDouble, square: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Return along + b and along - b, (2, m), of which one cancels; `square` is b^2 - along^2."""
-    up, longer = along.hi > 0, b + abs(along)
+    up, longer = k_along.hi > 0, b + abs(k_along)
     shorter = -square / longer
     return stacked(chosen(up, longer, -shorter), chosen(up, shorter, -longer))
 
@@ -251,19 +251,19 @@ def roots_of_tops(*inputs: DoubleDouble) -> Roots:
     twisted = (k3 * I2 - k2 * I3).hi != 0
     I, less, k, turn = I3 / I2, (I2 - I3) / I2, k2 / I2, k3 / I3
     b = (n2 * n2 + n3 * n3).sqrt()
-    across, along, none = k / b, turn / b, constant(0.0, b)
+    k_across, k_along, none = k / b, turn / b, constant(0.0, b)
     potential = quadratic / (I2 * b * b)
-    A = chosen(twisted, I * along * along - across * across, -(less * across * across)) + potential
+    A = chosen(twisted, I * k_along * k_along - k_across * k_across, -(less * k_across * k_across)) + potential
     rates = [abs(x.hi) for x in (w1, w2, w3, k, turn)] + [np.sqrt(abs(x.hi / I2.hi)) for x in (linear, quadratic)]
     top = Top(
-        kappa=chosen(twisted, across - along, none),
+        kappa=chosen(twisted, k_across - k_along, none),
         twisted=twisted,
         linear=linear / (I2 * b),
         quadratic=potential,
         A=_exact_where_it_cancels(A, inputs),
         rates=np.max(rates, axis=0),
     )
-    return roots_of(I2, I3, (n2, n3), (w1, w2, w3), (across, chosen(twisted, along, across)), top)
+    return roots_of(I2, I3, (n2, n3), (w1, w2, w3), (k_across, chosen(twisted, k_along, k_across)), top)
 
 
 def _exact_where_it_cancels(A: DoubleDouble, inputs: Sequence[DoubleDouble]) -> DoubleDouble:
@@ -281,30 +281,30 @@ def turning(
     q: tuple[DoubleDouble, ...], poles: DoubleDouble
 ) -> tuple[DoubleDouble, DoubleDouble, tuple[DoubleDouble, DoubleDouble, DoubleDouble]]:
     """Return the turning points and the other factor of quartics q0 + q1 v + ... between the poles."""
-    still = q[0].hi == 0
+    starts_flat = q[0].hi == 0
     words = np.array([np.broadcast_to(x.hi, q[0].hi.shape) for x in q])
-    low = _refined(-_first(words * ALTERNATING, -poles.hi[1], still), q)
-    high = _refined(_first(words, poles.hi[0], still), q)
+    low = _refined(-_first_root(words * ALTERNATING, -poles.hi[1], starts_flat), q)
+    high = _refined(_first_root(words, poles.hi[0], starts_flat), q)
     s, t, f2 = low + high, low * high, q[4]
     f1 = q[3] + s * f2
     f0 = q[2] + s * f1 - t * f2
     # next to a separatrix f is small at 0, where its value and slope are those of Q over t; where 0 is a turning point,
     # t = 0 and s the other one, those of Q/v over -s
-    f0 = better(f0, chosen(still, -(q[1] / s), q[0] / t))
-    f1 = better(f1, chosen(still, (f0 - q[2]) / s, (q[1] + s * f0) / t))
+    f0 = better(f0, chosen(starts_flat, -(q[1] / s), q[0] / t))
+    f1 = better(f1, chosen(starts_flat, (f0 - q[2]) / s, (q[1] + s * f0) / t))
     return low, high, (f0, f1, f2)
 
 
 ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0, 1.0])[:, None]
 
 
-def _first(q: FloatArray, reach: FloatArray, still: Any) -> FloatArray:
+def _first_root(q: FloatArray, reach: FloatArray, starts_flat: Any) -> FloatArray:
     """Return the first root of polynomials q (5, m) above 0, in doubles; each is positive before and there is one.
 
-    Where `still`, 0 is a root, and is what is looked for if q is negative beyond. No step goes too far: it is that to
+    Where `at_rest`, 0 is a root, and the result if q is negative beyond. No step goes too far: it is that to
     the root of a parabola below q, whose second derivative is the least that q has between here and `reach`.
     """
-    q = np.where(still, np.concatenate([q[1:], 0 * q[:1]]), q)
+    q = np.where(starts_flat, np.concatenate([q[1:], 0 * q[:1]]), q)
     roots, rows = np.zeros_like(reach), np.arange(reach.size)
     v = roots
     for n in range(MAX_ROOT_STEPS):
@@ -339,11 +339,11 @@ def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:
     bends = (12 * abs(q4) * size + 6 * abs(q3)) * size + 2 * abs(q2)
     step = value.hi / slope
     step = step * (1 + step * ((6 * q4 * v + 3 * q3) * v + q2) / slope)
-    lost = (q[0].rel + ROUNDING) * abs(q0)
+    rounding = (q[0].rel + ROUNDING) * abs(q0)
     for n, c in enumerate(q[1:], 1):
-        lost = lost + (c.rel + ROUNDING) * abs(c.hi) * size**n
+        rounding = rounding + (c.rel + ROUNDING) * abs(c.hi) * size**n
     steep = abs(step) * (bends / abs(slope) + 1 / size)
-    error = 2 * lost / abs(slope) + abs(step) * (2.0**-48 * slopes / abs(slope) + 4 * steep**2)
+    error = 2 * rounding / abs(slope) + abs(step) * (2.0**-48 * slopes / abs(slope) + 4 * steep**2)
     hi = v - step
     lo = (v - hi) - step
     rel = np.where((v == 0) & (q0 == 0), 0.0, np.where(steep < MAX_LAST_STEP, error / abs(hi), np.inf))

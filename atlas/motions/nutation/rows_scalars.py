@@ -1,6 +1,6 @@
 """The scalars of many motions in arrays: kind, turning points, roots, period, moduli, nome and the angles of a period.
 
-What two words do not hold for certain is not certain, and is left to the motion made by itself: next to a separatrix or
+Values that double-double does not hold for certain are left to single motions: next to a separatrix or
 a triple root, where theta is all but constant, where the inputs are of very different sizes; and a top's roots.
 """
 
@@ -68,22 +68,22 @@ class Scalars:
 
     def _fill(self, values: Callable[[Block], dict[str, Rounded]]) -> None:
         """Evaluate some scalars."""
-        parts: dict[str, list[Rounded]] = {}
+        rounded_roots: dict[str, list[Rounded]] = {}
         count = self.blocks.count
         for block in self.blocks if count else type(self.blocks)((1.0,) * len(self.blocks.inputs), (1,)):
             for name, scalar in values(block).items():
-                parts.setdefault(name, []).append(scalar)
-        for name, all_of_it in parts.items():
+                rounded_roots.setdefault(name, []).append(scalar)
+        for name, all_of_it in rounded_roots.items():
             columns = (np.concatenate(x, axis=-1)[..., :count] for x in zip(*all_of_it, strict=True))
             self._known[name] = Rounded(*columns)
 
 
 def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
     """Return numbers of a block, homogeneous of a degree in the frequencies, rounded once."""
-    values, certain = x.nearest()
+    values, is_sure = x.nearest()
     values = np.ldexp(values, degree * block.exponents)
     return Rounded(
-        values, certain & block.fine & ((values == 0) | ((abs(values) > 2.0**-1000) & (abs(values) < np.inf)))
+        values, is_sure & block.is_similar & ((values == 0) | ((abs(values) > 2.0**-1000) & (abs(values) < np.inf)))
     )
 
 
@@ -92,9 +92,9 @@ def _scalars(block: Block) -> dict[str, Rounded]:
     with np.errstate(all="ignore"):
         r = block.roots
         is_field = r.top is None
-        known = r.exact & (~r.free if is_field else r.moving)
+        is_known = r.exact & (~r.is_excluded if is_field else r.moving)
         scalars = of_period(block) | ({} if is_field else _of_tops(block))
-        scalars = {name: Rounded(x.values, x.is_certain & known) for name, x in scalars.items()}
+        scalars = {name: Rounded(x.values, x.is_certain & is_known) for name, x in scalars.items()}
         return scalars | _kinds(block) | _all_roots(block) if is_field else scalars
 
 
@@ -104,9 +104,9 @@ def _of_tops(block: Block) -> dict[str, Rounded]:
     low, high = (rounded((r.n3 - x) / r.b, block) for x in (r.high, r.low))
     cubic, even = r.A.hi == 0, (r.a.hi == 0) & (r.A.hi == 0) if r.a else np.False_
     codes = np.select([even, cubic, r.discriminant.hi > 0], [3, 2, 1], 0)
-    certain = (cubic | (r.discriminant.rel < 0.5)) & r.moving
+    is_sure = (cubic | (r.discriminant.rel < 0.5)) & r.moving
     ends = Rounded(np.array([low.values, high.values]), low.is_certain & high.is_certain)
-    return {"turning_points": ends, "kind": Rounded(codes, block.fine & certain)}
+    return {"turning_points": ends, "kind": Rounded(codes, block.is_similar & is_sure)}
 
 
 def of_period(block: Block) -> dict[str, Rounded]:
@@ -123,27 +123,32 @@ def of_period(block: Block) -> dict[str, Rounded]:
 def _kinds(block: Block) -> dict[str, Rounded]:
     """Return the kind as its place in KINDS."""
     r = block.roots
-    steady = np.select([r.still, r.along], [3, 5], 4)
-    free, moving = np.where(r.still, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
-    codes = np.select([r.free, r.steady, r.ball], [free, steady, 2], moving)
-    apart = r.exact & (r.discriminant.rel < 0.5)
-    return {"kind": Rounded(codes, block.fine & (r.free | r.steady | (r.moving & (r.ball | apart))))}
+    steady = np.select([r.at_rest, r.starts_on_field], [3, 5], 4)
+    kind_without_field, moving = np.where(r.at_rest, 3, 6), np.where(r.discriminant.hi > 0, 1, 0)
+    codes = np.select([r.is_excluded, r.steady, r.ball], [kind_without_field, steady, 2], moving)
+    is_separated = r.exact & (r.discriminant.rel < 0.5)
+    return {
+        "kind": Rounded(codes, block.is_similar & (r.is_excluded | r.steady | (r.moving & (r.ball | is_separated))))
+    }
 
 
 def _all_roots(block: Block) -> dict[str, Rounded]:
     """Return the turning points, (2, m), and the roots of Q, (4, m)."""
     r = block.roots
-    first, second, imaginary = r.others
+    angle_of_alpha, angle_of_beta, imaginary = r.other_roots
     low, high = (rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
     ends = Rounded(np.array([low.values, high.values]), low.is_certain & high.is_certain & r.exact)
-    parts = [rounded(x, block, 1) for x in (r.omega[2] + first, r.omega[2] + second, imaginary)]
-    x, y, z = (x.values for x in parts)
+    rounded_roots = [rounded(x, block, 1) for x in (r.omega[2] + angle_of_alpha, r.omega[2] + angle_of_beta, imaginary)]
+    x, y, z = (x.values for x in rounded_roots)
     two = (r.discriminant.hi <= 0) & ~r.ball
     gone = r.ball | two
     roots = np.sort([*ends.values, np.where(gone, np.inf, x), np.where(gone, np.inf, y)], axis=0).astype(complex)
     roots[2:, two] = np.array([x - 1j * z, x + 1j * z])[:, two]
-    others = np.logical_and.reduce([x.is_certain for x in parts]) & (r.discriminant.rel < 0.5)
-    return {"turning_points": ends, "roots": Rounded(roots, ends.is_certain & (r.ball | others) & ~r.free)}
+    are_others_known = np.logical_and.reduce([x.is_certain for x in rounded_roots]) & (r.discriminant.rel < 0.5)
+    return {
+        "turning_points": ends,
+        "roots": Rounded(roots, ends.is_certain & (r.ball | are_others_known) & ~r.is_excluded),
+    }
 
 
 def _angles(block: Block) -> dict[str, Rounded]:
@@ -151,15 +156,15 @@ def _angles(block: Block) -> dict[str, Rounded]:
     with np.errstate(all="ignore"):
         r = block.roots
         sphere, angles = block.pair.sphere, block.pair.angles
-        first, second = angles[0], angles[1]
+        angle_of_alpha, angle_of_beta = angles[0], angles[1]
         half = (HALF_TURN / block.means.rate).scaled(-1)
-        spin = half * (first - second + plus(block.swing_rate, r.less * r.c3).scaled(1))
+        spin = half * (angle_of_alpha - angle_of_beta + plus(block.swing_rate, r.less * r.c3).scaled(1))
         # the two angles of a ball are half a turn each, or none, and must not cancel
-        whole = HALF_TURN * DoubleDouble(np.sign(sphere.torques.hi[0]) - np.sign(sphere.torques.hi[1]))
-        both = {
-            "precession_per_period": half * (first + second - r.frame.scaled(1)),
-            "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), whole, spin),
+        half_turns = HALF_TURN * DoubleDouble(np.sign(sphere.torques.hi[0]) - np.sign(sphere.torques.hi[1]))
+        angles_by_name = {
+            "precession_per_period": half * (angle_of_alpha + angle_of_beta - r.frame.scaled(1)),
+            "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), half_turns, spin),
         }
-        known = r.exact & (~r.free & ~(r.steady & r.along) if r.top is None else r.moving)
-        of_period = {name: rounded(x, block) for name, x in both.items()}
-        return {name: Rounded(x.values, x.is_certain & known) for name, x in of_period.items()}
+        is_known = r.exact & (~r.is_excluded & ~(r.steady & r.starts_on_field) if r.top is None else r.moving)
+        of_period = {name: rounded(x, block) for name, x in angles_by_name.items()}
+        return {name: Rounded(x.values, x.is_certain & is_known) for name, x in of_period.items()}

@@ -36,12 +36,12 @@ class Sphere:
     sizes: tuple[FloatArray, FloatArray]
 
     @cached_property
-    def far(self) -> DoubleDouble:
+    def far_distance(self) -> DoubleDouble:
         """Distances of the poles from the turning point that is farther away, (2, m)."""
         return stacked(self.poles[0] - self.roots.low, self.roots.high - self.poles[1])
 
     @cached_property
-    def near(self) -> DoubleDouble:
+    def near_distance(self) -> DoubleDouble:
         """Distances of the poles from the turning point that is nearer, (2, m), with their sign.
 
         Where that cancels, since the vector all but meets the pole, they are the square of the torque over -f far.
@@ -49,7 +49,7 @@ class Sphere:
         f0, f1, f2 = self.roots.f
         plain = stacked(self.poles[0] - self.roots.high, self.roots.low - self.poles[1])
         beyond = -((f2 * self.poles + f1) * self.poles + f0)
-        by_torque = self.torques * self.torques / (beyond * self.far)
+        by_torque = self.torques * self.torques / (beyond * self.far_distance)
         return better(plain, by_torque)
 
 
@@ -60,14 +60,14 @@ def sphere_of_field(r: Roots) -> Sphere:
     """
     torques = r.n2 * r.M2 + r.I * r.c3 * r.poles
     up, spin = r.n3.hi >= 0, r.less * r.c3
-    (w1, w2, _), there = (w.hi for w in r.omega), r.along & (torques.hi == 0) & (torques.rel < 0.5)
+    (w1, w2, _), starts_at_pole = (w.hi for w in r.omega), r.starts_on_field & (torques.hi == 0) & (torques.rel < 0.5)
     length = r.b.hi if r.top is None else np.ones_like(r.b.hi)
     return Sphere(
         roots=r,
         poles=r.poles,
         torques=torques,
         amplitudes=half_angles(r.n3, abs(r.n2), r.b),
-        meets=there & np.array([~up, up]),
+        meets=starts_at_pole & np.array([~up, up]),
         slopes=np.array([1j * w2 - w1, 1j * w2 + w1]),
         frames=stacked(spin - r.frame, -(spin + r.frame)).scaled(-1),
         azimuth=(np.where(r.n2.hi < 0, -1.0, 1.0), np.zeros_like(length)),
@@ -75,11 +75,11 @@ def sphere_of_field(r: Roots) -> Sphere:
     )
 
 
-def half_angles(along: DoubleDouble, across: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+def half_angles(axial: DoubleDouble, transverse: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Return cosine and sine, (2, m), of half the angle whose cosine and sine are along/b and across/b."""
-    longer = ((abs(along) / b + ONE).scaled(-1)).sqrt()
-    shorter = across / (longer * b).scaled(1)
-    up = along.hi >= 0
+    longer = ((abs(axial) / b + ONE).scaled(-1)).sqrt()
+    shorter = transverse / (longer * b).scaled(1)
+    up = axial.hi >= 0
     return stacked(chosen(up, longer, shorter), chosen(up, shorter, longer))
 
 
@@ -96,18 +96,21 @@ def sphere_of_velocity(r: Roots) -> Sphere:
     shorter = square / (r.I * longer)
     poles = stacked(chosen(up, longer, shorter), -chosen(up, shorter, longer))
     torques = w2 * r.n2 + poles * (r.I * w3 - (r.less + ONE) * r.n3 + poles)
-    twice, across = end.scaled(1), square.sqrt()
+    twice, transverse = end.scaled(1), square.sqrt()
     larger, smaller = (longer / twice).sqrt(), (shorter / twice).sqrt()
-    there = (square.hi == 0) & (torques.hi == 0) & (torques.rel < 0.5)
+    starts_at_pole = (square.hi == 0) & (torques.hi == 0) & (torques.rel < 0.5)
     turn = short.hi * r.n2.hi
     return Sphere(
         roots=r,
         poles=poles,
         torques=torques,
         amplitudes=stacked(chosen(up, larger, smaller), chosen(up, smaller, larger)),
-        meets=there & np.array([~up, up]),
+        meets=starts_at_pole & np.array([~up, up]),
         slopes=np.array([-turn, turn]) + 0j,
         frames=constant(0.0, poles),
-        azimuth=(np.where(across.hi == 0, 1.0, (w1 / across).hi), np.where(across.hi == 0, 0.0, (w2 / across).hi)),
+        azimuth=(
+            np.where(transverse.hi == 0, 1.0, (w1 / transverse).hi),
+            np.where(transverse.hi == 0, 0.0, (w2 / transverse).hi),
+        ),
         sizes=((short * end).hi, -end.hi),
     )

@@ -43,20 +43,20 @@ LAST = float(np.finfo(np.longdouble).eps)
 class SwingSums(NamedTuple):
     """The rate, and the weights of cos 2 n y in E and of sin 2 n y in O, (MAX_TERMS, m); y is 0 at the largest nu.
 
-    `known` bounds the relative error of the weights.
+    `weight_error` bounds the relative error of the weights.
     """
 
     rate: DoubleDouble
     even: Extended
     odd: Extended
-    known: FloatArray
+    weight_error: FloatArray
 
 
 class Swings(NamedTuple):
     """Evaluator at times of half the part of the rotation that is no multiple of time, of tops along the last axis.
 
     `factor` is kappa/sqrt(|A|), `size` sqrt(|A|), where A = 0 kappa and 0; `start` (2, m) are cosine and sine of 2 y at
-    t = 0, `before` is half the turn there; `slope` is what a radian of y may make of it; `fastest` is the largest rate.
+    t = 0, `before` is half the turn there; `slope` bounds its change by a radian of y; `fastest` is the largest rate.
     """
 
     twisted: Any
@@ -69,12 +69,12 @@ class Swings(NamedTuple):
     start: Extended
     before: Extended
     slope: FloatArray
-    lack: FloatArray
-    known: FloatArray
+    frequency_error: FloatArray
+    weight_error: FloatArray
     fastest: FloatArray
 
     @classmethod
-    def of(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
+    def of_block(cls, sums: SwingSums | None, means: Means, r: Roots, top: Top, exponents: Any) -> Self:
         """Return it for the tops of a block."""
         A, kappa, (cos, sin) = r.A, top.kappa, means.start
         nothing = np.zeros((MAX_TERMS, *A.hi.shape), dtype=np.longdouble)
@@ -93,8 +93,10 @@ class Swings(NamedTuple):
             start=start,
             before=nothing[0],
             slope=abs(kappa.hi) * r.width.hi / means.rate.hi,
-            lack=np.ldexp(turns.hi * turns.rel, exponents),
-            known=np.where((abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < PHASE_RADIUS, sums.known, np.inf),
+            frequency_error=np.ldexp(turns.hi * turns.rel, exponents),
+            weight_error=np.where(
+                (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel) < PHASE_RADIUS, sums.weight_error, np.inf
+            ),
             fastest=np.ldexp(top.rates, exponents),
         )
         return swings._replace(before=swings.half_of(*start)[0])
@@ -104,56 +106,59 @@ class Swings(NamedTuple):
         angle = 4 * (phase[0].astype(np.longdouble) + phase[1])
         (c, s), cos, sin = self.start, np.cos(angle), np.sin(angle)
         turn, error = self.half_of(c * cos - s * sin, s * cos + c * sin)
-        return turn - self.before, 2 * error + np.pi * self.slope * self.lack * abs(t)
+        return turn - self.before, 2 * error + np.pi * self.slope * self.frequency_error * abs(t)
 
     def half_of(self, cos: Extended, sin: Extended) -> tuple[Extended, FloatArray]:
         """Return half the turn from cosine and sine of 2 y, and its error."""
-        even, odd, first, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
+        even, odd, multiple, before = self.even[0], 0 * sin, (cos, sin), (1.0, 0.0)
         lost_even, lost_odd = abs(self.even[0]), 0 * abs(sin)
         for n in range(1, MAX_TERMS):
             if not (self.even[n].any() or self.odd[n].any()):
                 break
-            even, odd = even + self.even[n] * first[0], odd + self.odd[n] * first[1]
+            even, odd = even + self.even[n] * multiple[0], odd + self.odd[n] * multiple[1]
             lost_even, lost_odd = lost_even + (n + 1) * abs(self.even[n]), lost_odd + (n + 1) * abs(self.odd[n])
-            first, before = tuple(2 * cos * x - y for x, y in zip(first, before, strict=True)), first
+            multiple, before = tuple(2 * cos * x - y for x, y in zip(multiple, before, strict=True)), multiple
         x = self.size * odd
         turn = np.select([self.sign > 0, self.sign < 0], [np.arctanh(x / even), np.arctan2(x, even)], odd / even)
-        lost = (abs(even) * lost_odd + abs(odd) * lost_even) / abs(even * even - self.sign * x * x)
+        error_bound = (abs(even) * lost_odd + abs(odd) * lost_even) / abs(even * even - self.sign * x * x)
         scale = np.where(self.sign == 0, 1, self.size)
-        return self.factor * turn, abs(self.factor * scale * lost * (8 * LAST + self.known)).astype(float)
+        return self.factor * turn, abs(self.factor * scale * error_bound * (8 * LAST + self.weight_error)).astype(float)
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
     """Return them for tops whose b nu at t = 0, and A over b^2, are these."""
     r, square = means.roots, means.nome * means.nome
-    beside = r.ends.hi[0] < r.ends.hi[1]
+    is_at_low = r.ends.hi[0] < r.ends.hi[1]
     size = abs(A).sqrt()
     cos, sin = angle_of_infinity(means, A, size)
-    sense = np.where(beside, -1.0, 1.0)
+    sense = np.where(is_at_low, -1.0, 1.0)
     even, odd = np.zeros((2, MAX_TERMS, *nu.hi.shape), dtype=np.longdouble)
     even[0] = 1
-    one, zero = constant(1.0, nu), constant(0.0, nu)
-    first, before, twice = (cos, sin), (one, zero), cos.scaled(1)
-    weight, power, total, slope = means.nome.scaled(1), means.nome, one, zero
-    matters, known = np.ones(nu.hi.shape, dtype=bool), np.zeros(nu.hi.shape)
+    unity, zero = constant(1.0, nu), constant(0.0, nu)
+    multiple, before, twice = (cos, sin), (unity, zero), cos.scaled(1)
+    weight, power, total, slope = means.nome.scaled(1), means.nome, unity, zero
+    matters, weight_error = np.ones(nu.hi.shape, dtype=bool), np.zeros(nu.hi.shape)
     for n in range(1, MAX_TERMS):
-        c, s = _on_lattice(n, first, size, means.four)
+        c, s = _on_lattice(n, multiple, size, means.four)
         a, b = (chosen(matters, weight * x, zero) for x in (c, signed(s, -sense)))
         total, slope = total + a, slope + b.scaled(1) * constant(float(n), b)
-        turned = np.where(beside, (-1.0) ** n, 1.0)
-        even[n], odd[n] = extended(a) * turned, extended(b) * turned
-        known = np.where(matters, np.fmax(known, np.fmax(a.rel, b.rel)), known)
+        signs = np.where(is_at_low, (-1.0) ** n, 1.0)
+        even[n], odd[n] = extended(a) * signs, extended(b) * signs
+        weight_error = np.where(matters, np.fmax(weight_error, np.fmax(a.rel, b.rel)), weight_error)
         matters &= weight.hi * np.maximum(abs(c.hi), size.hi * abs(s.hi)) > NEGLIGIBLE
         if not matters.any():
             break
         power = power * square
         weight = weight * power
-        first, before = (twice * first[0] - before[0], twice * first[1] - before[1]), first
-    end = nu - chosen(beside, r.high, r.low)
+        multiple, before = (twice * multiple[0] - before[0], twice * multiple[1] - before[1]), multiple
+    end = nu - chosen(is_at_low, r.high, r.low)
     rate = end - (means.rate * slope / total).scaled(1)
     # where more terms matter nothing is known
-    rate, known = DoubleDouble(rate.hi, rate.lo, np.where(matters, np.inf, rate.rel)), np.where(matters, np.inf, known)
-    return SwingSums(rate, even, odd, known)
+    rate, weight_error = (
+        DoubleDouble(rate.hi, rate.lo, np.where(matters, np.inf, rate.rel)),
+        np.where(matters, np.inf, weight_error),
+    )
+    return SwingSums(rate, even, odd, weight_error)
 
 
 def _on_lattice(n: int, circle: Circle, size: DoubleDouble, four: Any) -> Circle:
@@ -169,15 +174,15 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
     r, m = means.roots, means.levels
     fourth = r.ends.sqrt().sqrt()
     roots = fourth * fourth
-    both = roots[0] + roots[1]
-    p = both.scaled(-2)
+    sum_of_roots = roots[0] + roots[1]
+    p = sum_of_roots.scaled(-2)
     slope = r.f[1] + r.f[2] * (r.low + r.high)
-    lean = (abs(slope) * r.width / (both * (fourth[0] + fourth[1]))).scaled(-1)
+    lean = (abs(slope) * r.width / (sum_of_roots * (fourth[0] + fourth[1]))).scaled(-1)
     broad = r.width / (p + chosen(means.four, m[0].a, m[0].g)).sqrt().scaled(2)
     # a p is that of the larger mean plus A e^2 less than it, and that of the smaller one plus h^2
     e, h = chosen(means.four, broad, lean / size), chosen(means.four, lean, size * broad)
     root = m[0].difference.sqrt()
-    whole, turns, ended = (h / root, e / root), list[Circle](), list[Any]()
+    whole_angle, turns, ended = (h / root, e / root), list[Circle](), list[Any]()
     for n in range(MAX_MEANS):
         level, after = means.level(n), means.level(n + 1)
         twice, product = p.scaled(1), e * h
@@ -188,19 +193,19 @@ def angle_of_infinity(means: Means, A: DoubleDouble, size: DoubleDouble) -> Circ
             break
         root = twice.sqrt()
         p, e, h = (p + level.product / p).scaled(-1), product / root, (p - after.g) / root
-    one, zero = constant(1.0, p), constant(0.0, p)
-    rest = one, zero
+    unity, zero = constant(1.0, p), constant(0.0, p)
+    remainder = unity, zero
     for turn, done in zip(reversed(turns), reversed(ended), strict=True):
-        cos, sin = _turned(turn, rest, A)
+        cos, sin = _sum_of_angles(turn, remainder, A)
         larger = ((cos + ONE).scaled(-1)).sqrt()
-        # once nothing is added, what has been lost by then does not count
-        rest = chosen(done, one, larger), chosen(done, zero, sin / larger.scaled(1))
-    return _turned(whole, rest, A)
+        # once nothing is added, earlier losses do not count
+        remainder = chosen(done, unity, larger), chosen(done, zero, sin / larger.scaled(1))
+    return _sum_of_angles(whole_angle, remainder, A)
 
 
-def _turned(angle: Circle, other: Circle, A: DoubleDouble) -> Circle:
+def _sum_of_angles(angle: Circle, increment: Circle, A: DoubleDouble) -> Circle:
     """Return cosine and sine of the sum of two angles."""
-    (a, b), (c, d) = angle, other
+    (a, b), (c, d) = angle, increment
     return a * c - A * b * d, a * d + b * c
 
 

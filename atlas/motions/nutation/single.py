@@ -34,7 +34,7 @@ VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
 
 
 class SingleMotion:
-    """One motion whose axis nutates: its constants in balls, and what turns times into matrices.
+    """One motion whose axis nutates: its constants in balls, and the evaluation of matrices at times.
 
     `exact` is the motion with R(0) = 1.
     """
@@ -43,16 +43,16 @@ class SingleMotion:
         self.exact = exact
 
     @cached_property
-    def parts(self) -> CayleyKlein:
+    def pair(self) -> CayleyKlein:
         """Constants of the pair. Raises DomainError where floats do not hold it."""
         exact = self.exact  # not of self, which holds the parts: memory would wait for the collector of garbage
-        parts = CayleyKlein(lambda: exact.solution)
-        if parts.lost:
+        pair = CayleyKlein(lambda: exact.solution)
+        if pair.is_lost:
             raise DomainError(
                 "The body's axis passes the line of the field at an angle too small for a float: give a larger "
                 "angular velocity across the axis, or none."
             )
-        return parts
+        return pair
 
     @cached_property
     def _tilt(self) -> list[float]:
@@ -63,29 +63,29 @@ class SingleMotion:
             return [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
 
     @cached_property
-    def right(self) -> FloatArray:
+    def after(self) -> FloatArray:
         """The turn about the body's axis at t = 0."""
         _, _, C, S = self._tilt
         return np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
 
     @cached_property
-    def left(self) -> FloatArray:
+    def before(self) -> FloatArray:
         """Constant left factor of the matrix of (alpha, beta)."""
         cos, sin, _, _ = self._tilt
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
-        return np.asarray(self.right.T @ tilt)
+        return np.asarray(self.after.T @ tilt)
 
     @cached_property
     def entries(self) -> FloatArray:
         """Weights of the products in the entries of R, (10, 9)."""
-        return entries(self.left, self.right)
+        return entries(self.before, self.after)
 
     @cached_property
     def field(self) -> FloatArray:
         """Weights of the products in K, (10, 3)."""
         with workprec(2 * BITS):
             b = nearest(arb(self.exact.b))
-        return np.asarray(b * VECTOR @ self.right)
+        return np.asarray(b * VECTOR @ self.after)
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -100,10 +100,10 @@ class SingleMotion:
 
         def prepare(size: int) -> Any:
             """Return the function that fills a block of times."""
-            evaluation = Evaluation(self.parts, size, signed=True)
+            evaluation = Evaluation(self.pair, size, signed=True)
 
             def fill(times: FloatArray, rows: FloatArray) -> None:
-                q = evaluation.parts(times)
+                q = evaluation.components(times)
                 q /= np.sqrt((q * q).sum(axis=0))
                 np.matmul(q.T, self._sides, out=rows)
 
@@ -114,8 +114,8 @@ class SingleMotion:
     @cached_property
     def _sides(self) -> FloatArray:
         """Matrix from the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
-        sides = between(self.left, self.right)[[3, 0, 2, 1]]
-        start = Evaluation(self.parts, 1, signed=True).parts(np.zeros(1))[:, 0] @ sides
+        sides = between(self.before, self.after)[[3, 0, 2, 1]]
+        start = Evaluation(self.pair, 1, signed=True).components(np.zeros(1))[:, 0] @ sides
         return np.asarray(-sides if start[3] < 0 else sides)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -125,7 +125,7 @@ class SingleMotion:
     @cached_property
     def exponentials(self) -> tuple[Exponentials, Exponentials] | None:
         """Alpha and beta as sums of exponentials for use on a grid, None where these would cancel or be too many."""
-        return exponentials(self.exact, self.parts.precision)
+        return exponentials(self.exact, self.pair.precision)
 
     def _linear(
         self,
@@ -133,13 +133,13 @@ class SingleMotion:
         t: Any,
         shape: tuple[int, ...],
         out: FloatArray | None,
-        parts: CayleyKlein | None = None,
+        pair: CayleyKlein | None = None,
     ) -> FloatArray:
         """Return linear combinations of the products of alpha and beta, or of another pair."""
 
         def prepare(size: int) -> Any:
             """Return the function that fills a block of times."""
-            evaluation = Evaluation(parts or self.parts, size)
+            evaluation = Evaluation(pair or self.pair, size)
             return lambda times, rows: combined(evaluation.products_at(times), weights, rows)
 
         return evaluate(real(t, "The time"), shape, out, prepare)
@@ -164,11 +164,11 @@ class SingleGeneral(SingleMotion):
 
         The sizes are the largest that Omega across and along the axis could be, sqrt(E') and sqrt(E'/I).
         """
-        parts = CayleyKlein(lambda: self.exact.velocity)
+        pair = CayleyKlein(lambda: self.exact.velocity)
         sizes = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
-        C, S, across, along = (float(x.mid()) for x in sizes)
-        turn = np.array([[-S * across, C * across, 0], [C * across, S * across, 0], [0, 0, -along]])
-        return parts, VECTOR @ turn, across, along
+        C, S, equatorial, axial = (float(x.mid()) for x in sizes)
+        turn = np.array([[-S * equatorial, C * equatorial, 0], [C * equatorial, S * equatorial, 0], [0, 0, -axial]])
+        return pair, VECTOR @ turn, equatorial, axial
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return q(t), shape (..., 4); components that are zero at all times are exactly zero."""
@@ -184,22 +184,26 @@ class SingleGeneral(SingleMotion):
         n1, n2, n3 = self.exact.turning_axis
         k, phi = self.exact.steady_rates()
         terms = ((n1, n2 * phi), (n2, n1 * phi), (n3, phi))
-        return [i for i, (own, other) in enumerate(terms) if own * k == 0 and (other if i == 2 else other * k) == 0]
+        return [
+            i
+            for i, (component, opposite) in enumerate(terms)
+            if component * k == 0 and (opposite if i == 2 else opposite * k) == 0
+        ]
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
-        parts, weights, across, along = self.velocity
-        Omega = self._linear(weights, t, (3,), out, parts)
+        pair, weights, equatorial, axial = self.velocity
+        Omega = self._linear(weights, t, (3,), out, pair)
         # Omega3 is within some u of the largest that it could be; of a slender body that exceeds all there is of Omega
-        if along > MAX_SLENDER_RATIO * across:
+        if axial > MAX_SLENDER_RATIO * equatorial:
             rows = Omega.reshape(-1, 3)
-            small = np.flatnonzero(along > MAX_OMEGA3_RATIO * largest(rows))
+            small = np.flatnonzero(axial > MAX_OMEGA3_RATIO * largest(rows))
             rows[small, 2] = self._third(np.ravel(real(t, "The time"))[small])
         return Omega
 
     def _third(self, t: FloatArray) -> FloatArray:
         """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""
-        out, left = np.empty((t.size, 3)), np.arange(t.size)
+        out, uncertain = np.empty((t.size, 3)), np.arange(t.size)
         if t.size > BALL_BLOCK:
             from atlas.motions.nutation.rows import MotionsAtTimes, Rows
             from atlas.motions.nutation.rows_blocks import Blocks
@@ -208,8 +212,8 @@ class SingleGeneral(SingleMotion):
             inputs = [exact_number(x) for x in (fmpq(1), exact.I, *exact.field, *exact.omega)]
             rows = Rows(Blocks(inputs, (1,)), MotionsAtTimes).at(np.zeros(t.size, dtype=int), t)
             rows.angular_velocity(t, out)
-            left = rows.extreme
-        for i in left.tolist():
+            uncertain = rows.extreme
+        for i in uncertain.tolist():
             third = partial(lambda time: self.exact.angular_velocity(time)[2], float(t[i]))
             out[i, 2] = nearest(enclosed(third, BITS))
         return out[:, 2]
@@ -234,7 +238,7 @@ class SingleTop(SingleMotion):
             evaluation = Evaluation(self._sloping, size)
 
             def fill(times: FloatArray, rows: FloatArray) -> None:
-                q = evaluation.parts(times)
+                q = evaluation.components(times)
                 (w, x, z, y), (dw, dx, dz, dy) = q[:4], q[4:]
                 up, down = w * w + z * z, x * x + y * y
                 half = (up + down) / 2
@@ -243,7 +247,7 @@ class SingleTop(SingleMotion):
                     (w * dy - y * dw - z * dx + x * dz) / half,
                     (w * dz - z * dw - x * dy + y * dx) / half + kappa * (up - down) / (up + down),
                 )
-                np.matmul(np.array(turn).T, self.right, out=rows)
+                np.matmul(np.array(turn).T, self.after, out=rows)
 
             return fill
 

@@ -26,9 +26,9 @@ class SingleElliptic(SingleMotion):
         super().__init__(exact)
 
     @cached_property
-    def right(self) -> FloatArray:
+    def after(self) -> FloatArray:
         """The turn about the body's axis at t = 0, after its axes have changed their places."""
-        return np.asarray(super().right @ np.eye(3)[list(self.exact.places)])
+        return np.asarray(super().after @ np.eye(3)[list(self.exact.places)])
 
     @cached_property
     def _rates(self) -> FloatArray:

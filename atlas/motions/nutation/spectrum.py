@@ -26,7 +26,7 @@ def of_nutation(motion: Any, exact: Any) -> Wheels:
     n /= np.linalg.norm(n) or 1.0
     a = np.eye(3)[getattr(exact, "places", (0, 1, 2))[2]] @ C
     if exact.is_steady:
-        return Wheels(n, p, a, s, np.empty(0), lambda of, _: function_of(motion, of)(0.0)[None])
+        return Wheels(n, p, a, s, np.empty(0), lambda quantity, _: function_of(motion, quantity)(0.0)[None])
     M = np.pi / half
     t = np.linspace(0.0, 2 * half, 4)  # a passage through a pole counts half a turn less: then S would change its sign
     first, later = motion.rotation(t), motion.rotation(t + 2 * half)
@@ -35,9 +35,9 @@ def of_nutation(motion: Any, exact: Any) -> Wheels:
         key=lambda x: float(abs(rodrigues(n, 2 * x[0] * half) @ first @ rodrigues(a, 2 * x[1] * half) - later).max()),
     )
 
-    def at(of: str, x: FloatArray) -> FloatArray:
+    def at(quantity: str, x: FloatArray) -> FloatArray:
         t = x[0] / M
-        values, back = function_of(motion, of)(t), rodrigues(a, s * t)
+        values, back = function_of(motion, quantity)(t), rodrigues(a, s * t)
         if values.ndim == 2:
             return np.asarray(np.matvec(back, values))
         return np.asarray(rodrigues(n, -p * t) @ values @ np.swapaxes(back, -1, -2))

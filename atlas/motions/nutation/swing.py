@@ -43,7 +43,7 @@ MAX_LAST_DIGIT = 2.0**-54
 class Swing:
     """Half of the periodic part, in radians, as a function of the time in a period; in numbers of `type`.
 
-    `twist` is what is proportional to that time, in radians by half turns of v, if there is a period.
+    `twist` is the part proportional to that time, in radians by half turns of v, if there is a period.
     """
 
     def __init__(self, exact: Exact) -> None:
@@ -60,10 +60,10 @@ class Swing:
         self.is_coarse = self.is_large and not (steepest + largest) * float(np.finfo(self.type).eps) < MAX_LAST_DIGIT
         odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
         odd = odd if merged else [x * size for x in odd]
-        count = max(self._needed(odd), self._needed(even))
+        count = max(self._count_terms(odd), self._count_terms(even))
         odd, even = odd[:count], even[:count]
-        known = all(_is_known(x, max(abs(y).mid() for y in weights)) for weights in (odd, even) for x in weights)
-        self.is_known = known and bool(largest.is_finite())
+        is_finite = all(_is_known(x, max(abs(y).mid() for y in weights)) for weights in (odd, even) for x in weights)
+        self.is_known = is_finite and bool(largest.is_finite())
         self.odd, self.even = (np.array([self._number(x) for x in weights], dtype=self.type) for weights in (odd, even))
         self.depth = self._number(exact.depth)
         self.fall = self._number(-2 * self.reach)
@@ -79,28 +79,28 @@ class Swing:
         head = float(middle)
         return self.type(head) + self.type(float(middle - head))
 
-    def _needed(self, weights: list[arb]) -> int:
+    def _count_terms(self, weights: list[arb]) -> int:
         """Return how many terms matter."""
-        grown = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
-        largest = max(grown, key=lambda x: float(x.mid()))
-        return max((n + 1 for n, x in enumerate(grown) if not x < NEGLIGIBLE * largest), default=1)
+        terms = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
+        largest = max(terms, key=lambda x: float(x.mid()))
+        return max((n + 1 for n, x in enumerate(terms) if not x < NEGLIGIBLE * largest), default=1)
 
-    def half_at(self, multiple: int, half: FloatArray, rest: FloatArray) -> FloatArray:
+    def half_at(self, multiple: int, half: FloatArray, low: FloatArray) -> FloatArray:
         """Return it from half phases and their rounding errors, 2v being a multiple, rounded once."""
-        v = multiple * self._sum(half, rest)
+        v = multiple * self._sum(half, low)
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
 
-    def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
+    def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
         """Return half of the whole turn where there is no period: `half` is that of its rate, x + rest = rate s."""
-        return half + self._rounded(self.of_line(self._sum(x, rest)))
+        return half + self._rounded(self.of_line(self._sum(x, low)))
 
-    def half_on_line(self, x: FloatArray, rest: FloatArray, v: FloatArray, left: FloatArray) -> FloatArray:
+    def half_on_line(self, x: FloatArray, low: FloatArray, v: FloatArray, low_of_phase: FloatArray) -> FloatArray:
         """Return it from x + rest = rate s and, within a period, v + left, half a phase; rounded once."""
-        return self._rounded(self.of_line(self._sum(x, rest)) + self.twist * self._sum(v, left))
+        return self._rounded(self.of_line(self._sum(x, low)) + self.twist * self._sum(v, low_of_phase))
 
-    def _sum(self, x: FloatArray, rest: FloatArray) -> Numbers:
+    def _sum(self, x: FloatArray, low: FloatArray) -> Numbers:
         """Return the sum of two doubles as a number of the type."""
-        return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(rest, dtype=self.type))
+        return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(low, dtype=self.type))
 
     def _rounded(self, angle: Numbers) -> FloatArray:
         """Return an angle as doubles; a large one less whole turns."""
@@ -115,12 +115,12 @@ class Swing:
         for a, b in zip(self.even[:0:-1], self.odd[:0:-1], strict=True):
             even, last_even = a + twice * even - last_even, even
             odd, last_odd = b + twice * odd - last_odd, odd
-        return self._at(odd * sin, self.even[0] + cos * even - last_even)
+        return self._turn(odd * sin, self.even[0] + cos * even - last_even)
 
     def of_line(self, x: Numbers) -> Numbers:
         """Return it from x = rate s, where the sums are hyperbolic or linear."""
         if self.form == "linear":
-            return self._at(self.odd[0] * x, np.full_like(x, self.even[0]))
+            return self._turn(self.odd[0] * x, np.full_like(x, self.even[0]))
         size = np.abs(x)
         if self.sign > 0:
             return np.asarray(self.factor * np.copysign(self._between(size), x * self.odd[0]))
@@ -129,24 +129,24 @@ class Swing:
             up, down = np.exp(2 * n * size), np.expm1(-2 * (2 * n + 1) * size)
             odd -= a * up * down
             even += b * up * (2.0 + down)
-        return self._at(np.copysign(1.0, x) * odd, even)
+        return self._turn(np.copysign(1.0, x) * odd, even)
 
     def _between(self, x: Numbers) -> Numbers:
         """Return its size for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
-        d, nearer = self.depth, np.minimum(x, self.depth)
-        odd, rest = np.zeros_like(x), np.zeros_like(x)
+        d, smaller = self.depth, np.minimum(x, self.depth)
+        odd, low = np.zeros_like(x), np.zeros_like(x)
         for n in range(self.odd.size):
             k, fallen = 2 * n + 1, n * (n + 1) * self.fall
             odd += np.exp(2 * n * (x + d) + fallen) * np.expm1(-2 * k * x) * np.expm1(-2 * k * d)
-            rest += np.exp(2 * n * x - (k + 1) * d + fallen + 2 * nearer)
-            rest += np.exp(2 * n * d - (k + 1) * x + fallen + 2 * nearer)
-        ratio = odd / rest
-        near = np.log1p(ratio * np.exp(2 * np.minimum(nearer, MAX_EXP_ARGUMENT)))
+            low += np.exp(2 * n * x - (k + 1) * d + fallen + 2 * smaller)
+            low += np.exp(2 * n * d - (k + 1) * x + fallen + 2 * smaller)
+        ratio = odd / low
+        by_log1p = np.log1p(ratio * np.exp(2 * np.minimum(smaller, MAX_EXP_ARGUMENT)))
         with np.errstate(divide="ignore"):
-            far = np.log(ratio) + 2 * nearer
-        return np.asarray(np.where(nearer < MAX_EXP_ARGUMENT, near, far) / 2)
+            by_log = np.log(ratio) + 2 * smaller
+        return np.asarray(np.where(smaller < MAX_EXP_ARGUMENT, by_log1p, by_log) / 2)
 
-    def _at(self, odd: Numbers, even: Numbers) -> Numbers:
+    def _turn(self, odd: Numbers, even: Numbers) -> Numbers:
         """Return the turn of O and E."""
         if self.sign < 0:
             return np.asarray(self.factor * np.arctan2(odd, even))
@@ -162,9 +162,9 @@ class Crossing:
         self.sense, self.factor = exact.sense, float((exact.kappa / (2 * exact.slope)).mid())
         self.is_coarse = not abs(self.factor) < MAX_DOUBLE_ANGLE
 
-    def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
+    def half_along(self, half: FloatArray, x: FloatArray, low: FloatArray) -> FloatArray:
         """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""
-        s = x + rest
+        s = x + low
         logarithm = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
         return np.asarray(self.sense * (np.where(s < 0, -half, half) + logarithm))
 

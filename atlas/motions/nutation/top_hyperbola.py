@@ -61,8 +61,8 @@ class TopHyperbola(Shown):
     def asymptotes(self) -> tuple[FloatArray, FloatArray]:
         """Unit directions (2,) in the plane (omega2, omega3) of both asymptotes: the pole's, and (I n2, n3)."""
         I2, I3, _, _, n2, n3, *_ = self._top
-        along = np.array([I3 * n2, I2 * n3])
-        return np.array([0.0, 1.0]), along / np.hypot(*along)
+        axial = np.array([I3 * n2, I2 * n3])
+        return np.array([0.0, 1.0]), axial / np.hypot(*axial)
 
     def omega3(self, omega2: Any) -> Any:
         """Ordinate omega3 at omega2, rounded once. DomainError at the pole; AtlasError unless a number."""
@@ -111,8 +111,8 @@ class TopHyperbola(Shown):
 
     def sample(self, points: int = 200, *, reach: float = 4.0) -> Branch:
         """Points (omega2, omega3) of both branches, one after the other; see `branches`."""
-        first, second = zip(*self.branches(points, reach=reach), strict=True)
-        return np.concatenate(first), np.concatenate(second)
+        start, second = zip(*self.branches(points, reach=reach), strict=True)
+        return np.concatenate(start), np.concatenate(second)
 
     def branches(self, points: int = 200, *, reach: float = 4.0) -> tuple[Branch, Branch]:
         """Branches of the curve as arrays (omega2, omega3), w > 0 first, spread evenly in the logarithm of |w|.
@@ -124,23 +124,23 @@ class TopHyperbola(Shown):
         I2, I3, _, _, n2, n3, a0, _ = self._top
         if n3 == 0 and a0 == 0:
             raise DomainError("With n3 = 0 and no linear potential the curve is the two lines w = 0 and v = 0.")
-        across = abs(n2) / np.hypot(n2, n3)
+        transverse = abs(n2) / np.hypot(n2, n3)
         D = 0.0 if n3 == 0 else abs(float(self.quadric.D))
-        push = abs(a0) / I2 * across if n3 == 0 else D * abs(n3 / n2) * across**2
+        push = abs(a0) / I2 * transverse if n3 == 0 else D * abs(n3 / n2) * transverse**2
         b = max(float(np.hypot(*self.quadric.centre[1:])), D**0.5, push**0.5)
         high = positive(reach, "reach") * (b or 1.0)
         low = min(push * I2 / I3 / high or 1e-3 * high, high / np.e)
-        right, left = (np.geomspace(low, high, n) for n in halves(points))
-        return self._branch(1, right), self._branch(-1, left)
+        upper, lower = (np.geomspace(low, high, n) for n in halves(points))
+        return self._branch(1, upper), self._branch(-1, lower)
 
     def _branch(self, sign: int, w: FloatArray) -> Branch:
         """Return the points at these |w| on one side of the pole."""
         omega2 = sign * w + self.pole
-        beside = np.nextafter(self.pole, sign * np.inf)
-        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, beside)
+        offset = np.nextafter(self.pole, sign * np.inf)
+        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, offset)
         return omega2, np.asarray(self.omega3(omega2))
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
         """Return the values of a formula at omega2, rounded once. DomainError at the pole."""
-        values, alone = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
-        return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=alone)
+        values, is_single = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
+        return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=is_single)

@@ -104,7 +104,7 @@ class SingleAsymmetric:
                 single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
             else:
                 single = SingleElliptic(exact)
-            single.parts  # noqa: B018  what floats do not hold is refused here
+            single.pair  # noqa: B018  what floats do not hold is refused here
         except DomainError:  # next to the line about which its axis turns
             return None, "certified at each time: Jacobi's functions are too small for a float."
         error = single.accuracy(self.size)
@@ -379,7 +379,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return self._of_each(lambda single: single.exact.mode)
 
     def _scalar(self, name: str) -> FloatOrArray:
-        return self._of_each(lambda single: scalar(single.exact, name, alone=not self.shape))
+        return self._of_each(lambda single: scalar(single.exact, name, strict=not self.shape))
 
     @kept
     def frequencies(self) -> FloatArray:
