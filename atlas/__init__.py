@@ -15,6 +15,17 @@ AtlasError, DomainError, NotCertifiedError.
 Names are loaded when they are first used, so that a number costs no drawing library.
 """
 
+import sys
+
+if (program := [*getattr(sys, "argv", ()), ""][0]).endswith(("/atlas", "/atlas/__main__.py")) or (
+    program == "-m" and "atlas" in sys.orig_argv
+):
+    # not the module signal, which imports enum first: Ctrl-C meanwhile would print a traceback
+    import _signal  # type: ignore[import-not-found]
+
+    if _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:  # until atlas/__main__.py heeds it
+        _signal.signal(_signal.SIGINT, _signal.SIG_DFL)
+
 from functools import partial
 from importlib import import_module
 from typing import Any

@@ -1,11 +1,10 @@
 """``python -m atlas`` and the program ``atlas``: the command line, and the signals that end it."""
 
-# not the module signal, which imports enum first: Ctrl-C meanwhile would print a traceback
 import _signal as signal  # type: ignore[import-not-found]
 import sys
 
-if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # while the imports below run there is nothing to put in order
+import atlas  # noqa: F401  lets Ctrl-C end the process at once while the imports below run
+
 signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the program of a checkout blocks it while Python starts
 
 from atlas.cli import main as run  # noqa: E402

@@ -53,13 +53,15 @@ def test_a_signal_to_the_group_ends_a_sweep(tmp_path: Path, number: signal.Signa
 
 
 @pytest.mark.usefixtures("interrupts")
-@pytest.mark.parametrize("module", ["click", "flint"])
+@pytest.mark.parametrize("module", ["typing", "click", "flint"])
 def test_ctrl_c_while_libraries_are_loaded_prints_no_traceback(tmp_path: Path, module: str) -> None:
-    """At the start of the command line, and in the midst of a command."""
+    """At the start of the package, of the command line, and in the midst of a command; by file, module and script."""
     (tmp_path / f"{module}.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1".split()
     environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
-    for start in ([MAIN], ["-m", "atlas"]):
+    script = tmp_path / "atlas"  # as pip writes it
+    script.write_text("import sys\nfrom atlas.__main__ import main\nsys.exit(main())\n")
+    for start in ([MAIN], ["-m", "atlas"], [str(script)]):
         done = subprocess.run(
             [sys.executable, *start, *words], env=environment, cwd=tmp_path, capture_output=True, text=True, check=False
         )
