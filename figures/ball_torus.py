@@ -90,5 +90,9 @@ def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *
     ]
     k = in_plane(*ball.k_hat)
     layers.append(Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$"))
-    winding = *net(), *seen(line, "second_trace", "hidden_trace" if few else ""), Points(line[:1], "start")
-    return [Space(winding, *VIEW, title=names[0]), Space(tuple(layers), 25.0, 20.0, title=names[1])]
+    winding = [*net(), *seen(line, "second_trace", "hidden_trace" if few else ""), Points(line[:1], "start")]
+    s = np.linspace(0.0, 1.0, 25) if named else np.empty(0)
+    for across, around, role, name in ((0.5 * s, 0 * s, "field", r"$\alpha t$"), (0 * s, s, "turn", r"$\gamma t$")):
+        arc = on_torus(across, around)
+        winding += [Curve(arc[:-8], role), Arrow(arc[-9], arc[-1], role, name)] if named else []
+    return [Space(tuple(winding), *VIEW, title=names[0]), Space(tuple(layers), 25.0, 20.0, title=names[1])]

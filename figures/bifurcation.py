@@ -64,6 +64,7 @@ def scene(
         }
         | {"shaded": "region"}
         | ({"Open circle": "rest"} if "rest" in there else {}),
+        spare=(1, 3)[: len(panels) - 2],
         size=(WIDTH * min(len(panels), 2) / 2, HEIGHT * -(-len(panels) // 2)),
     )
 

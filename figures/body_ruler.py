@@ -1,7 +1,7 @@
 """A ruler of bodies.
 
 All that the field asks of a body is I = I3/I2, (33). On the scale from 0 to 2 stand a needle, a rod, a long solenoid,
-a sphere, a short solenoid, a disk and a loop, each drawn with its true proportions; above it is the quadric (51) of its
+a ball, a short solenoid, a disk and a loop, each drawn with its true proportions; above it is the quadric (51) of its
 initial angular velocities with constant Omega_3.
 """
 
@@ -22,7 +22,7 @@ BODIES = (
     ("needle", 0.02),
     ("rod", 0.2),
     ("long solenoid", 0.5),
-    ("sphere", 1.0),
+    ("ball", 1.0),
     ("short solenoid", 1.5),
     ("disk", 2.0),
     ("loop", 2.0),
@@ -47,9 +47,9 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
             r"surface."
         ),
         alt=(
-            "A scale of I from 0 to 2 with seven bodies drawn over it, a needle, a rod, a long solenoid, a sphere, a "
+            "A scale of I from 0 to 2 with seven bodies drawn over it, a needle, a rod, a long solenoid, a ball, a "
             "short solenoid, a disk and a loop, each joined by a line to its value; over them tubes for the first "
-            "three, a double cone for the sphere, and pairs of bowls for the rest, the same pair for disk and loop."
+            "three, a double cone for the ball, and pairs of bowls for the rest, the same pair for disk and loop."
         ),
         panels=(Space(ruler(0, 7, prime, azimuth), **view),),
         narrow=(Space(ruler(0, 4, prime, azimuth), **view), Space(ruler(3, 7, prime, azimuth), **view)),
@@ -102,7 +102,7 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
 def body(name: str, I: float, centre: FloatArray, tolerance: float) -> list[Layer]:
     """Return the layers of an upright body whose farthest point is at the distance 1."""
     up = E3
-    if name == "sphere":
+    if name == "ball":
         return [solids.sphere(centre, 1.0, tolerance, role="solid")]
     if name == "loop":
         return [Curve(solids.circle(centre, up, 1.0, tolerance), "loop")]

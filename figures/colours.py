@@ -12,7 +12,6 @@ from atlas.pictures.quadric_panel import E2, E3, in_plane
 ROW = "a body"
 SEEN = "One colour means one thing in all figures."
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
-NARROWEST = 139.0
 VECTORS = (
     ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),
     ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),

@@ -34,6 +34,7 @@ def scene(*, columns: int = 1) -> Scene:
         ),
         panels=(each(record), multiples(record)),
         columns=columns,
+        spare=(1,),
         size=(columns * 140.0, 2 // columns * 66.0),
     )
 

@@ -75,6 +75,7 @@ def scene(
         panels=panels,
         columns=min(len(panels), 2),
         named={"solid": "main", "dashed": "reference", "dots": "start"},
+        spare=(len(spheres),),
         size=(2 * SIZE, SIZE * -(-len(panels) // 2) + 6.0),
     )
 

@@ -75,9 +75,9 @@ def panel(
     layers += [Curve(piece, "limit") for piece in hyperbola]
     lines = curves(inertia, field, view, millimetres)
     named = {max((len(part), i) for i, (part, one) in enumerate(lines) if one == role)[1] for _, role in lines}
-    words = [NAMES[role] if name.startswith("(a)") and i in named else "" for i, (_, role) in enumerate(lines)]
+    words = [NAMES[role] if i in named else "" for i, (_, role) in enumerate(lines)]
     layers += [Curve(part, role, text) for (part, role), text in zip(lines, words, strict=True)]
-    if name.startswith("(a)") and hyperbola:
+    if hyperbola:
         lowest = min(hyperbola[0], key=lambda point: abs(point[1] - 0.9 * view.y[0]))
         layers.append(Label(lowest, "(67)", "limit", (-4.0, 0.0)))
     B2, B3 = components(field)

@@ -5,6 +5,7 @@ energy. The critical values of the map that takes a motion to them are those of 
 theorem-top-precession; at one M3 they are curves in the plane of p and the energy. Above them lie all other motions.
 """
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +15,7 @@ from atlas.errors import DomainError
 from atlas.maps.wells import Branch, Wells
 from atlas.pictures import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.pictures.captions import listed, plain, tex
+from atlas.pictures.sample import room
 
 ROW = "its map"
 SEEN = "Motions exist in the shaded region alone; on its lines the axis precesses."
@@ -39,7 +41,10 @@ def scene(
     called = [
         f"$I={tex(I)}$" + ("" if alike else f", $b={tex(field)}$, $a_0={tex(weight)}$") for I, field, weight in tops
     ]
-    panels = tuple(panel(f"({'abc'[k]}) {called[k]}", *top, M3, reach, unit) for k, top in enumerate(tops))
+    panels: list[Plane] = []
+    for name, top in zip(called, tops, strict=True):
+        panels.append(panel(f"({'abcdef'[len(panels)]}) {name}", *top, M3, reach, unit))
+        panels += swallowtail(panels[-1], "abcdef"[len(panels)])
     same = f", $b={tex(b[0])}$" if alike else ""
     there = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
     rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
@@ -58,7 +63,8 @@ def scene(
             "or for a long body one with a triangular fold, whose upper side is unstable; the spins along the axis are "
             "isolated points above it where they are unstable, and ends of a branch where they are stable."
         ),
-        panels=panels,
+        panels=tuple(panels),
+        spare=tuple(k for k, panel in enumerate(panels) if "swallowtail" in panel.title),
         named={
             word: role
             for word, role in {
@@ -131,6 +137,29 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
         (low - pad, high + pad),
         title=name,
     )
+
+
+def swallowtail(whole: Plane, letter: str) -> list[Plane]:
+    """Return a panel with the surroundings of the unstable precessions alone, none where all are stable."""
+    curves = [layer for layer in whole.layers if isinstance(layer, Curve)]
+    folds = [curve.points for curve in curves if curve.role == "unstable_line"]
+    if not folds:
+        return []
+    p, H2 = np.concatenate(folds).T
+    x = room(p, 0.3)
+    low = min(float(H2.min()), *(line[:, 1].min() for line in (one.points for one in curves) if len(line)))
+    y = room([low, float(H2.max())], 0.3)
+    ends = np.transpose([x, y])
+    layers: list[Layer] = []
+    for layer in whole.layers:
+        if isinstance(layer, Label):
+            at = np.atleast_2d(layer.at)
+            inside = at[((at > ends[0]) & (at < ends[1])).all(axis=1)]
+            layers += [replace(layer, at=inside)] if len(inside) else []
+        else:
+            layers.append(layer)
+    title = f"({letter}) swallowtail of {whole.title.partition(' ')[0]}"
+    return [replace(whole, layers=tuple(layers), x_limits=x, y_limits=y, title=title)]
 
 
 def names(branch: Branch, reach: float, rest: float) -> list[Layer]:

@@ -108,7 +108,7 @@ def sphere(motion: Any, field: Any) -> Space:
         layers.append(Curve(arc / np.linalg.norm(arc, axis=1)[:, None], "fine_trajectory"))
     layers.append(Curve(line, "trajectory"))
     layers += [Arrow(axis, 1.35 * axis, "body_axis", rf"$\mathbf{{e}}_{n}$") for n, axis in enumerate(np.eye(3), 1)]
-    layers += [Points(start[None], "start"), Label(start, r"$\hat{\mathbf{B}}$", "label", (6, -4))]
+    layers += [Points(start[None], "start"), Label(start, r"$\hat{\mathbf{K}}(0)$", "label", (6, -4))]
     beside = pole + start
     layers.append(Label(beside / np.linalg.norm(beside), "$S$"))
     return Space(tuple(layers), 40.0, 48.0, title=r"(a) $\hat{\mathbf{K}}$ in the body")

@@ -45,6 +45,7 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
         panels=panels(record, cases, columns),
         columns=columns,
         named={"dotted": "limit"},
+        spare=tuple(range(1, len(cases))),
         size=(columns * 140.0, -(-len(cases) // columns) * 66.0),
     )
 

@@ -60,8 +60,8 @@ def scene(
     return Scene(
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
-            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$ (heavy) and "
-            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {spelt(nutations)} of the nutation from "
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$ (blue) and "
+            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (teal), over {spelt(nutations)} of the nutation from "
             r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory."
         ),
         alt=(
@@ -70,7 +70,7 @@ def scene(
         ),
         panels=tuple(panel(name, [frame(one) for one in motions], time, elevation) for name, frame in frames),
         columns=2,
-        named={"heavy": "trace", "light": "thin_trace", "dot": "start"},
+        named={"blue": "trace", "teal": "second_launch", "dot": "start"},
         size=(2 * SIZE, SIZE + 6.0),
     )
 
@@ -82,7 +82,7 @@ def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
         solids.sphere(O, 1.0, fine),
         Arrow(O, 1.4 * E3, "field", r"$\mathbf{B}$"),
     ]
-    for path, role in zip(paths, ("trace", "thin_trace"), strict=True):
+    for path, role in zip(paths, ("trace", "second_launch"), strict=True):
         points = curve(path, 0.0, time, fine, pieces=48)
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
         ends = np.stack([np.interp(HEAD, length, coordinate) for coordinate in points.T], axis=1)

@@ -64,6 +64,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
             "lines": "fine_trajectory",
             "heavy": "trajectory",
         },
+        spare=(1, 2, 4, 5),
         size=(WIDTH, HEIGHT),
     )
 
@@ -130,8 +131,11 @@ def lattice(name: str, loop: Monodromy, first: bool) -> Plane:
         Points(grid, "sample"),
         Curve(track, "trajectory"),
         Arrow(start, end, "component"),
-        Points(track[:1], "start"),
+        Points(track[:1], "start", r"$\mathbf{g}_3$"),
     ]
+    here = {tuple(np.rint(point - start)) for point in grid}
+    corner = next((m, n) for m, n in sorted(here) if {(m + 1, n), (m, n + 1)} <= here) + start
+    layers += [Arrow(corner, corner + np.eye(2)[i], "basis", rf"$\mathbf{{g}}_{i + 1}$") for i in range(2)]
     return Plane(
         tuple(layers),
         r"turns about $\mathbf{n}$",

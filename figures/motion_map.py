@@ -74,6 +74,7 @@ def scene(
         columns=2,
         named={"white": "map_curve", "dotted": "map_border", "Open dot": "rest", "diamond": "special"},
         commands=(table.command("motions.csv"),),
+        spare=(0, 2)[: len(panels) // 2],
         size=(WIDTH, HEIGHT),
     )
 
@@ -107,11 +108,11 @@ def panel(
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
     layers += [Points(np.array([place.at]), place.role) for place in places(I, field) if place.role != "point"]
-    if name.startswith("(a)"):
-        layers += [
-            Label(inmost(*middle, (looping == k) & (swing > most / 4)), word)
-            for k, word in ((1.0, "loops"), (0.0, "waves"))
-        ]
+    layers += [
+        Label(inmost(*middle, (looping == k) & (swing > most / 4)), word)
+        for k, word in ((1.0, "loops"), (0.0, "waves"))
+        if ((looping == k) & (swing > most / 4)).any()
+    ]
     return view.panel(layers, unit, equal=True, title=name)
 
 

@@ -15,7 +15,7 @@ from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_top import TopMotion
 from atlas.motions.nutation.pseudo_oscillator import PseudoOscillator
-from atlas.pictures import Curve, Layer, Plane, Points, Scene
+from atlas.pictures import Curve, Label, Layer, Plane, Points, Scene
 from atlas.pictures.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting
 from atlas.pictures.sample import curve, flat, quarter_pixel, room
 from atlas.pictures.style import LINES
@@ -131,6 +131,7 @@ def courses(motions: Sequence[Leaving], omega1: Sequence[float], turns: float, u
             Curve(tangent, "reference"),
             Curve(line, role, rf"$\omega_1={tex(value)}$"),
         ]
+    layers.append(Label(tangent[[1]], "tangents", "reference", (5.0, 0.0)))
     return Plane(
         tuple(layers),
         f"$t$ ({unit})",

@@ -64,9 +64,9 @@ def scene(
                 if omega3 == -B3
                 else rf"Its axis reaches {far:.0f} degrees and comes back. "
             )
-            + f"(a) {count} moments of half a period. (b) The angle of axis and field, with these moments as dots. "
-            rf"$I={tex(quotient(ratio))}$, $B'_3={tex(B3)}$, $\omega_3={tex(omega3)}$; $D={tex(D)}<0$, and a push "
-            rf"$\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$."
+            + f"(a) {count} moments of half a period. (b) The angle of axis and field, with these moments as "
+            rf"numbered dots. $I={tex(quotient(ratio))}$, $B'_3={tex(B3)}$, $\omega_3={tex(omega3)}$; "
+            rf"$D={tex(D)}<0$, and a push $\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$."
         ),
         alt=(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
@@ -131,6 +131,10 @@ def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:
         Curve(np.array([[0.0, 90.0], [view[0][1], 90.0]]), "reference"),
         Curve(line, "main"),
         *(Points(point(motion, times[i : i + 1]), "start", rides=f"dot {i}") for i in range(len(times))),
+        *(
+            Label(point(motion, times[i : i + 1]), f"{i + 1}", "note", (-5.0, 3.0), rides=f"dot {i}")
+            for i in range(len(times))
+        ),
     )
     return Plane(
         layers,

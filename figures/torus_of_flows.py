@@ -96,6 +96,9 @@ def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
     layers = net()
     for line, role in zip((orbit, out, back), roles, strict=True):
         layers += seen(on_torus(*line.T), role)
+    for line, role, name in ((out, "trajectory", "$T_H$"), (back, "turn", "$T_F$")):
+        longest = max((part.points for part in seen(on_torus(*line.T), role) if isinstance(part, Curve)), key=len)
+        layers.append(Label(middle(longest), name, role, (-5.0, -5.0)))
     return Space((*layers, Points(on_torus(*orbit[:1].T), "start")), *VIEW, title="(a) torus of the motion")
 
 

@@ -67,30 +67,28 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         Curve(np.array([[-reach, 0.0], [reach, 0.0]]), "guide"),
         Curve(np.array([[0.0, -reach], [0.0, reach]]), "guide"),
     ]
-    for nu, line in lines.items():
+    for order, (nu, line) in enumerate(sorted(lines.items())):
         if not len(line):
             continue
         if np.ptp(line[:, 1]) <= 0.4 * reach:
             layers.append(Curve(line, "component"))
             continue
-        down = 0.11 if line[1, 1] == reach else 0.25
+        down = 0.25 if line[1, 1] < reach else 0.11 if order % 2 == len(lines) // 2 % 2 else 0.2
         place, gap = down * line[0] + (1 - down) * line[1], GAP * reach * (line[1] - line[0]) / np.ptp(line[:, 1])
         layers += [
             Curve(np.stack([line[0], place - gap]), "component"),
             Curve(np.stack([place + gap, line[1]]), "component"),
         ]
-        layers.append(
-            Label(place, f"$\\nu_0={tex(nu)}$" if nu == sorted(lines)[len(lines) // 2] else f"${tex(nu)}$", "note")
-        )
+        layers.append(Label(place, f"$\\nu_0={tex(nu)}$" if order == len(lines) // 2 else f"${tex(nu)}$", "note"))
     layers.append(Curve(envelope(M3, reach), "main"))
     if len(edge) > 2 and (foot := edge[edge[:, 1] <= -reach]).size:
         layers.append(Label(np.array([foot[:, 0].mean(), -0.9 * reach]), "two wells", "note"))
     if first:
-        layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note"))
+        layers.append(Label(np.array([-0.6 * reach, -0.5 * reach]), "one well", "note", (0.0, 2.0)))
     if last:
         layers += [
-            Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops"),
-            Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies"),
+            Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", offset=(0.0, 2.0)),
+            Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", offset=(0.0, 2.0)),
         ]
     return Plane(
         tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),

@@ -8,6 +8,7 @@ from math import log
 import numpy as np
 
 from atlas.errors import AtlasError
+from atlas.pictures.captions import listed
 from atlas.pictures.layers import FloatArray, Layer, Panel, Plane, Scene, Space, frame, seen
 from atlas.targets import TARGETS, Target
 
@@ -36,8 +37,39 @@ class Arrangement:
 def arranged(scene: Scene, target: Target) -> Scene:
     """Return a scene as wide as a target, its panels in the rows and columns that leave them largest.
 
-    Raises AtlasError for a scene that can't be read at this width.
+    Panels that the scene can spare are left out where all would be too small, and its caption says so.
+
+    Raises
+    ------
+    AtlasError
+        For a scene that cannot be read at this width and height.
     """
+    try:
+        return _arranged(scene, target)
+    except AtlasError:
+        if not scene.spare:
+            raise
+    return _arranged(_reduced(scene), target)
+
+
+def _reduced(scene: Scene) -> Scene:
+    """Return a scene without the panels that can be spared, the others in a row with all their labels."""
+    kept = tuple(panel for k, panel in enumerate(_labelled(scene, 0)) if k not in scene.spare)
+    cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
+    letters = listed([scene.panels[k].title.partition(" ")[0] for k in scene.spare])
+    return replace(
+        scene,
+        caption=f"{scene.caption} Left out at this size: {letters}.",
+        panels=kept,
+        columns=len(kept),
+        size=(len(kept) * cell[0], cell[1]),
+        narrow=(),
+        narrowest=0.0,
+    )
+
+
+def _arranged(scene: Scene, target: Target) -> Scene:
+    """Return a scene with all its panels in the rows and columns that leave them largest."""
     width = target.width / target.zoom
     if width < scene.narrowest:
         wide = [name for name, one in TARGETS.items() if one.width / one.zoom >= scene.narrowest]
@@ -80,14 +112,17 @@ def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrange
 
 
 def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
-    """Return the panels with the labels that their axes shared with a neighbour who will stand elsewhere."""
+    """Return the panels with the labels that their axes shared with a neighbour who will stand elsewhere.
+
+    Without columns each panel has both labels.
+    """
     panels = list(scene.panels)
     for k, one in enumerate(scene.panels):
         if isinstance(one, Plane):
             left = [panel.y_label for panel in scene.panels[k - k % scene.columns : k + 1] if isinstance(panel, Plane)]
             below = [panel.x_label for panel in scene.panels[k :: scene.columns] if isinstance(panel, Plane)]
-            y_label = one.y_label if k % columns else next(filter(None, reversed(left)), "")
-            x_label = one.x_label if k + columns < len(panels) else next(filter(None, below), "")
+            y_label = one.y_label if columns and k % columns else next(filter(None, reversed(left)), "")
+            x_label = one.x_label if columns and k + columns < len(panels) else next(filter(None, below), "")
             panels[k] = replace(one, x_label=x_label, y_label=y_label)
     return tuple(panels)
 

@@ -12,7 +12,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.motions.particle.flight import Flight
 from atlas.pictures.any_motion import turns as turns_of
 from atlas.pictures.captions import plain_vector, tex_equals, tex_vector
-from atlas.pictures.layers import Arrow, Curve, Layer, Plane, Points, Scene, Space, frame
+from atlas.pictures.layers import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, frame
 from atlas.pictures.movement import along
 from atlas.pictures.sample import curve, quarter_pixel
 
@@ -80,7 +80,7 @@ def picture(
             f"Two panels with the path of a point of {setting[1]}: a curve that winds round the path of the centre of "
             "mass, drawn in space and projected on the plane across the magnetic field."
         ),
-        panels=(space(flight, B, view, drawn), projection(flight, axes, drawn, unit)),
+        panels=(space(flight, B, view, drawn, unit), projection(flight, axes, drawn, unit)),
         columns=2,
         named={"Thin lines": "guide"},
         size=(WIDTH, HEIGHT),
@@ -138,7 +138,7 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
     return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
 
 
-def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
+def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths, unit: str) -> Space:
     """Panel (a): the paths in space, with the directions of the fields to the left of them."""
     layers = bundle(*drawn)
     layers.append(Curve(drawn[2][0], "velocity", rides="arm"))
@@ -151,6 +151,10 @@ def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
     left, low = flat.min(axis=0)[:2]
     corner = np.array([left - max(0.0, *ends[:, 0]) - CLEAR * length, low - min(0.0, *ends[:, 1]), 0.0]) @ eye
     layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
+    size = 10.0 ** np.floor(np.log10(length))
+    size *= max(step for step in (1, 2, 5) if step * size <= length)
+    bar = corner + np.array([[0.0, -0.35 * length, 0.0], [size, -0.35 * length, 0.0]]) @ eye
+    layers += [Curve(bar, "axis"), Label(bar.mean(axis=0), f"{size:g} {unit}", "note", (0.0, -5.0))]
     return replace(view, layers=tuple(layers))
 
 

@@ -167,7 +167,8 @@ class Scene:
     the other, each as high as a row of the figure, where those of the figure would only become smaller. ``paths`` tell
     how the layers move in time that ride on one, by its name in their ``rides``, for a time that ``lasts``.
     ``narrowest`` is the width in millimetres below which it can't be read, as its recipe declares it; ``rows`` are the
-    heights of the rows, of which all have one if it is empty.
+    heights of the rows, of which all have one if it is empty. ``spare`` holds the indices of panels that are left out
+    of a slide or a column in which all would be too small.
     """
 
     title: str = ""
@@ -184,6 +185,7 @@ class Scene:
     lasts: float = 0.0
     narrowest: float = 0.0
     rows: tuple[float, ...] = ()
+    spare: tuple[int, ...] = ()
 
 
 def frame(space: Space) -> FloatArray:

@@ -99,7 +99,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "trajectory": Style(TEAL, 1.2, tube=1.8),
         "flight_path": Style(TEAL, 1.2, hidden=False, tube=2.4),
         "trace": Style("#2a57a5", 1.2, tube=2.6),
-        "thin_trace": Style("#2a57a5", 0.7, tube=1.2),
+        "second_launch": Style(TEAL, 0.8, tube=1.6),
         "second_trace": Style("#4a74bd", 0.8, tube=1.4),
         "fine_trace": Style("#4a74bd", 0.4, tube=0.7),
         "hidden_trace": Style("#4a74bd", 0.5, (3.0, 2.0), tube=0.8),

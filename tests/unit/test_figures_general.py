@@ -45,19 +45,19 @@ def test_levels_of_the_stability_map_are_least_frequencies() -> None:
 
 
 def test_the_pair_is_one_line_in_larmors_frame_and_two_in_the_laboratory() -> None:
-    """There the light line is the heavy motion before its start, by balls, to 8 eps; here both begin as launched."""
+    """There the teal line is the blue motion before its start, by balls, to 8 eps; here both begin as launched."""
     I, field, omega = 1.5, (0.75, 1.25), np.array([0.625, 0.25, 1.0])  # so that the second launch is exact
     laboratory, larmor = panels("larmor_pair", ratio=I, field=field, omega=tuple(omega.tolist()))
     exact, b = Balls(I, field, omega.tolist()), float(np.hypot(*field))
     time = GeneralMotion(I, field, omega).period
     B2, B3 = np.array(field) / b
     upright = np.array([[1, 0, 0], [0, B3, -B2], [0, B2, B3]])
-    for role, end in (("trace", time), ("thin_trace", -time)):
+    for role, end in (("trace", time), ("second_launch", -time)):
         axis = upright @ [float(row[2]) for row in narrow(partial(exact.rotation, end), 1.0)]
         (line,) = layers(larmor, Curve, role)
         turn = np.array([[np.cos(b * end), -np.sin(b * end), 0], [np.sin(b * end), np.cos(b * end), 0], [0, 0, 1]])
         assert np.abs(line.points[-1] - turn @ axis).max() <= 8 * EPS
-    for role, launch in (("trace", omega), ("thin_trace", -2 * np.array([0, *field]) - omega)):
+    for role, launch in (("trace", omega), ("second_launch", -2 * np.array([0, *field]) - omega)):
         (line,) = layers(laboratory, Curve, role)
         rate = upright @ np.cross(launch, [0.0, 0.0, 1.0])  # the axis starts as e3
         step = line.points[1] - line.points[0]

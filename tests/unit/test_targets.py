@@ -2,10 +2,12 @@
 
 import re
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
 import pytest
+from drawing import made
 from marks import faults
 from PIL import Image
 from pypdf import PdfReader
@@ -20,24 +22,45 @@ from atlas.pictures.arrange import arranged, suited
 from atlas.pictures.drawing import save, to_figure
 from atlas.targets import TARGETS, TYPE, find
 
-NARROWEST = min(TARGETS, key=lambda name: TARGETS[name].width)
+PAIRS = [(name, target) for name in recipes.names() for target in TARGETS]
+STEP = len(PAIRS) // 7
+TODAY = PAIRS[datetime.now(UTC).toordinal() % STEP :: STEP]
+"""Pairs of a recipe and a target of the fast tests: seven or eight each day, others on the next."""
+WHOLE_PAGE = 170.0
 WIDE = ["quadrics_of_tops", "stability_map"]
 MILLIMETRE = 72.0 / 25.4
 
 
 @pytest.mark.parametrize(
     ("name", "target"),
-    [("flight", target) for target in ("aps-double", "beamer", "poster")]
-    + [(name, "beamer") for name in ("spectrum", "stability_map")]
-    + [(name, NARROWEST) for name in ("hyperbolas", "kinds_of_quadric", "two_turns")]
-    + [pytest.param("flight", target, marks=pytest.mark.slow) for target in ("aps", "elsevier", "iop")],
+    [pytest.param(*pair, marks=[pytest.mark.slow] * (pair not in TODAY)) for pair in PAIRS],
 )
-def test_a_figure_keeps_the_law_of_its_target(name: str, target: str) -> None:
-    """It has the width, the type and the lines that are asked; no name leaves the page or covers another.
+def test_a_figure_keeps_the_law_of_its_target_or_is_refused(name: str, target: str) -> None:
+    """It has the width, the type and the lines that are asked; no text leaves the page or covers another.
 
-    All recipes for all targets are tried by tests/fuzz/test_targets_all.py, in `make stress`.
+    A figure that cannot is refused in one line; on a journal's whole page and on a poster none is.
     """
-    assert faults(to_figure(recipes.load(name).scene(), target=find(target)), find(target)) == []
+    asked, found, refused = find(target), [], ""
+    try:
+        found = faults(to_figure(made(name), target=asked), asked)
+    except AtlasError as error:
+        refused = str(error)
+    assert found == []
+    assert not refused or re.fullmatch(r".+: it can't be read at .+\.", refused)
+    assert not refused or asked.width < WHOLE_PAGE, refused
+
+
+@pytest.mark.parametrize("name", ["bifurcation", "cusps", "energy_momentum", "monodromy"])
+def test_panels_that_can_be_spared_are_left_out_of_a_slide_and_named(name: str) -> None:
+    """The others keep their letters and have both labels; the caption names those that are missing."""
+    scene = made(name)
+    slide = arranged(scene, find("beamer"))
+    kept = [panel for k, panel in enumerate(scene.panels) if k not in scene.spare]
+    assert [panel.title for panel in slide.panels] == [panel.title for panel in kept]
+    missing = slide.caption.partition(" Left out at this size: ")[2]
+    assert re.findall(r"\(\w\)", missing) == [scene.panels[k].title[:3] for k in scene.spare]
+    assert all(panel.x_label and panel.y_label for panel in slide.panels if isinstance(panel, Plane))
+    assert len(arranged(scene, find("aps-double")).panels) == len(scene.panels)
 
 
 def test_a_fault_is_found() -> None:
@@ -74,9 +97,9 @@ def test_what_needs_the_page_says_so(name: str) -> None:
 
 
 def test_what_is_too_high_for_a_slide_says_so() -> None:
-    """Three panels of many curves would be too small in the height of a slide."""
-    with pytest.raises(AtlasError, match=r"can't be read at a height of 68 mm; its panels would have only 0\.19"):
-        arranged(recipes.load("horizon").scene(), find("beamer"))
+    """A picture of an upright sheet would be too small in the height of a slide."""
+    with pytest.raises(AtlasError, match=r"can't be read at a height of 68 mm; its panels would have only 0\.29"):
+        arranged(recipes.load("flight_poster").scene(), find("beamer"))
 
 
 def test_a_figure_whose_names_would_stand_on_one_another_is_refused() -> None:
