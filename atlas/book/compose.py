@@ -6,7 +6,10 @@ from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
 
-from atlas.book import keys  # noqa: F401  adds its tables
+from atlas.book import (
+    gallery,
+    keys,  # noqa: F401  adds its tables
+)
 from atlas.book.appendices import Appendices
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks import KINDS, kind_of
@@ -69,6 +72,8 @@ def compose(
                 *(page.slug, composer.title, heading, blocks, templates, page.part, page.appendix),
             )
         )
+    if report.gallery and not outline:
+        document.gallery = gallery.page(composer)
     _cite_formulas(composer)
     _explain_symbols(composer)
     return document

@@ -71,6 +71,7 @@ class Report(StrictStruct, frozen=True):
 
     ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
     this one: the contents lead to them, and so do citations of what they have and this one has not.
+    ``gallery`` names recipes, ``*`` for all, which the pages show in pictures on ``gallery.html``.
     ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. ``style`` is a
     style sheet of Matplotlib for the figures, a name or a file beside this one. Without
     ``front_matter``, as in a report of one or two pages that does not ask for it, the PDF has no cover, contents and
@@ -88,6 +89,7 @@ class Report(StrictStruct, frozen=True):
     front_matter: bool | None = None
     style: str = ""
     related: dict[str, str] = msgspec.field(default_factory=dict)
+    gallery: tuple[str, ...] = ()
     bibliography: str = ""
     parameters: BodiesAndFields = BodiesAndFields()
     index: Index = Index()

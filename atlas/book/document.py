@@ -80,7 +80,8 @@ class Document:
     `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
     that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
     ledger; `errata` the page of the errata; `title`, `subtitle`, `abstract`, `given`, `symbols` and `formulas`, the
-    equations that are cited here and stand in no page of this report, are numbers of texts. `related` holds the reports
+    equations that are cited here and stand in no page of this report, are numbers of texts. `gallery` is the page of
+    pictures, which only the HTML has. `related` holds the reports
     beside this one, in outline; a citation of what is not here leads there. `bibliography` holds the works that can be
     cited, `listed_on` is the page of their list.
     """
@@ -104,6 +105,7 @@ class Document:
     related: "Mapping[str, Document]" = field(default_factory=dict)
     uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
     formulas: dict[str, int] = field(default_factory=dict)
+    gallery: PageView | None = None
 
     def set(self, *targets: Target) -> None:
         """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""

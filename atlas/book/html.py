@@ -28,9 +28,9 @@ from atlas.pictures.style import STYLES
 from atlas.trial.ledger.equation import slug
 from atlas.trial.ledger.plain import plain
 
-SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js")
+SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "sliders.js", "explorer.js", "gallery.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
-turns figures in space, what lets figures move in time, and motions with sliders."""
+turns figures in space, what lets figures move in time, motions with sliders, and the keys of the gallery."""
 CARD = (400, 250)
 """The size of a small picture in pixels."""
 
@@ -65,6 +65,9 @@ def pages(document: Document) -> dict[str, str]:
         page.file: anchored(template.render(page=page, before=before, after=after, **common))
         for before, page, after in zip([None, *there], there, [*there[1:], None], strict=False)
     }
+    if document.gallery:
+        shown = template.render(page=document.gallery, before=None, after=None, **common)
+        set_pages[document.gallery.file] = anchored(shown)
     if len(set_pages) == 1:
         set_pages = {name: _with_sections(page) for name, page in set_pages.items()}
     style = environment.get_template("style.css").render(faces=FACES, looks=STYLES)

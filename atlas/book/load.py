@@ -15,6 +15,7 @@ from atlas.book.blocks.figure import Figure
 from atlas.book.blocks.table import Listing, Recorded, Table
 from atlas.book.definition import Report, Source
 from atlas.book.files import beside, names, text_of
+from atlas.book.gallery import chosen
 from atlas.book.markdown import LineError, Piece, read
 from atlas.book.schema import SchemaError, convert
 from atlas.errors import AtlasError, unknown
@@ -93,7 +94,7 @@ def _filled(report: Report, folder: Path) -> Report:
 
     pages = tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages)
     styles = (str(beside(name, folder) or name) for name in filter(None, report.style.split(",")))
-    return replace(report, pages=pages, style=",".join(styles))
+    return replace(report, pages=pages, style=",".join(styles), gallery=chosen(report.gallery, folder))
 
 
 def _called(block: Block, report: Report, path: tuple[int, int]) -> None:

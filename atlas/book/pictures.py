@@ -12,7 +12,7 @@ from atlas.errors import AtlasError, unknown
 
 
 def pictures(report: Report) -> dict[str, Picture]:
-    """Return the pictures that the figures of a report show, by `key`, in the order of their first showing.
+    """Return the pictures that the figures of a report and its gallery show, by `key`, in the order of their showing.
 
     Nothing is drawn. A recipe that can't be loaded leaves the reason in its pictures; a misspelt recipe or parameter
     raises AtlasError.
@@ -29,6 +29,11 @@ def pictures(report: Report) -> dict[str, Picture]:
                         drawn[name] = picture
             except AtlasError as error:
                 raise AtlasError(f"{report.place(page, place)}: {error}") from error
+    shown = {picture.recipe for picture in drawn.values()}
+    for block in (Figure(recipe=name) for name in report.gallery if name not in shown):
+        for name, picture in _wanted(block, report):
+            picture.stem = f"gallery-{Path(block.recipe).stem}"
+            drawn[name] = picture
     return drawn
 
 

@@ -61,6 +61,7 @@ class FigureCommand(Command):
         "atlas figure hyperbola --format csv",
         "atlas figure hyperbola --for aps --format pdf pgf",
         "atlas figure ./my_recipe.py --set ratio=0.5 --format pdf",
+        "atlas figure --gallery",
         "atlas figure cone --help",
     ),
 )
@@ -87,6 +88,7 @@ class FigureCommand(Command):
     metavar="TARGET",
     help=f"Laid out anew for a journal's column, a slide, a poster: {', '.join(TARGETS)}.",
 )
+@click.option("--gallery", is_flag=True, help="A page of pictures of all recipes, or of the NAMEs.")
 @out_option("build/figures")
 @style_option
 @jobs_option
@@ -98,6 +100,7 @@ def command(
     formats: tuple[str, ...],
     renderer: str,
     target: str | None,
+    gallery: bool,
     out: Path,
     style: str | None,
     jobs: int | None,
@@ -106,6 +109,8 @@ def command(
     """Draw figures as SVG, PDF and PNG, each written whole or not at all; `atlas list` names them.
 
     A NAME that ends with .py is a recipe's file of your own, anywhere. With a NAME, --help tells its parameters.
+
+    --gallery makes gallery/gallery.html, pictures in rows that lead to each figure with its code and command.
 
     --for makes NAME-TARGET with the width, type, lines and resolution that are asked there; the guide has the table. A
     figure that can't be read at that width says so; `atlas list` tells which need more than a column.
@@ -117,12 +122,12 @@ def command(
     from atlas.book.building.figures import build_figures
     from atlas.pictures import recipes
 
+    _check(names, target)
+    if gallery:
+        return _gallery(names, out, style, jobs)
     if everything == bool(names):
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
-    if target is not None:
-        find(target)
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
-    _check(names)
     for name in wanted:
         recipes.source(name)  # says which there are, before anything is drawn
     stems = [Path(name).stem for name in wanted]
@@ -156,8 +161,22 @@ def command(
     return status
 
 
-def _check(names: tuple[str, ...]) -> None:
-    """Raise click.UsageError for a parameter in the place of a name."""
+def _gallery(names: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> int:
+    """Build a gallery of the recipes and print its place; return the exit status."""
+    from atlas.book.gallery import build_gallery
+
+    with bar("gallery") as tell:
+        built = build_gallery(names, out, tell, style=style, jobs=jobs)
+    click.echo(built.index.with_name("gallery.html"))
+    for stem, failure in built.failures:
+        click.echo(f"atlas: figure {stem}: {failure}", err=True)
+    return 0 if built.ok else 1
+
+
+def _check(names: tuple[str, ...], target: str | None) -> None:
+    """Raise click.UsageError for a parameter in the place of a name, AtlasError for a target that is not known."""
+    if target is not None:
+        find(target)
     for name in names:
         if "=" in name and not name.endswith(".py"):
             raise click.UsageError(f"{name!r} is no figure; a parameter has --set before it: --set {name}.")

@@ -96,7 +96,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
 
     text = file.read_bytes()
     near = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
-    beside = (path for path in near if os.fsencode(path.name) in text)
+    beside = (path for path in near if os.fsencode(path.name) in text or (b"gallery" in text and path.suffix == ".py"))
     code = [PACKAGE / "book" / "building" / "report.py", *folder("figures").glob("*.py"), *beside]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})

@@ -1,0 +1,121 @@
+"""The gallery: a page of pictures of all recipes in rows, each leading to the figure, its code and its command."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from atlas.book.blocks.figure import FigureView, Picture
+from atlas.book.document import PageView
+from atlas.errors import AtlasError
+from atlas.pictures import recipes
+from atlas.targets import TARGETS
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.citation import marked
+
+if TYPE_CHECKING:
+    from atlas.book.blocks.composer import Composer
+    from atlas.book.building.report import Built, Progress
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A figure of the gallery: its drawn picture, the number of its sentence among the texts, where a page shows it."""
+
+    picture: Picture
+    sentence: int
+    page: str = ""
+
+    @property
+    def anchor(self) -> str:
+        """Return the anchor of the large figure."""
+        return f"figure-{Path(self.picture.recipe).stem}"
+
+    @property
+    def python(self) -> str:
+        """Return the call that returns the figure."""
+        settings = (f", {key}={value!r}" for key, value in self.picture.parameters.items() if value is not None)
+        return f'atlas.figure("{self.picture.called}"{"".join(settings)})'
+
+
+@dataclass(frozen=True)
+class GalleryView:
+    """The plates of each row by its heading, and the widths in millimetres of the targets by their names."""
+
+    rows: dict[str, list[Plate]]
+    widths: dict[str, str]
+
+    @property
+    def plates(self) -> list[Plate]:
+        """Return all plates, in their order."""
+        return [plate for row in self.rows.values() for plate in row]
+
+    @property
+    def pictures(self) -> tuple[Picture, ...]:
+        """Return the pictures, which say what scripts the page needs."""
+        return tuple(plate.picture for plate in self.plates)
+
+
+def page(composer: "Composer") -> PageView:
+    """Return the page of a report's gallery; a recipe that failed is left out."""
+    composer.where, document = "the gallery", composer.document
+    shown: dict[int, str] = {}
+    for there in document.pages:
+        for block in there.blocks:
+            for picture in block.pictures if isinstance(block, FigureView) else ():
+                shown.setdefault(id(picture), f"{there.file}#{block.id}")
+    rows: dict[str, list[Plate]] = {row: [] for row in (*getattr(recipes, "ROWS", ()), "")}
+    for name in document.report.gallery:
+        picture = min(
+            (one for one in document.pictures.values() if one.recipe == name), key=lambda one: one.renderer != "vector"
+        )
+        if not picture.failure:
+            first = marked(picture.caption, EQUATIONS).partition(". ")[0].removesuffix(".") + "."
+            sentence = composer.text(first, inline=True)
+            rows[getattr(recipes.load(name), "row", "")].append(Plate(picture, sentence, shown.get(id(picture), "")))
+    view = GalleryView(
+        {row or "Other figures": plates for row, plates in rows.items() if plates},
+        {name: f"{target.width:g} mm" for name, target in TARGETS.items()},
+    )
+    return PageView("", "gallery", "Gallery", composer.text("Gallery", inline=True), (view,), ("gallery",))
+
+
+def chosen(names: Sequence[str], folder: Path) -> tuple[str, ...]:
+    """Return the recipes of a gallery: ``*`` is all of figures/, NAME.py files beside the report or anywhere.
+
+    Raises AtlasError for a name or a file that is not there.
+    """
+    found = list[str]()
+    for name in names:
+        if name == "*":
+            found += recipes.names()
+        elif name.endswith(".py") and not Path(name).is_absolute():
+            files = sorted(map(str, folder.glob(name)))
+            if not files:
+                raise AtlasError(f"gallery: no recipe {name} in {folder}.")
+            found += files
+        else:
+            found.append(name if recipes.source(name) else "")
+    return tuple(dict.fromkeys(found))
+
+
+def build_gallery(
+    names: Sequence[str], out: Path, progress: "Progress", *, style: str | None = None, jobs: int | None = None
+) -> "Built":
+    """Build a gallery of recipes, of all when none is named, as out/gallery/gallery.html.
+
+    The report that it is made from is written to out/gallery.md; a file NAME.py is a recipe of the user's own.
+    """
+    from atlas.book.building.cache import Cache
+    from atlas.book.building.report import build_report
+    from atlas.files import write
+    from atlas.places import cache_folder
+    from atlas.sources import Sources
+
+    places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names] or ["*"]
+    sources = Sources(Cache(cache_folder(out)))
+    made = sources.closure([Path(place) for place in places if place.endswith(".py")])
+    head = f'name = "gallery"\ntitle = "Gallery of figures"\ngallery = {places!r}\n# of recipes with the digest {made}'
+    source = out / "gallery.md"
+    write(source, f"+++\n{head}\n+++\n\n# All figures\n\nThey stand in the [gallery](gallery.html).\n")
+    return build_report(source, out, progress, formats=("html",), style=style, jobs=jobs)
