@@ -33,7 +33,7 @@ def scene() -> Scene:
     exact, wrong = " and ".join(right), [rate for name, (rate, _) in worst.items() if name not in right]
     return Scene(
         caption=(
-            f"{exact} follow the closed form to their last printed digit. "
+            f"Simulators {exact} follow the closed form within $10^{{-8}}$ degrees. "
             "Error of each trajectory of NASA's tumbling brick, check-case 2: (a) of the angular velocity, "
             "(b) angle between the attitude and the exact one."
         ),

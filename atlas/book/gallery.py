@@ -64,15 +64,16 @@ def page(composer: "Composer") -> PageView:
         for block in there.blocks:
             for picture in block.pictures if isinstance(block, FigureView) else ():
                 shown.setdefault(id(picture), f"{there.file}#{block.id}")
-    rows: dict[str, list[Plate]] = {row: [] for row in (*getattr(recipes, "ROWS", ()), "")}
+    rows: dict[str, list[Plate]] = {row: [] for row in (*recipes.ROWS, "")}
     for name in document.report.gallery:
         picture = min(
             (one for one in document.pictures.values() if one.recipe == name), key=lambda one: one.renderer != "vector"
         )
         if not picture.failure:
-            first = marked(picture.caption, EQUATIONS).partition(". ")[0].removesuffix(".") + "."
-            sentence = composer.text(first, inline=True)
-            rows[getattr(recipes.load(name), "row", "")].append(Plate(picture, sentence, shown.get(id(picture), "")))
+            recipe = recipes.load(name)
+            seen = recipe.seen or marked(picture.caption, EQUATIONS).partition(". ")[0].removesuffix(".") + "."
+            plate = Plate(picture, composer.text(seen, inline=True), shown.get(id(picture), ""))
+            rows[recipe.row].append(plate)
     view = GalleryView(
         {row or "Other figures": plates for row, plates in rows.items() if plates},
         {name: f"{target.width:g} mm" for name, target in TARGETS.items()},
