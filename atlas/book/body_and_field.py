@@ -121,10 +121,10 @@ def body(record: Body) -> SymmetricBody:
         return SymmetricBody(1.0, record.ratio) if record.ratio is not None else SymmetricBody(*(record.inertia or ()))
     if record.shape not in SHAPES:
         raise AtlasError(f"the body {record.title!r}: {unknown('shape', record.shape, SHAPES)}")
-    make, needed = SHAPES[record.shape]
-    if set(needed) != set(sizes):
+    make, names = SHAPES[record.shape]
+    if set(names) != set(sizes):
         raise AtlasError(
-            f"the body {record.title!r}: the shape {record.shape!r} takes {', '.join(needed)}, "
+            f"the body {record.title!r}: the shape {record.shape!r} takes {', '.join(names)}, "
             f"not {', '.join(sizes) or 'nothing'}."
         )
     made_body: SymmetricBody = make(**sizes)
@@ -133,15 +133,15 @@ def body(record: Body) -> SymmetricBody:
 
 def dimensions(record: Body) -> dict[str, float]:
     """Return the dimensions that a body was given, and its mass."""
-    given = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
-    return {key: value for key, value in given.items() if value is not None}
+    values = {key: getattr(record, key) for key in DIMENSIONS if key != "charge"}
+    return {key: value for key, value in values.items() if value is not None}
 
 
-def chosen(block: Any, known: BodiesAndFields) -> tuple[BodyAndField, ...]:
+def chosen(block: Any, records: BodiesAndFields) -> tuple[BodyAndField, ...]:
     """Return the bodies that a block names, each in the field that it names; either may be missing."""
-    field = known.fields[block.field] if block.field else None
+    field = records.fields[block.field] if block.field else None
     bodies = block.bodies or ((block.body,) if block.body else (None,))
-    return tuple(body_and_field(known.bodies[name] if name else None, field) for name in bodies)
+    return tuple(body_and_field(records.bodies[name] if name else None, field) for name in bodies)
 
 
 def body_and_field(body_record: Body | None, field_record: Field | None) -> BodyAndField:
@@ -195,12 +195,12 @@ _NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": 
 def _written_out(record: Body | Field) -> str:
     """Return the inputs of a record as text, with units."""
     units = _UNITS[getattr(record, "system", "SI")]
-    parts = []
+    numbers = []
     for key in record.__struct_fields__:
         value, omitted = getattr(record, key), getattr(type(record)(title=""), key)
         if key in {"title", "system"} or value is None or (key in {"E", "axis"} and value == omitted):
             continue
-        written = value.replace("_", " ") if isinstance(value, str) else shown(value)
+        text = value.replace("_", " ") if isinstance(value, str) else shown(value)
         unit = f"\u202f{units[key]}" if key in units else ""
-        parts.append(written if key == "shape" else f"{_NAMES.get(key, key)} = {written}{unit}")
-    return ", ".join(parts)
+        numbers.append(text if key == "shape" else f"{_NAMES.get(key, key)} = {text}{unit}")
+    return ", ".join(numbers)

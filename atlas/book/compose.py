@@ -49,8 +49,8 @@ def compose(
         bibliography=bibliography or Bibliography(),
         related=related or {},
     )
-    for name, one in document.related.items():
-        for used, uses in one.uses.items():
+    for name, outline_document in document.related.items():
+        for used, uses in outline_document.uses.items():
             document.uses[used] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
     document.title = document.texts.add(title(report.title), "the title", inline=True)
     document.subtitle = document.texts.add(title(report.subtitle), "the subtitle", inline=True)

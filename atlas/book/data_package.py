@@ -101,9 +101,9 @@ def _table(table: TableView, texts: Sequence[str]) -> Resource:
             says = f"whether all digits of {name} are proven"
             fields.append({"name": f"{name}_proven", "title": says, "type": "boolean"})
             columns.append(["true" if cell.proven else "false" for cell in cells])
-    said = [table.caption, *(column.head for column in table.columns)]
-    said += [cell.text for row in table.rows for cell in row if cell.text is not None]
-    cited = {name for number in said for name in citations(texts[number])}
+    caption = [table.caption, *(column.head for column in table.columns)]
+    caption += [cell.text for row in table.rows for cell in row if cell.text is not None]
+    cited = {name for number in caption for name in citations(texts[number])}
     facts: dict[str, Any] = {
         "title": f"Table {table.number}",
         "description": words(texts[table.caption]),
@@ -175,8 +175,8 @@ def _parquet(resource: Resource) -> bytes:
         cells = [row[place] for row in resource.rows]
         (convert, kind), text = kinds[field["type"]], field["type"] == "string"
         arrays.append(pa.array([convert(x) if x or text else None for x in cells], kind))
-        more = {key: str(value) for key, value in field.items() if key in {"title", "unit"}}
-        fields.append(pa.field(field["name"], kind, metadata=more))
+        metadata = {key: str(value) for key, value in field.items() if key in {"title", "unit"}}
+        fields.append(pa.field(field["name"], kind, metadata=metadata))
     out = BytesIO()
     parquet.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), out)
     return out.getvalue()
@@ -212,8 +212,8 @@ def ascii_name(head: str) -> str:
 
 def unique(names: Iterable[str]) -> list[str]:
     """Return names with a number behind those that were there before."""
-    seen, unique = Counter[str](), []
+    counts, unique = Counter[str](), []
     for name in names:
-        seen[name] += 1
-        unique.append(f"{name}_{seen[name]}" if seen[name] > 1 else name)
+        counts[name] += 1
+        unique.append(f"{name}_{counts[name]}" if counts[name] > 1 else name)
     return unique

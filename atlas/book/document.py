@@ -156,9 +156,9 @@ class Document:
 
     def entry(self, name: str) -> str:
         """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
-        beside = ((folder, related.ledger) for folder, related in self.related.items())
-        there = next((f"../{folder}/{ledger[name]}" for folder, ledger in beside if name in ledger), "")
-        return self.ledger.get(name, there)
+        ledgers = ((folder, related.ledger) for folder, related in self.related.items())
+        page = next((f"../{folder}/{ledger[name]}" for folder, ledger in ledgers if name in ledger), "")
+        return self.ledger.get(name, page)
 
     def number(self, name: str) -> str:
         """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
@@ -167,8 +167,8 @@ class Document:
     def numbered(self, name: str) -> str:
         """Return the number of an equation; one that has none in the paper gets the next of our own."""
         if not name.startswith("("):
-            own = len(self.equations) - len(THEOREMS) + 1
-            self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{own})")
+            number = len(self.equations) - len(THEOREMS) + 1
+            self.equations.setdefault(name, f"({'A' * self.displays_the_paper}{number})")
         return self.number(name)
 
     @cached_property
@@ -194,7 +194,7 @@ class Document:
 
     def flows_after(self, table: Any) -> bool:
         """Whether the table after one stands in its place in the text."""
-        return any(other.flows for other in self.listed("table")[table.number : table.number + 1])
+        return any(table_after.flows for table_after in self.listed("table")[table.number : table.number + 1])
 
     @property
     def citable(self) -> list[str]:

@@ -30,12 +30,12 @@ def find(name: str) -> Path:
         if path.is_file():
             return path
         raise AtlasError(f"There is no report file {name}.")
-    known = files()
-    if name in known:
-        return known[name]
+    reports = files()
+    if name in reports:
+        return reports[name]
     if path.is_file():
         raise AtlasError(f"{name} is no report: a report is a .md or a .toml file.")
-    raise unknown("report", name, known)
+    raise unknown("report", name, reports)
 
 
 def beside(name: str, folder: Path) -> Path | None:
@@ -67,5 +67,5 @@ def related_to(file: Path) -> list[str]:
         related = head(file).get("related", {})
     except AtlasError:
         return []
-    known = names()
-    return [name for name in related if name in known] if isinstance(related, dict) else []
+    reports = names()
+    return [name for name in related if name in reports] if isinstance(related, dict) else []

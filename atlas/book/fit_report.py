@@ -80,14 +80,14 @@ class Fitted:
         """Name of the data file, without characters of Markdown."""
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
-    def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
+    def sources(self, exists: Callable[[str], bool]) -> dict[str, str]:
         """Return the report file and the recipe of its picture, by their names."""
         return {
-            f"{self.name}.md": headed(self, written(self.definition(there))),
+            f"{self.name}.md": headed(self, written(self.definition(exists))),
             f"{self.name}.py": headed(self, self._recipe()),
         }
 
-    def definition(self, there: Callable[[str], bool]) -> dict[str, Any]:
+    def definition(self, exists: Callable[[str], bool]) -> dict[str, Any]:
         """Return the report as the values of its file."""
         left_out, motion = list[str](), self.motion
         blocks = [
@@ -97,7 +97,7 @@ class Fitted:
             *self._correlations(),
             *([] if self.fit.warnings else [self._horizons()]),
             *([_prose("What was asked of the time to come:", "", "```", *self.ahead, "```")] if self.ahead else []),
-            *self._motion(left_out, there),
+            *self._motion(left_out, exists),
             _prose(
                 "## The same again", "", "This page, and its numbers with all covariances:", "", "```console",
                 f"$ {self.command}", f"$ {shlex.join(['atlas', 'fit', *self.words[1:], '--json'])}", "```",
@@ -139,7 +139,7 @@ class Fitted:
     def _parameters(self) -> dict[str, Any]:
         rows = []
         for name, value, error, note in self.fit.rows()[1]:
-            what, unit = MEANINGS.get(name) or MEANINGS[name.rstrip("123")]
+            meaning, unit = MEANINGS.get(name) or MEANINGS[name.rstrip("123")]
             number = (
                 f"{value}{NBSP}±{NBSP}{error}"
                 if error != "-"
@@ -147,7 +147,7 @@ class Fitted:
                 if note == "fixed"
                 else "not determined"
             )
-            rows.append([f"`{name}`", what, number.replace("-", MINUS), unit.replace("time", self.fit.time_unit)])
+            rows.append([f"`{name}`", meaning, number.replace("-", MINUS), unit.replace("time", self.fit.time_unit)])
         return {
             "kind": "listing", "id": "parameters", "rows": rows, "columns": ["Name", "What it is", "Value", "Unit"],
             "caption": f"Parameters at the time {self.fit.epoch:g}, with their standard errors.",
@@ -156,9 +156,9 @@ class Fitted:
     def _correlations(self) -> Iterator[dict[str, Any]]:
         """Yield the table of strong correlations, or the sentence that there are none."""
         pairs = {
-            frozenset((name, other)): size
+            frozenset((name, partner)): size
             for name, p in self.fit.parameters.items()
-            for other, size in (p.correl or {}).items()
+            for partner, size in (p.correl or {}).items()
             if abs(size) >= MIN_CORRELATION
         }
         if pairs:
@@ -186,14 +186,14 @@ class Fitted:
             f"standard error is smaller. The data end at {fit.t.max():.6g}.",
         }  # fmt: skip
 
-    def _motion(self, left_out: list[str], there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
+    def _motion(self, left_out: list[str], exists: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
         """Yield the figures of the motion, and where its own page is."""
-        own = self.motion
-        where = f"[`{own.command}`]({own.name}.html)" if there(own.name) else f"`{own.command}`"
+        name = self.motion
+        place = f"[`{name.command}`]({name.name}.html)" if exists(name.name) else f"`{name.command}`"
         yield _prose(
-            "## The motion", "", f"With these values and R(0) = 1; {where} makes its own page, with its rates."
+            "## The motion", "", f"With these values and R(0) = 1; {place} makes its own page, with its rates."
         )
-        yield from figures_of(own, left_out)
+        yield from figures_of(name, left_out)
 
     def _recipe(self) -> str:
         """Return the recipe that draws data, curve and residuals."""

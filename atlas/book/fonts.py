@@ -101,7 +101,7 @@ def all_subsets(pages: Iterable[str], recall: Recall) -> dict[str, bytes]:
     text, formulas = characters(pages)
     subsets = {}
     for name, face in FACES.items():
-        wanted = ALWAYS + (formulas + GROWING + ITALIC if name == "math" else text)
-        parts = ["font", face.file, *map(str, map(release, (face.package, "fonttools"))), wanted]
-        subsets[f"fonts/{name}.woff"] = recall(parts, partial(subset, face, wanted))
+        letters = ALWAYS + (formulas + GROWING + ITALIC if name == "math" else text)
+        pieces = ["font", face.file, *map(str, map(release, (face.package, "fonttools"))), letters]
+        subsets[f"fonts/{name}.woff"] = recall(pieces, partial(subset, face, letters))
     return subsets

@@ -59,11 +59,11 @@ class GalleryView:
 def page(composer: "Composer") -> PageView:
     """Return the page of a report's gallery; a recipe that failed is left out."""
     composer.where, document = "the gallery", composer.document
-    shown: dict[int, str] = {}
+    places: dict[int, str] = {}
     for there in document.pages:
         for block in there.blocks:
             for picture in block.pictures if isinstance(block, FigureView) else ():
-                shown.setdefault(id(picture), f"{there.file}#{block.id}")
+                places.setdefault(id(picture), f"{there.file}#{block.id}")
     rows: dict[str, list[Plate]] = {row: [] for row in (*recipes.ROWS, "")}
     for name in document.report.gallery:
         picture = min(
@@ -71,8 +71,8 @@ def page(composer: "Composer") -> PageView:
         )
         if not picture.failure:
             recipe = recipes.load(name)
-            seen = recipe.seen or marked(picture.caption, EQUATIONS).partition(". ")[0].removesuffix(".") + "."
-            plate = Plate(picture, composer.text(seen, inline=True), shown.get(id(picture), ""))
+            sentence = recipe.seen or marked(picture.caption, EQUATIONS).partition(". ")[0].removesuffix(".") + "."
+            plate = Plate(picture, composer.text(sentence, inline=True), places.get(id(picture), ""))
             rows[recipe.row].append(plate)
     view = GalleryView(
         {row or "Other figures": plates for row, plates in rows.items() if plates},
@@ -86,18 +86,18 @@ def chosen(names: Sequence[str], folder: Path) -> tuple[str, ...]:
 
     Raises AtlasError for a name or a file that is not there.
     """
-    found = list[str]()
+    chosen_names = list[str]()
     for name in names:
         if name == "*":
-            found += recipes.names()
+            chosen_names += recipes.names()
         elif name.endswith(".py") and not Path(name).is_absolute():
             files = sorted(map(str, folder.glob(name)))
             if not files:
                 raise AtlasError(f"gallery: no recipe {name} in {folder}.")
-            found += files
+            chosen_names += files
         else:
-            found.append(name if recipes.source(name) else "")
-    return tuple(dict.fromkeys(found))
+            chosen_names.append(name if recipes.source(name) else "")
+    return tuple(dict.fromkeys(chosen_names))
 
 
 def build_gallery(
@@ -115,8 +115,10 @@ def build_gallery(
 
     places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names] or ["*"]
     sources = Sources(Cache(cache_folder(out)))
-    made = sources.closure([Path(place) for place in places if place.endswith(".py")])
-    head = f'name = "gallery"\ntitle = "Gallery of figures"\ngallery = {places!r}\n# of recipes with the digest {made}'
+    version = sources.closure([Path(place) for place in places if place.endswith(".py")])
+    head = (
+        f'name = "gallery"\ntitle = "Gallery of figures"\ngallery = {places!r}\n# of recipes with the digest {version}'
+    )
     source = out / "gallery.md"
     write(source, f"+++\n{head}\n+++\n\n# All figures\n\nThey stand in the [gallery](gallery.html).\n")
     return build_report(source, out, progress, formats=("html",), style=style, jobs=jobs)

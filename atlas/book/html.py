@@ -83,13 +83,13 @@ def whole(text: str) -> str:
 
 def anchored(page: str) -> str:
     """Give each heading inside a page an anchor made of its words, and a link to it."""
-    seen: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
+    counts: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
 
     def heading(match: re.Match[str]) -> str:
         words = unescape(re.sub(r"<math.*?</math>|<[^>]+>", " ", match[2], flags=re.DOTALL))
         name = "-".join(re.findall(r"[a-z0-9]+", words.lower())) or "section"
-        seen[name] += 1
-        name = name if seen[name] == 1 else f"{name}-{seen[name]}"
+        counts[name] += 1
+        name = name if counts[name] == 1 else f"{name}-{counts[name]}"
         link = f'<a class="anchor" href="#{name}" aria-label="Link to {escape(" ".join(words.split()))}">#</a>'
         return f'<h{match[1]} id="{name}">{match[2]} {link}</h{match[1]}>'
 
@@ -115,15 +115,13 @@ def cards(document: Document) -> list[Card]:
     figures, cards = _figures(document), []
     cuts = {one.slug: one.thumbnail for one in document.report.pages}
     for page in document.pages:
-        wanted = cuts.get(page.slug, Thumbnail())
-        fits = (
-            one for one in figures if (one.figure.id == f"fig-{wanted.figure}" if wanted.figure else one.page is page)
-        )
+        cut = cuts.get(page.slug, Thumbnail())
+        fits = (one for one in figures if (one.figure.id == f"fig-{cut.figure}" if cut.figure else one.page is page))
         chosen = next(fits, None)
         if chosen and not chosen.figure.failure:
-            cards.append(Card(page, chosen.figure, wanted))
-        elif wanted.figure:
-            raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn in this report.")
+            cards.append(Card(page, chosen.figure, cut))
+        elif cut.figure:
+            raise AtlasError(f"page {page.slug!r}, thumbnail: no figure {cut.figure!r} is drawn in this report.")
     return cards
 
 
@@ -133,11 +131,11 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
 
     with Image.open(BytesIO(png)) as picture:
         scale = cut.zoom * max(want / size for want, size in zip(CARD, picture.size, strict=True))
-        seen = [want / scale for want in CARD]
-        left, top = (place * (size - share) for place, size, share in zip(cut.at, picture.size, seen, strict=True))
+        extent = [want / scale for want in CARD]
+        left, top = (place * (size - share) for place, size, share in zip(cut.at, picture.size, extent, strict=True))
         white = Image.new("RGBA", picture.size, "white")
         white.alpha_composite(picture.convert("RGBA"))
-        box = (left, top, left + seen[0], top + seen[1])
+        box = (left, top, left + extent[0], top + extent[1])
         small = white.convert("RGB").resize(CARD, Image.Resampling.LANCZOS, box, reducing_gap=3.0)
     out = BytesIO()
     small.save(out, "webp", quality=82, method=4)
@@ -151,8 +149,8 @@ def _cover(document: Document) -> Card | None:
     anchor = f"fig-{document.report.cover}"
     if f"fig:{document.report.cover}" not in document.targets:
         raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
-    drawn = (card for card in _figures(document) if card.figure.id == anchor and not card.figure.failure)
-    return next(drawn, None)
+    candidates = (card for card in _figures(document) if card.figure.id == anchor and not card.figure.failure)
+    return next(candidates, None)
 
 
 _START = re.compile(
@@ -225,19 +223,19 @@ def _line(node: ET.Element) -> str:
     tag = node.tag.rpartition("}")[2]
     if tag in {"annotation", "annotation-xml", "mspace"}:
         return ""
-    parts = [_line(child) for child in node]
+    children = [_line(child) for child in node]
     text = "".join(_ACCENTS.get(letter, letter) for letter in normalize("NFKC", node.text or ""))
     if tag == "mfrac":
-        return "/".join(factor if factor.isalnum() else f"({factor})" for factor in parts)
+        return "/".join(factor if factor.isalnum() else f"({factor})" for factor in children)
     if tag in {"msup", "mover"}:
-        base, above = parts
+        base, above = children
         return base + above if above in {"'", "''", "˙", "^", "¨", "~", "¯", ""} else f"{base}^{above}"
     if tag == "msubsup":
-        base, below, above = parts
+        base, below, above = children
         return f"{base}'{below}" if above == "'" else f"{base}{below}^{above}"
     if tag == "msqrt":
-        return f"sqrt({''.join(parts)})"
-    return " ".join(parts) if tag in {"mtr", "mtable"} else text + "".join(parts)
+        return f"sqrt({''.join(children)})"
+    return " ".join(children) if tag in {"mtr", "mtable"} else text + "".join(children)
 
 
 def _joined(text: str) -> str:

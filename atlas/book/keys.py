@@ -27,7 +27,7 @@ def blocks() -> Data:
 
 def report_keys() -> Data:
     """List the keys of a report file, of its pages, bodies and fields, from their records."""
-    where = {
+    place = {
         "in the head": Report, "`{page}`, below its title": Page, "`thumbnail`": Thumbnail, "`[index]`": Index,
         "`[parameters.bodies.NAME]`": Body, "`[parameters.fields.NAME]`": Field,
     }  # fmt: skip
@@ -35,7 +35,7 @@ def report_keys() -> Data:
         "The keys of a report file; those in bold are needed, of others the value is what holds where they are left "
         "out."
     )
-    return _explained("Where", where, "Keys", says)
+    return _explained("Where", place, "Keys", says)
 
 
 def layers() -> Data:
@@ -47,10 +47,10 @@ def layers() -> Data:
     return _explained("Name in `atlas.pictures`", kinds, "Fields", says)
 
 
-def _explained(first: str, kinds: Mapping[str, type], last: str, says: str) -> Data:
+def _explained(start: str, kinds: Mapping[str, type], end: str, says: str) -> Data:
     """Return a table of classes: name, first sentence, and attributes, the required ones in bold."""
     rows = [(name, _first(kind), ", ".join(_keys(kind))) for name, kind in kinds.items()]
-    return Data(heads(first, "What it is", last), tuple(rows), says)
+    return Data(heads(start, "What it is", end), tuple(rows), says)
 
 
 def _first(kind: type) -> str:

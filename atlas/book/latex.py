@@ -93,10 +93,10 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
             if cells[place].text is None and row[place] and cells[place].proven:
                 column = table.columns[place]
                 of_row = cells[places["Unit"]].text if "Unit" in places else None
-                said = column.unit if column.unit is not None else of_row
-                last = [heads[place] or str(place)] if len(numeric) > 1 else []
-                key = "/".join([table.id.removeprefix("tab-"), name, *last])
-                unit = "" if said is None else markdown[said]
+                text = column.unit if column.unit is not None else of_row
+                final = [heads[place] or str(place)] if len(numeric) > 1 else []
+                key = "/".join([table.id.removeprefix("tab-"), name, *final])
+                unit = "" if text is None else markdown[text]
                 cell = f"{table.id.removeprefix('tab-')}-{number}-{place + 1}"
                 yield Numeral(key, cell, digits(row[place]) or ZERO_DIGITS, *_with_unit(row[place], unit))
 
@@ -112,10 +112,10 @@ def _row_name(row: Sequence[str], places: Mapping[str, int], numeric: Sequence[i
 def _with_unit(number: str, unit: str) -> tuple[str, str]:
     """Return a number with the power of ten that stands before its unit, and the unit as siunitx reads it."""
     power = _POWER.match(unit)
-    rest = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
-    rest = re.sub(r"\^([^^{}]+)\^", r"^{\1}", rest).replace(MINUS, "-")  # an exponent in Markdown
-    rest = "" if rest == "1" else rest
-    return (f"{number}e{power[1]}" if power and "e" not in number else number), rest
+    remainder = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
+    remainder = re.sub(r"\^([^^{}]+)\^", r"^{\1}", remainder).replace(MINUS, "-")  # an exponent in Markdown
+    remainder = "" if remainder == "1" else remainder
+    return (f"{number}e{power[1]}" if power and "e" not in number else number), remainder
 
 
 def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
@@ -132,7 +132,7 @@ def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, byt
 
 def _references(document: Document) -> str:
     """Return the bibliography: the works that the report cites, and the atlas."""
-    own = f"""@software{{atlas,
+    key = f"""@software{{atlas,
   author  = {{{{The atlas developers}}}},
   title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
   version = {{{atlas.__version__}}},
@@ -140,7 +140,7 @@ def _references(document: Document) -> str:
 """
     protected = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
     return "\n".join(
-        filter(None, [protected.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), own])
+        filter(None, [protected.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), key])
     )
 
 
@@ -288,11 +288,11 @@ def _shares(formats: Sequence[str], letters: Sequence[int]) -> Iterator[float]:
     They are where the table would be wider than the page.
     """
     long = [place for place, count in enumerate(letters) if count > MAX_CELL_LETTERS and formats[place] == "l"]
-    left = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)
+    remaining = PAGE_LETTERS - sum(count for place, count in enumerate(letters) if place not in long)
     total = sum(letters[place] for place in long)
     for place, count in enumerate(letters):
-        narrow = place in long and total > left
-        yield round(max(left, MIN_LINES_LETTERS) * count / total / PAGE_LETTERS, 2) if narrow else 0.0
+        narrow = place in long and total > remaining
+        yield round(max(remaining, MIN_LINES_LETTERS) * count / total / PAGE_LETTERS, 2) if narrow else 0.0
 
 
 def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:

@@ -41,8 +41,8 @@ def load(path: Path) -> Report:
 def _values(text: str, pieces: dict[tuple[int, ...], Piece], *, markdown: bool) -> dict[str, Any]:
     """Return the values of a text, and put the pieces into `pieces` if it is Markdown."""
     if markdown:
-        raw, found = read(text)
-        pieces |= found
+        raw, lines = read(text)
+        pieces |= lines
         return raw
     try:
         return toml.loads(text)
@@ -99,33 +99,33 @@ def _filled(report: Report, folder: Path) -> Report:
 
 def _called(block: Block, report: Report, path: tuple[int, int]) -> None:
     """Raise for a body, a field or a set of parameters that a block names and that is not there."""
-    known = report.parameters
-    for kind, there, key, called in (
-        ("body", known.bodies, "body", (getattr(block, "body", None),)),
-        ("body", known.bodies, "bodies", getattr(block, "bodies", ())),
-        ("field", known.fields, "field", (getattr(block, "field", None),)),
-        ("set", known.sets, "sets", getattr(block, "sets", ())),
+    records = report.parameters
+    for kind, there, key, words in (
+        ("body", records.bodies, "body", (getattr(block, "body", None),)),
+        ("body", records.bodies, "bodies", getattr(block, "bodies", ())),
+        ("field", records.fields, "field", (getattr(block, "field", None),)),
+        ("set", records.sets, "sets", getattr(block, "sets", ())),
     ):
-        for name in filter(None, called):
+        for name in filter(None, words):
             if name not in there:
-                where = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
-                raise SchemaError(where, str(unknown(kind, name, there, "in [parameters]")), key, path)
+                place = f"page {report.pages[path[0]].slug!r}, block {path[1] + 1}"
+                raise SchemaError(place, str(unknown(kind, name, there, "in [parameters]")), key, path)
 
 
 def _unique(named: Iterable[tuple[tuple[int, ...], str | None]], kind: str, key: str) -> None:
     """Raise for the first name, given with its place, that comes twice."""
-    seen = set[str]()
+    names = set[str]()
     for path, name in named:
-        if name in seen:
+        if name in names:
             raise SchemaError(f"{key} {name!r}", f"two {kind} have it", key, path)
-        seen |= {name} if name else set()
+        names |= {name} if name else set()
 
 
 def _line(text: str, pieces: Mapping[tuple[int, ...], Piece], error: SchemaError) -> str:
     """Give the line of a mistake: of its key, if that stands once in its block or in the file, else of its block."""
-    there = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
-    key, lines, first = re.escape(error.key), there.lines if there else text.split("\n"), there.line if there else 0
+    piece = next((pieces[error.path[:k]] for k in (2, 1, 0) if error.path[:k] in pieces), None)
+    key, lines, start = re.escape(error.key), piece.lines if piece else text.split("\n"), piece.line if piece else 0
     pattern = re.compile(rf"\s*(?:\[[^\]]*\b{key}\b|{key}\s*=)|.*[{{,]\s*{key}\s*=")
-    found = [number for number, line in enumerate(lines, first + 1) if pattern.match(line)] if key else []
-    line = found[0] if len(found) == 1 else first
+    matches = [number for number, line in enumerate(lines, start + 1) if pattern.match(line)] if key else []
+    line = matches[0] if len(matches) == 1 else start
     return f", line {line}" if line else ""

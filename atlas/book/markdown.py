@@ -47,8 +47,8 @@ class Piece:
         try:
             return toml.loads("\n" * self.line + "\n".join(self.lines))
         except ValueError as error:
-            said = re.fullmatch(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", str(error))
-            reason, line = said.groups() if said else (str(error), None)
+            values = re.fullmatch(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", str(error))
+            reason, line = values.groups() if values else (str(error), None)
             line = int(line or self.line + len(self.lines))
             raise LineError(line, f"this is not TOML: {reason}.") from error
 
@@ -98,12 +98,12 @@ def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
 
     Keys of the pieces are () for the head, (page,) and (page, block), from 0. Raises LineError.
     """
-    head, rest = split(text)
+    head, remainder = split(text)
     report, places = head.values(), dict[tuple[int, ...], Piece]({(): head})
     pages: list[dict[str, Any]] = []
     if "pages" in report:
         raise LineError(1, "the head holds no pages: each begins with a heading of its own, a line '# Title'.")
-    for piece in rest:
+    for piece in remainder:
         page = (len(pages) - 1,)
         if piece.kind == "#":
             slug = re.sub(r"[^a-z0-9]+", "-", piece.text.lower()).strip("-") if pages else "index"
@@ -155,11 +155,11 @@ def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]
 def written(report: Mapping[str, Any]) -> str:
     """Write the values of a report as Markdown; the slugs of its pages are those that their titles give."""
     head = {key: value for key, value in report.items() if key not in {"abstract", "pages"}}
-    parts = [f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n", f"{report['abstract']}\n"]
+    pieces = [f"{RULE}\n{''.join(toml.lines(head))}{RULE}\n", f"{report['abstract']}\n"]
     for page in report["pages"]:
-        parts.append(f"# {page['title']}\n")
+        pieces.append(f"# {page['title']}\n")
         for block in page["blocks"]:
             keys = {key: value for key, value in block.items() if key != "kind" and value is not None}
             lines = "".join(f"{key} = {toml.written(value)}\n" for key, value in keys.items())
-            parts.append(f"{block['text']}\n" if block["kind"] == "prose" else f"```{{{block['kind']}}}\n{lines}```\n")
-    return "\n".join(parts)
+            pieces.append(f"{block['text']}\n" if block["kind"] == "prose" else f"```{{{block['kind']}}}\n{lines}```\n")
+    return "\n".join(pieces)

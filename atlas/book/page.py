@@ -63,17 +63,17 @@ class Asked:
     def command(self) -> str:
         """The command that makes the page."""
         digits = ["--digits", str(self.digits)] if self.digits != 10 else []
-        own = ["--name", self.called] if self.called else []
-        return shlex.join(["atlas", "page", *self.words, *digits, *own])
+        name_option = ["--name", self.called] if self.called else []
+        return shlex.join(["atlas", "page", *self.words, *digits, *name_option])
 
     @property
     def name(self) -> str:
         """Name of its files, from the typed words."""
         return self.called or name_of(self.words)
 
-    def sources(self, there: Callable[[str], bool]) -> dict[str, str]:
+    def sources(self, exists: Callable[[str], bool]) -> dict[str, str]:
         """Return the report file by its name; `there` says whether a page of that name lies beside it."""
-        return {f"{self.name}.md": headed(self, written(definition(self, there)))}
+        return {f"{self.name}.md": headed(self, written(definition(self, exists)))}
 
     def changed(self, family: str, **options: Any) -> "Asked":
         """Return the request of another object near it; an option that is None is left out."""
@@ -81,9 +81,9 @@ class Asked:
         kept = {
             name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
         }
-        first = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
+        ratio = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
         return replace(
-            self, called="", family=FAMILIES[family], options=kept | new if "ratio" in kept else first | kept | new
+            self, called="", family=FAMILIES[family], options=kept | new if "ratio" in kept else ratio | kept | new
         )
 
 
@@ -108,12 +108,12 @@ def name_of(words: Iterable[str]) -> str:
     return name if len(name) <= MAX_NAME_LENGTH else f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
 
 
-def headed(asked: Any, content: str) -> str:
+def headed(request: Any, content: str) -> str:
     """Return a file of a page, with the command that makes it at its head."""
     start = f"{RULE}\n" * content.startswith(RULE)
     content = content.removeprefix(start)
     digest = sha256(content.encode()).hexdigest()[:12]
-    return start + HEAD.format(command=asked.command.replace("\n", " "), digest=digest, name=asked.name) + content
+    return start + HEAD.format(command=request.command.replace("\n", " "), digest=digest, name=request.name) + content
 
 
 def edited(file: str) -> bool:
@@ -123,71 +123,71 @@ def edited(file: str) -> bool:
     return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
 
 
-def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
+def definition(request: Asked, exists: Callable[[str], bool]) -> dict[str, Any]:
     """Return the report as the values of its file. Raises AtlasError where there is no such object."""
-    family, left_out = asked.family, list[str]()
-    thing = Thing.of(Request([_case(asked)], {"family": family.name, **asked.values}, asked.digits))
-    made, _ = thing.kernels(), thing.balls()
-    parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
-    figures = list(figures_of(asked, left_out))
-    left_out += _too_slow(made, asked.time)
+    family, left_out = request.family, list[str]()
+    thing = Thing.of(Request([_case(request)], {"family": family.name, **request.values}, request.digits))
+    motion, _ = thing.kernels(), thing.balls()
+    parameters = ", ".join(f"{name} {' '.join(texts)}" for name, texts in request.options.items())
+    figures = list(figures_of(request, left_out))
+    left_out += _too_slow(motion, request.time)
     beside = [other for other in FAMILIES.values() if other is not family and _holds(family, other)]
     blocks = [
-        _table(asked, "properties", family.name, asked.values),
-        *_deviations(asked),
+        _table(request, "properties", family.name, request.values),
+        *_deviations(request),
         *figures[:1],
-        *([SETTING] if asked.field and "B" in asked.field else []),
-        *(_table(asked, "properties", other.name, {"given": False}) for other in beside),
+        *([SETTING] if request.field and "B" in request.field else []),
+        *(_table(request, "properties", other.name, {"given": False}) for other in beside),
         *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
-        *_closed(asked, left_out),
-        *_neighbours(asked, there),
-        {"kind": "prose", "text": _reproduce(asked, made)},
+        *_closed(request, left_out),
+        *_neighbours(request, exists),
+        {"kind": "prose", "text": _reproduce(request, motion)},
         *([{"kind": "prose", "text": "\n- ".join(["## Left out\n", *left_out])}] if left_out else []),
     ]
     case = thing.says
-    records = (("bodies", "body", asked.body), ("fields", "field", asked.field))
+    records = (("bodies", "body", request.body), ("fields", "field", request.field))
     return {
-        "name": asked.name,
-        "title": asked.title or case,
+        "name": request.name,
+        "title": request.title or case,
         "subtitle": parameters,
-        "abstract": f"{asked.note} All digits of the tables are proven unless they say otherwise; figures are drawn to "
-        "a fraction of a pixel. The report file beside this page can be changed and built again.".lstrip(),
+        "abstract": f"{request.note} All digits of the tables are proven unless they say otherwise; figures are drawn "
+        "to a fraction of a pixel. The report file beside this page can be changed and built again.".lstrip(),
         "parameters": {kind: {name: record} for kind, name, record in records if record},
         "pages": [{"slug": "index", "title": "Properties", "blocks": blocks}],
     }  # fmt: skip
 
 
-def _deviations(asked: Asked) -> Iterator[dict[str, Any]]:
+def _deviations(request: Asked) -> Iterator[dict[str, Any]]:
     """Yield the table of quantities with their standard deviations, where inputs have an uncertainty."""
-    if asked.deviations:
+    if request.deviations:
         yield {
-            "kind": "listing", "id": "deviations", "rows": [list(row) for row in asked.deviations],
+            "kind": "listing", "id": "deviations", "rows": [list(row) for row in request.deviations],
             "columns": ["Quantity", "Symbol", "Value", "Unit"],
             "caption": " ".join(["The same with the uncertainties of the inputs, which are independent.",
-                                 *asked.deviation_notes]),
+                                 *request.deviation_notes]),
         }  # fmt: skip
 
 
-def _holds(family: Family, other: Family) -> bool:
+def _holds(family: Family, kind: Family) -> bool:
     """Whether an object of a family has one of another: what that is given is among what it is given."""
     names = {p.name for p in family.parameters}
-    return {"ratio", "field"} <= {p.name for p in other.parameters} <= names
+    return {"ratio", "field"} <= {p.name for p in kind.parameters} <= names
 
 
-def _calls(asked: Asked, family: Family) -> dict[str, str]:
+def _calls(request: Asked, family: Family) -> dict[str, str]:
     """Return the keys of a block by which it calls the body and the field that a family has."""
     return {
         key: key
         for key, name in (("body", "ratio"), ("field", "field"))
-        if asked.body and any(p.name == name and not p.option for p in family.parameters)
+        if request.body and any(p.name == name and not p.option for p in family.parameters)
     }
 
 
-def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    unit = {"units": asked.units} if asked.units else {"time": asked.time} if asked.time != "time" else {}
+def _table(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    unit = {"units": request.units} if request.units else {"time": request.time} if request.time != "time" else {}
     return {
-        "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(asked, FAMILIES[family]),
-        "digits": asked.digits, "parameters": {"family": family, **values, **unit},
+        "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(request, FAMILIES[family]),
+        "digits": request.digits, "parameters": {"family": family, **values, **unit},
     }  # fmt: skip
 
 
@@ -214,41 +214,41 @@ def _too_slow(motion: Any, time: str) -> Iterator[str]:
         )
 
 
-def figures_of(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+def figures_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the figures that take the numbers, and note of the others why they don't."""
     from atlas.bodies.units import system
     from atlas.pictures import recipes
 
-    case = _case(asked)
-    for name in asked.family.figures:
+    case = _case(request)
+    for name in request.family.figures:
         recipe = recipes.load(name)
-        values = {key: value for key, value in asked.values.items() if key in recipe.parameters}
+        values = {key: value for key, value in request.values.items() if key in recipe.parameters}
         if recipe.parameters.get("unit") == "time":
-            values["unit"] = asked.time
-        if asked.units and "length" in recipe.parameters:
-            values["length"] = system(asked.units).length_unit
-        parameters = {"ratio": case.ratio, "field": case.components} if asked.body else {}
+            values["unit"] = request.time
+        if request.units and "length" in recipe.parameters:
+            values["length"] = system(request.units).length_unit
+        parameters = {"ratio": case.ratio, "field": case.components} if request.body else {}
         try:
             recipe.scene(**{key: value for key, value in parameters.items() if key in recipe.parameters} | values)
         except AtlasError as reason:
             left_out.append(f"The figure `{name}`: {reason}")
         else:
-            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **_calls(asked, asked.family),
+            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **_calls(request, request.family),
                    "parameters": values}  # fmt: skip
 
 
-def _case(asked: Asked) -> Any:
+def _case(request: Asked) -> Any:
     """Return the body in the field as tables have it."""
-    body = convert(asked.body, Body) if asked.body else None
-    return body_and_field(body, convert(asked.field, Field) if asked.field else None)
+    body = convert(request.body, Body) if request.body else None
+    return body_and_field(body, convert(request.field, Field) if request.field else None)
 
 
-def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+def _closed(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the table of the nearest closed motions, if there are any."""
-    if {"phi", "precession_per_period"} & {q.name for q in asked.family.quantities}:
-        block = _table(asked, "closed", asked.family.name, asked.values)
+    if {"phi", "precession_per_period"} & {q.name for q in request.family.quantities}:
+        block = _table(request, "closed", request.family.name, request.values)
         try:
-            compute("closed", Request([_case(asked)], block["parameters"], asked.digits))
+            compute("closed", Request([_case(request)], block["parameters"], request.digits))
         except AtlasError as reason:
             left_out.append(f"The nearest closed motions: {reason}")
         else:
@@ -256,11 +256,14 @@ def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
             yield block
 
 
-def _neighbours(asked: Asked, there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
+def _neighbours(request: Asked, exists: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
     """Yield the table of objects near by, each with the command that makes its page, or a link to it."""
     rows = [
-        [words, f"[`{one.command}`]({one.name}.html)" if there(one.name) else f"`{one.command}`"]
-        for words, one in near(asked)
+        [
+            words,
+            f"[`{near_by.command}`]({near_by.name}.html)" if exists(near_by.name) else f"`{near_by.command}`",
+        ]
+        for words, near_by in near(request)
     ]
     if rows:
         yield {"kind": "prose", "text": "## Neighbours"}
@@ -271,81 +274,83 @@ def _neighbours(asked: Asked, there: Callable[[str], bool]) -> Iterator[dict[str
         }  # fmt: skip
 
 
-def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
+def near(request: Asked) -> Iterator[tuple[str, Asked]]:
     """Yield objects near by, each in words."""
-    values, name = asked.values, asked.family.name
-    if not asked.body:
+    values, name = request.values, request.family.name
+    if not request.body:
         return
-    B2, B3 = _case(asked).components
+    B2, B3 = _case(request).components
     if "omega2" in values:
         w2 = values["omega2"]
-        free = {"omega3": None} if "omega3" in values else {}
-        other = {
+        without_third = {"omega3": None} if "omega3" in values else {}
+        starts = {
             r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair": -2 * B2 - w2,
             "at rest": 0.0,
             r"$\phi=0$: it turns as a whole": -2 * B2,
         }
-        for words, omega2 in other.items():
+        for words, omega2 in starts.items():
             if B2 and omega2 not in {w2, -B2}:
-                yield words, asked.changed(name, omega2=omega2, **free)
+                yield words, request.changed(name, omega2=omega2, **without_third)
     if "omega" in values:
         w1, w2, w3 = values["omega"]
         pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
-        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", asked.changed(name, omega=pair, spin=None)
+        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", request.changed(name, omega=pair, spin=None)
         if B2 and w2 != -B2:
-            same = asked.changed("elementary", omega2=w2, omega=None, spin=None)
+            same = request.changed("elementary", omega2=w2, omega=None, spin=None)
             yield r"the motion without nutation with this $\omega_2$", same
-    yield from _of_other_bodies(asked)
-    if asked.family.sampled:
+    yield from _of_other_bodies(request)
+    if request.family.sampled:
         yield (
             "all motions of this body in this field",
-            asked.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),
+            request.changed("quadric", omega2=None, omega3=None, omega=None, spin=None),
         )
 
 
-def _of_other_bodies(asked: Asked) -> Iterator[tuple[str, Asked]]:
+def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
     """Yield the object with a ball and with a disk or loop for its body."""
-    ratio = _case(asked).ratio
+    ratio = _case(request).ratio
     shape: dict[str, Any] = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
-    if asked.body and "density" in asked.options:
-        shape |= {"density": None, "mass": asked.body["mass"]}
+    if request.body and "density" in request.options:
+        shape |= {"density": None, "mass": request.body["mass"]}
     for border, words in ((1.0, "the same in a ball, $I=1$"), (2.0, "the same in a disk or loop, $I=2$")):
-        if ratio != border and "points" not in asked.options:
-            yield words, asked.changed(asked.family.name, **shape, ratio=border)
+        if ratio != border and "points" not in request.options:
+            yield words, request.changed(request.family.name, **shape, ratio=border)
 
 
-def _reproduce(asked: Asked, made: Any) -> str:
+def _reproduce(request: Asked, motion: Any) -> str:
     """Say how to get the same numbers from the command line and from Python."""
-    family = asked.family
+    family = request.family
     kernels = family.kernels()
     values = zip(
-        inspect.signature(kernels).parameters, (_python(asked, p.name) for p in family.parameters), strict=True
+        inspect.signature(kernels).parameters, (_python(request, p.name) for p in family.parameters), strict=True
     )
     arguments = ", ".join(f"{name}={value}" for name, value in values if value)
-    shown = [q for q in family.quantities if not q.get and (q.certified or q.printed) and _known(made, q.name)]
-    digits = [] if asked.deviations else ["--digits", str(asked.digits)]
-    lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})", *(f"print(it.{q.name})" for q in shown)]
+    lines = ["import atlas", "", f"it = atlas.{kernels.__name__}({arguments})"]
+    lines += [f"print(it.{q.name})" for q in family.quantities if _is_printed(q, motion)]
+    digits = [] if request.deviations else ["--digits", str(request.digits)]
     return "\n".join(
         [
             "## The same numbers elsewhere", "", "On the command line:", "", "```console",
-            f"$ {shlex.join(['atlas', *asked.words, *digits])}", "```", "",
+            f"$ {shlex.join(['atlas', *request.words, *digits])}", "```", "",
             "In Python, as doubles next to them:", "", "```python", *lines, "```",
         ]
     )  # fmt: skip
 
 
-def _known(made: Any, name: str) -> bool:
-    """Whether a quantity of an object has a value."""
+def _is_printed(quantity: Any, motion: Any) -> bool:
+    """Return whether a quantity without a getter of its own has digits to print and a value for this motion."""
+    if quantity.get or not (quantity.certified or quantity.printed):
+        return False
     try:
-        getattr(made, name)
+        getattr(motion, quantity.name)
     except DomainError:
         return False
     return True
 
 
-def _python(asked: Asked, name: str) -> str:
+def _python(request: Asked, name: str) -> str:
     """Return a parameter as it is written in Python, nothing for one that is left out."""
-    body, field = asked.body or {}, asked.field or {}
+    body, field = request.body or {}, request.field or {}
     if name == "ratio":
         if "shape" in body:
             sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
@@ -356,5 +361,5 @@ def _python(asked: Asked, name: str) -> str:
             return str(tuple(field["prime"]))
         mu = field.get("charge_to_mass") or f"{body['charge']!r} / {body['mass']!r}"
         return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).pair"
-    value = asked.values.get(name)
+    value = request.values.get(name)
     return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)

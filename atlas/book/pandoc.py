@@ -47,9 +47,9 @@ class FormulaError(AtlasError):
     """A formula that can't be read, in one sentence; `tex` is the formula."""
 
     def __init__(self, tex: str, reason: str) -> None:
-        shown = " ".join(f"${tex.strip()}$".split())
-        shown = shown if len(shown) <= FORMULA_LETTERS else f"{shown[: FORMULA_LETTERS - 1]}…"
-        super().__init__(f"the formula {shown} can't be read: {reason}.")
+        formula = " ".join(f"${tex.strip()}$".split())
+        formula = formula if len(formula) <= FORMULA_LETTERS else f"{formula[: FORMULA_LETTERS - 1]}…"
+        super().__init__(f"the formula {formula} can't be read: {reason}.")
         self.tex = tex
 
 
@@ -129,8 +129,8 @@ def _reason(message: str) -> str:
         return "it is no TeX"
     if matched[3].startswith("eof"):
         return "it breaks off"
-    rest = "" if matched[3].startswith("control") else matched[1][len(matched[2]) :]
-    return f"unexpected {matched[3][:FORMULA_LETTERS]}" + (f" at {rest[:LETTERS_FROM_MISTAKE]}" if rest else "")
+    tail = "" if matched[3].startswith("control") else matched[1][len(matched[2]) :]
+    return f"unexpected {matched[3][:FORMULA_LETTERS]}" + (f" at {tail[:LETTERS_FROM_MISTAKE]}" if tail else "")
 
 
 PARAGRAPHS = {"Para", "Plain"}
@@ -138,22 +138,22 @@ PARAGRAPHS = {"Para", "Plain"}
 
 def with_leading(blocks: list[Any]) -> list[Any]:
     """Return the blocks of a text, pandoc's, with Typst's `leading` about each paragraph that leads in to something."""
-    found: list[Any] = []
+    leading: list[Any] = []
     for before, block in zip([None, *blocks], blocks, strict=False):
         if leads(block):
             indented = before is not None and before["t"] in PARAGRAPHS
-            found += [_raw(f"#leading({str(indented).lower()})["), block, _raw("]")]
+            leading += [_raw(f"#leading({str(indented).lower()})["), block, _raw("]")]
         else:
-            found.append(block)
-    return found
+            leading.append(block)
+    return leading
 
 
 def leads(block: Any) -> bool:
     """Tell whether a block is a paragraph that ends with a colon."""
     if block["t"] != "Para":
         return False
-    last = block["c"][-1]
-    return last["t"] == "Str" and str(last["c"]).endswith(":")
+    previous = block["c"][-1]
+    return previous["t"] == "Str" and str(previous["c"]).endswith(":")
 
 
 def _raw(typst: str) -> dict[str, Any]:
@@ -211,15 +211,15 @@ def _mended(element: ET.Element) -> ET.Element:
     if element.tag in {"msup", "msubsup"} and (element[-1].text or " ") in _PRIMES:
         base, prime = element[0], element[-1]
         prime.attrib = {"lspace": "0", "rspace": "0"}
-        beside = ET.Element("mrow")
+        neighbour = ET.Element("mrow")
         if element.tag == "msup":
-            beside.extend([base, prime])
-            return beside
+            neighbour.extend([base, prime])
+            return neighbour
         above = ET.Element("mpadded", {"width": "0"})
         above.append(prime)
-        beside.extend([base, above])
+        neighbour.extend([base, above])
         indexed = ET.Element("msub")
-        indexed.extend([beside, element[1]])
+        indexed.extend([neighbour, element[1]])
         return indexed
     return element
 

@@ -67,9 +67,9 @@ def _reason(error: Any) -> str:
     """Return Typst's message, the line of the source and its text, in one line."""
     message = str(error.message).removeprefix("error: ").strip()
     place = re.search(r"\.typ:(\d+):\d+", error.diagnostic or "")
-    shown = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)
+    excerpt = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)
     where = f" at line {place[1]} of its source" if place else ""
-    return " ".join(f"{message}{where}{f': {shown[1].strip()[:160]}' if shown else ''}".split())
+    return " ".join(f"{message}{where}{f': {excerpt[1].strip()[:160]}' if excerpt else ''}".split())
 
 
 def _string(text: str) -> str:

@@ -17,24 +17,24 @@ def pictures(report: Report) -> dict[str, Picture]:
     Nothing is drawn. A recipe that can't be loaded leaves the reason in its pictures; a misspelt recipe or parameter
     raises AtlasError.
     """
-    drawn: dict[str, Picture] = {}
+    by_key: dict[str, Picture] = {}
     for page in report.pages:
         for place, block in enumerate(page.blocks):
             if not isinstance(block, Figure):
                 continue
             try:
                 for name, picture in _wanted(block, report):
-                    if name not in drawn:
-                        picture.stem = f"{len(drawn) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
-                        drawn[name] = picture
+                    if name not in by_key:
+                        picture.stem = f"{len(by_key) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
+                        by_key[name] = picture
             except AtlasError as error:
                 raise AtlasError(f"{report.place(page, place)}: {error}") from error
-    shown = {picture.recipe for picture in drawn.values()}
-    for block in (Figure(recipe=name) for name in report.gallery if name not in shown):
+    recipes_shown = {picture.recipe for picture in by_key.values()}
+    for block in (Figure(recipe=name) for name in report.gallery if name not in recipes_shown):
         for name, picture in _wanted(block, report):
             picture.stem = f"gallery-{Path(block.recipe).stem}"
-            drawn[name] = picture
-    return drawn
+            by_key[name] = picture
+    return by_key
 
 
 def keys(block: Figure, report: Report) -> list[str]:
@@ -46,11 +46,11 @@ def on_cards(report: Report) -> set[str]:
     """Return the keys of the pictures that stand for pages: the first of each, or its thumbnail."""
     figures = [(page.slug, block) for page in report.pages for block in page.blocks if isinstance(block, Figure)]
     named = {page.slug: page.thumbnail.figure for page in report.pages}
-    wanted = [
+    blocks = [
         next((block for slug, block in figures if (block.id == name if name else slug == page)), None)
         for page, name in named.items()
     ]
-    return {keys(block, report)[0] for block in wanted if block}
+    return {keys(block, report)[0] for block in blocks if block}
 
 
 def _wanted(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:

@@ -34,46 +34,46 @@ class StrictStruct(msgspec.Struct, frozen=True):
 class SchemaError(AtlasError):
     """A sentence about a report file, the key that it is about, and the places in lists on the way to that key."""
 
-    def __init__(self, where: str, sentence: str, key: str = "", path: tuple[int, ...] = ()) -> None:
-        super().__init__(f"{where or 'at the top'}: {sentence}")
+    def __init__(self, place: str, sentence: str, key: str = "", path: tuple[int, ...] = ()) -> None:
+        super().__init__(f"{place or 'at the top'}: {sentence}")
         self.key, self.path = key, path
 
 
-def convert(raw: Any, kind: type[T], where: str = "") -> T:
+def convert(raw: Any, kind: type[T], place: str = "") -> T:
     """Return a table as a record. Raises SchemaError for the first key that is unknown, missing, or of another type."""
-    _check(raw, inspect.type_info(kind), where, "")
+    _check(raw, inspect.type_info(kind), place, "")
     return msgspec.convert(raw, kind)
 
 
-def _check(raw: Any, kind: inspect.Type, where: str, key: str) -> None:
+def _check(raw: Any, kind: inspect.Type, place: str, key: str) -> None:
     """Check a value against its type, and raise for the innermost mistake."""
     match kind:
         case inspect.UnionType():
-            _check_union(raw, kind, where, key)
+            _check_union(raw, kind, place, key)
         case inspect.StructType() if isinstance(raw, dict):
-            _check_record(raw, kind, where)
+            _check_record(raw, kind, place)
         case inspect.DictType() if isinstance(raw, dict):
             for name, value in raw.items():
-                _check(value, kind.value_type, f"{where} {name!r}", name)
+                _check(value, kind.value_type, f"{place} {name!r}", name)
         case inspect.VarTupleType() if isinstance(raw, list):
-            _check_list(raw, [kind.item_type] * len(raw), where, key)
+            _check_list(raw, [kind.item_type] * len(raw), place, key)
         case inspect.TupleType() if isinstance(raw, list) and len(raw) == len(kind.item_types):
-            _check_list(raw, kind.item_types, where, key)
+            _check_list(raw, kind.item_types, place, key)
         case inspect.AnyType():
-            _check_finite(raw, where, key)
+            _check_finite(raw, place, key)
         case _ if not _fits(raw, kind):
-            raise SchemaError(where, f"must be {_words(kind)}, not {_shown(raw)}", key)
+            raise SchemaError(place, f"must be {_words(kind)}, not {_shown(raw)}", key)
 
 
-def _check_finite(raw: Any, where: str, key: str) -> None:
+def _check_finite(raw: Any, place: str, key: str) -> None:
     """Check that a value of any type holds no nan and no inf."""
     for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
-        _check_finite(item, where, key)
+        _check_finite(item, place, key)
     if isinstance(raw, float) and not math.isfinite(raw):
-        raise SchemaError(where, f"must be finite, not {raw}", key)
+        raise SchemaError(place, f"must be finite, not {raw}", key)
 
 
-def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> None:
+def _check_union(raw: Any, union: inspect.UnionType, place: str, key: str) -> None:
     """Check a value that may be of several types: a block of some kind, or a value that may be left out."""
     kinds = {
         str(kind_of_record.tag): kind_of_record
@@ -82,27 +82,27 @@ def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> No
     }
     if not kinds:
         (kind,) = (kind_of_record for kind_of_record in union.types if not isinstance(kind_of_record, inspect.NoneType))
-        return _check(raw, kind, where, key)
+        return _check(raw, kind, place, key)
     if not isinstance(raw, dict):
-        raise SchemaError(where, f"must be a table, not {_shown(raw)}", key)
+        raise SchemaError(place, f"must be a table, not {_shown(raw)}", key)
     if "kind" not in raw:
-        raise SchemaError(where, f"it lacks the key 'kind', one of {', '.join(kinds)}")
+        raise SchemaError(place, f"it lacks the key 'kind', one of {', '.join(kinds)}")
     if not isinstance(raw["kind"], str) or raw["kind"] not in kinds:
-        raise SchemaError(where, str(unknown("block kind", raw["kind"], kinds)).rstrip("."), "kind")
-    return _check_record(raw, kinds[raw["kind"]], f"{where} ({raw['kind']})")
+        raise SchemaError(place, str(unknown("block kind", raw["kind"], kinds)).rstrip("."), "kind")
+    return _check_record(raw, kinds[raw["kind"]], f"{place} ({raw['kind']})")
 
 
-def _check_record(raw: dict[str, Any], kind: inspect.StructType, where: str) -> None:
+def _check_record(raw: dict[str, Any], kind: inspect.StructType, place: str) -> None:
     """Check the keys of a table and their values."""
     fields = {field.encode_name: field for field in kind.fields if not isinstance(field.type, inspect.DataclassType)}
     for key, value in raw.items():
         if key in fields:
-            _check(value, fields[key].type, f"{where}, {key}" if where else key, key)
+            _check(value, fields[key].type, f"{place}, {key}" if place else key, key)
         elif key != kind.tag_field:
-            raise SchemaError(where, str(unknown("key", key, fields, "here")).rstrip("."), key)
+            raise SchemaError(place, str(unknown("key", key, fields, "here")).rstrip("."), key)
     for key, field in fields.items():
         if field.required and key not in raw:
-            raise SchemaError(where, f"it lacks the key {key!r}, {_words(field.type)}")
+            raise SchemaError(place, f"it lacks the key {key!r}, {_words(field.type)}")
 
 
 def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> None:
@@ -123,8 +123,8 @@ def _fits(raw: Any, kind: inspect.Type) -> bool:
             number = isinstance(raw, int | float) and not isinstance(raw, bool) and math.isfinite(raw)
             return number and (kind.gt is None or raw > kind.gt)
         case inspect.IntType():
-            whole = isinstance(raw, int) and not isinstance(raw, bool)
-            return whole and (kind.ge is None or kind.le is None or kind.ge <= raw <= kind.le)
+            integral = isinstance(raw, int) and not isinstance(raw, bool)
+            return integral and (kind.ge is None or kind.le is None or kind.ge <= raw <= kind.le)
         case inspect.BoolType():
             return isinstance(raw, bool)
         case inspect.StrType():

@@ -48,26 +48,26 @@ class Term:
     def __str__(self) -> str:
         return self.name
 
-    def __add__(self, other: Any) -> "Term":
-        return self._named(f"{self} + {other}")
+    def __add__(self, term: Any) -> "Term":
+        return self._named(f"{self} + {term}")
 
-    def __radd__(self, other: Any) -> "Term":
-        return self._named(f"{other} + {self}")
+    def __radd__(self, term: Any) -> "Term":
+        return self._named(f"{term} + {self}")
 
-    def __sub__(self, other: Any) -> "Term":
-        return self._named(f"{self} - {other}")
+    def __sub__(self, term: Any) -> "Term":
+        return self._named(f"{self} - {term}")
 
-    def __rsub__(self, other: Any) -> "Term":
-        return self._named(f"{other} - {self}")
+    def __rsub__(self, term: Any) -> "Term":
+        return self._named(f"{term} - {self}")
 
-    def __mul__(self, other: Any) -> "Term":
-        return self._named(f"{self} * {other}")
+    def __mul__(self, term: Any) -> "Term":
+        return self._named(f"{self} * {term}")
 
-    def __rmul__(self, other: Any) -> "Term":
-        return self._named(f"{other} * {self}")
+    def __rmul__(self, term: Any) -> "Term":
+        return self._named(f"{term} * {self}")
 
-    def __truediv__(self, other: Any) -> "Term":
-        return self._named(f"{self} / {other}")
+    def __truediv__(self, term: Any) -> "Term":
+        return self._named(f"{self} / {term}")
 
     def __neg__(self) -> "Term":
         return self._named(f"-{self}")
@@ -83,9 +83,9 @@ class Term:
         """Return the product with a power of two."""
         return self._named(f"{self} * {2**power}")
 
-    def select(self, positive: Any, other: Any) -> "Term":
+    def select(self, positive: Any, alternative: Any) -> "Term":
         """Return `positive` where this term is, else the other."""
-        return self._named(f"{self} > 0 ? {positive} : {other}")
+        return self._named(f"{self} > 0 ? {positive} : {alternative}")
 
 
 def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
@@ -102,7 +102,7 @@ def script(name: str) -> str:
     text = (folder("templates") / "html" / name).read_text(encoding="utf-8")
     if name != FORMULAIC:
         return text
-    functions = ",\n".join(written(one, *formula) for one, formula in FORMULAS.items())
+    functions = ",\n".join(written(formula_name, *formula) for formula_name, formula in FORMULAS.items())
     looks = {
         role: [look.colour, look.tube, look.back, look.glass] for role, look in STYLES.items() if f'"{role}"' in text
     }

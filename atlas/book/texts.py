@@ -78,9 +78,9 @@ class Texts:
     used: dict[str, str] = field(default_factory=dict)
     _trees: list[Tree] = field(default_factory=list)
 
-    def add(self, markdown: str, where: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
+    def add(self, markdown: str, place: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
         """Take in a text and return its number."""
-        self.texts.append(Text(markdown, where, inline, anchors or {}))
+        self.texts.append(Text(markdown, place, inline, anchors or {}))
         return len(self.texts) - 1
 
     def __getitem__(self, number: int) -> Text:
@@ -141,10 +141,10 @@ def deepest(markdown: str) -> int:
     """
     most = 0
     for paragraph in re.split(r"\n\s*\n", re.sub(r"\\[\\\[\]{}]", "", markdown)):
-        for first, last in ("[]", "{}"):
+        for start, end in ("[]", "{}"):
             depth = 0
-            for mark in re.findall(rf"[\{first}\{last}]", paragraph):
-                depth = depth + 1 if mark == first else max(0, depth - 1)
+            for mark in re.findall(rf"[\{start}\{end}]", paragraph):
+                depth = depth + 1 if mark == start else max(0, depth - 1)
                 most = max(most, depth)
     for quoted in re.findall(r"^[ >]*>", markdown, re.MULTILINE):
         most = max(most, quoted.count(">"))
@@ -156,7 +156,7 @@ def deepest(markdown: str) -> int:
 def title(text: str) -> str:
     """Return a title as Markdown: its formulas are set, and all else in it is plain words."""
     words, formulas = r"([!-/:-@\[-`{-~])", _FORMULA.split(_APOSTROPHE.sub("’", text))
-    return "".join(part if k % 2 else re.sub(words, r"\\\1", part) for k, part in enumerate(formulas))
+    return "".join(piece if k % 2 else re.sub(words, r"\\\1", piece) for k, piece in enumerate(formulas))
 
 
 def title_words(text: str) -> str:
@@ -185,15 +185,15 @@ class _Checked:
 
     def tree(self, nodes: Tree) -> Tree:
         """Return a list of nodes, all that is inside them included."""
-        found: Tree = []
+        problem: Tree = []
         for node in nodes:
             if isinstance(node, list):
-                found.append(self.tree(node))
+                problem.append(self.tree(node))
             elif isinstance(node, dict) and "t" in node:
-                found += self.node(node["t"], node.get("c"))
+                problem += self.node(node["t"], node.get("c"))
             else:
-                found.append(node)
-        return _tied(found) if all(isinstance(node, dict) for node in found) else found
+                problem.append(node)
+        return _tied(problem) if all(isinstance(node, dict) for node in problem) else problem
 
     def node(self, kind: str, content: Any) -> Tree:
         """Return the replacement of a node."""
@@ -218,27 +218,27 @@ class _Checked:
             return [{"t": kind}]
         return [{"t": kind, "c": self.tree(content) if isinstance(content, list) else content}]
 
-    def citation(self, parts: Any) -> Tree:
+    def citation(self, pieces: Any) -> Tree:
         """Return the links of a citation, in brackets with the words around them if it was written so."""
-        links = [self.cite(work["citationId"], self.text.where) for work in parts]
-        works = self.are_works(parts, links)
+        links = [self.cite(work["citationId"], self.text.where) for work in pieces]
+        works = self.are_works(pieces, links)
         if works and self.target != "html":  # Typst and BibTeX set their own bibliography
-            return [{"t": "Cite", "c": [[work | self.around(work) for work in parts], []]}]
-        bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
+            return [{"t": "Cite", "c": [[work | self.around(work) for work in pieces], []]}]
+        bracketed = pieces[0]["citationMode"]["t"] == "NormalCitation"
         nodes: Tree = []
-        for work, link in zip(parts, links, strict=True):
+        for work, link in zip(pieces, links, strict=True):
             prefix, suffix = self.around(work).values()
             space = [{"t": "Space"}] if prefix else []
             nodes += [*(_words("; ") if nodes else ()), *prefix, *space, *self.cited(work, link, bracketed), *suffix]
         first, last = "()" if works else "[]"
         return [*_words(first), *nodes, *_words(last)] if bracketed else nodes
 
-    def are_works(self, parts: Any, links: Sequence[Link]) -> bool:
+    def are_works(self, citations: Any, links: Sequence[Link]) -> bool:
         """Return whether a citation is of works, not of equations; it can't be of both."""
         works = {bool(link.bracketed) for link in links}
         if len(works) > 1:
             raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
-        if works == {True} and any(work["citationPrefix"] for work in parts):
+        if works == {True} and any(work["citationPrefix"] for work in citations):
             raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
         return works == {True}
 
@@ -304,11 +304,11 @@ def _words(text: str) -> Tree:
     """Return words as nodes, a number tied to its word and a formula set; what stands between two carets is raised."""
     text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
     nodes: Tree = []
-    for k, part in enumerate(_FORMULA.split(text)):
+    for k, piece in enumerate(_FORMULA.split(text)):
         if k % 2:
-            nodes.append({"t": "Math", "c": [{"t": "InlineMath"}, part[1:-1]]})
+            nodes.append({"t": "Math", "c": [{"t": "InlineMath"}, piece[1:-1]]})
             continue
-        low, *raised = re.split(r"\^([^^\s]+)\^", part)
+        low, *raised = re.split(r"\^([^^\s]+)\^", piece)
         nodes.append({"t": "Str", "c": low})
         for up, after in zip(raised[::2], raised[1::2], strict=True):
             nodes += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
@@ -335,9 +335,9 @@ def _finished(piece: str, target: Target, text: Text) -> str:
     """Mend what pandoc made of the formulas of a text, in Typst of those between marks, and of nothing else."""
     if target != "typst":
         return mend_all(piece) if target == "html" else piece
-    parts = piece.split(_mark(text))
-    parts[1::2] = [_mended(formula, text) for formula in parts[1::2]]
-    piece = "".join(parts)
+    pieces = piece.split(_mark(text))
+    pieces[1::2] = [_mended(formula, text) for formula in pieces[1::2]]
+    piece = "".join(pieces)
     return f"{piece} " if piece.endswith("\\") else piece  # else the bracket after it would be escaped
 
 

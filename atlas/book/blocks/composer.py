@@ -85,13 +85,13 @@ class Composer:
 
     def target(self, name: str, anchor: str, words: str) -> bool:
         """Let a name lead to an anchor of this page; return whether it is the first to do so."""
-        first = name not in self.document.targets
-        if first:
+        is_first = name not in self.document.targets
+        if is_first:
             self.document.targets[name] = (f"{self.slug}.html", anchor, words)
-        return first
+        return is_first
 
-    def anchor(self, kind: str, own: str | None, word: str, number: int) -> str:
+    def anchor(self, kind: str, ident: str | None, word: str, number: int) -> str:
         """Return the anchor of a figure or table, by its id or else its number, and let citations lead there."""
-        name = own or f"{number}"
+        name = ident or f"{number}"
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"

@@ -67,8 +67,8 @@ class _Letters:
 
     def told(self, side: str) -> str:
         """Return the value of a side as TeX: a number, or the sentence on a formula."""
-        formula, says, rest = side.partition(" has ")
-        return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{rest}"
+        formula, says, remainder = side.partition(" has ")
+        return f"${formula if re.fullmatch(r'[-/0-9]+', formula) else self.formula(formula)}${says}{remainder}"
 
     def formula(self, line: str) -> str:
         """Return a relation or an expression."""
@@ -95,8 +95,8 @@ class _Letters:
         match node:
             case ast.Compare():
                 signs = [_SIGNS[type(sign)] for sign in node.ops]
-                rest = (f"{sign}{self.tex(side)}" for sign, side in zip(signs, node.comparators, strict=True))
-                return f"{self.tex(node.left)}{''.join(rest)}"
+                tail = (f"{sign}{self.tex(side)}" for sign, side in zip(signs, node.comparators, strict=True))
+                return f"{self.tex(node.left)}{''.join(tail)}"
             case ast.Name():
                 return self.letter(node.id, bold=node.id in self.vectors)
             case ast.Constant():
@@ -130,12 +130,12 @@ class _Letters:
 
     def entry(self, name: str, indices: list[ast.expr]) -> str:
         """Return the TeX of a letter with indices; the first one of x is a particle's, a second one stands above."""
-        first, *others = map(self.tex, indices)
+        example, *alternatives = map(self.tex, indices)
         if name == "x":
-            return f"{self.letter(name, bold=not others)}_{{{first}}}" + "".join(
-                f"^{{{exponent}}}" for exponent in others
+            return f"{self.letter(name, bold=not alternatives)}_{{{example}}}" + "".join(
+                f"^{{{exponent}}}" for exponent in alternatives
             )
-        return f"{self.letter(name, bold=False)}_{{{' '.join([first, *others])}}}"
+        return f"{self.letter(name, bold=False)}_{{{' '.join([example, *alternatives])}}}"
 
     def factor(self, node: ast.expr) -> str:
         """Return the TeX of a factor, a sum in brackets."""

@@ -44,11 +44,11 @@ def view(block: Equation, composer: Composer) -> EquationView:
     """Take an equation from the ledger, or number one of the report's own."""
     name, tex = (block.name, block.tex) if block.tex is not None else _entry(block.name)
     number = composer.document.numbered(name)
-    first = composer.target(name, f"eq-{slug(name)}", number)
+    is_first = composer.target(name, f"eq-{slug(name)}", number)
     if name in EQUATIONS:
-        composer.use(name, f"eq-{slug(name)}" if first else f"page-{composer.slug}", "display")
+        composer.use(name, f"eq-{slug(name)}" if is_first else f"page-{composer.slug}", "display")
     within, text = name in composer.ledger, composer.text(f"$${tex.strip()}$$")
-    return EquationView(name, number, text, block.scale, first, composer.document.entry(name), within)
+    return EquationView(name, number, text, block.scale, is_first, composer.document.entry(name), within)
 
 
 def _entry(name: str) -> tuple[str, str]:

@@ -72,16 +72,16 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
         block.at
         or next(parameter for parameter in FAMILIES["elementary"].parameters if parameter.name == "field").default
     )
-    known = _sliders(B2, B3)
+    defaults = _sliders(B2, B3)
     for name in (*block.sliders, *block.start):
-        if name not in known:
-            raise unknown("slider", name, known)
+        if name not in defaults:
+            raise unknown("slider", name, defaults)
     if any(name not in block.sliders for name in block.start):
         raise AtlasError(f"start: only what has a slider may be set, one of {', '.join(block.sliders)}.")
-    chosen = [replace(known[name], start=block.start.get(name, known[name].start)) for name in block.sliders]
+    chosen = [replace(defaults[name], start=block.start.get(name, defaults[name].start)) for name in block.sliders]
     moving = [] if block.panels == ("frequencies",) else [TIME]
-    text, free = composer.paragraphs(block.text), "omega3" in block.start
-    return ExplorerView(text, block.panels, (*chosen, *moving), (B2, B3), free)
+    text, is_free = composer.paragraphs(block.text), "omega3" in block.start
+    return ExplorerView(text, block.panels, (*chosen, *moving), (B2, B3), is_free)
 
 
 def _sliders(B2: float, B3: float) -> dict[str, Slider]:

@@ -108,19 +108,19 @@ def view(block: Figure, composer: Composer) -> FigureView:
     """Give a figure its number and take in its caption; where it could not be drawn, the view says why."""
     composer.figures += 1
     pictures = tuple(composer.document.pictures_of(block))
-    first = pictures[0]
-    caption = block.caption or marked(first.caption, EQUATIONS) or f"The recipe {first.called} failed."
-    width, height = first.size
-    shown = block.width or width
+    picture = pictures[0]
+    caption = block.caption or marked(picture.caption, EQUATIONS) or f"The recipe {picture.called} failed."
+    width, height = picture.size
+    shown_width = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
-    parameters = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
+    parameters = ", ".join(f"{name} = {value}" for name, value in picture.given.items() if value != "None")
     return FigureView(
         composer.figures,
         anchor,
         pictures,
         composer.caption(caption, anchor, f"Figure {composer.figures}"),
-        first.alt or first.failure,
-        shown,
-        height * shown / width,
+        picture.alt or picture.failure,
+        shown_width,
+        height * shown_width / width,
         composer.text(parameters, inline=True),
     )

@@ -146,6 +146,6 @@ def view_errata(_block: Errata, composer: Composer) -> ErrataView:
     """Set out the entries with a slip, the grave ones first; a note that several share is said once."""
     composer.document.errata = composer.slug
     ordered = by_grade(entries(composer, lambda _, finding: bool(finding.grade)))
-    first = {entry.finding.note: entry.name for entry in reversed(ordered)}
-    once = (entry if first[entry.finding.note] == entry.name else replace(entry, note=None) for entry in ordered)
+    is_first = {entry.finding.note: entry.name for entry in reversed(ordered)}
+    once = (entry if is_first[entry.finding.note] == entry.name else replace(entry, note=None) for entry in ordered)
     return ErrataView(tuple(once))

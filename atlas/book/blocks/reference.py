@@ -77,13 +77,13 @@ def outline(_block: Reference, _composer: Composer) -> None:
 def markdown_of_sections(docstring: str) -> str:
     """Return a numpydoc docstring as Markdown: parameters, attributes, results and errors each in a table."""
     summary, *sections = _SECTION.split(docstring)
-    parts = [markdown(summary.strip())]
+    pieces = [markdown(summary.strip())]
     for title, body in zip(sections[::2], sections[1::2], strict=True):
         if title in _TABLES:
-            parts.append(_table(title, body))
+            pieces.append(_table(title, body))
         else:
-            parts += [f"**{title}**", markdown(body.strip())]
-    return "\n\n".join(parts)
+            pieces += [f"**{title}**", markdown(body.strip())]
+    return "\n\n".join(pieces)
 
 
 def _table(title: str, body: str) -> str:

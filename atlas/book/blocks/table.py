@@ -167,7 +167,7 @@ def _view(
                 composer.text(column.head, inline=True),
                 composer.text(column.unit, inline=True) if column.unit else None,
                 bool(numbers),
-                max((room(whole) for whole, _, _ in numbers), default=0.0),
+                max((room(width) for width, _, _ in numbers), default=0.0),
                 max((room(fraction) + POWER_WIDTH * bool(power) for _, fraction, power in numbers), default=0.0),
             )
         )

@@ -46,10 +46,10 @@ def composed(
     file = find(str(name))
     report = load(file)
     check_style(style := style or report.style or None)
-    cache, wanted = Cache(cache_folder(out)), pictures(report)
+    cache, pictures_by_key = Cache(cache_folder(out)), pictures(report)
     builds = {
         FigureBuild(drawing.recipe, drawing.parameters, drawing.renderer, kinds(drawing), style, targets): drawing
-        for drawing in wanted.values()
+        for drawing in pictures_by_key.values()
         if not drawing.failure
     }
     figures.find(list(builds), cache, Sources(cache), gl.library())
@@ -57,7 +57,7 @@ def composed(
     for build in builds:
         if build.failure:
             raise AtlasError(f"the figure {build.name} failed: {build.failure}")
-    document = document_of(report, file, wanted, builds)
+    document = document_of(report, file, pictures_by_key, builds)
     return document, {picture.stem: build for build, picture in builds.items()}
 
 
@@ -87,12 +87,12 @@ def build_data(
     document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs, style=style)
     views: list[FigureView] = document.listed("figure")
     stems = {view.id: view.pictures[0].stem for view in views}
-    drawn = {
+    tables = {
         name: gzip.decompress(figures[stem].contents["csv.gz"]).decode()
         for name, stem in stems.items()
         if stem in figures
     }
-    replace(place, package(document, drawn, parquet=parquet))
+    replace(place, package(document, tables, parquet=parquet))
     return place / DESCRIPTION
 
 
@@ -130,7 +130,7 @@ def build_tex(
         for number, picture in enumerate(view.pictures, 1):
             if picture.stem in figures:
                 ((kind, content),) = figures[picture.stem].contents.items()
-                more = f"-{number}" if len(view.pictures) > 1 else ""
-                pictures[f"figures/{view.id.removeprefix('fig-')}{more}.{kind}"] = content
+                suffix = f"-{number}" if len(view.pictures) > 1 else ""
+                pictures[f"figures/{view.id.removeprefix('fig-')}{suffix}.{kind}"] = content
     replace(place, sources(document, pictures))
     return place / PAPER

@@ -68,8 +68,8 @@ class FigureBuild:
         from atlas.book.digits import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
-        where = f" for {' or '.join(self.targets)}" if self.targets else ""
-        return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "") + where
+        targets = f" for {' or '.join(self.targets)}" if self.targets else ""
+        return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "") + targets
 
     @property
     def reason(self) -> str:
@@ -129,8 +129,8 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 
     What is shaded is drawn first, for it takes longest. Raises OSError when the cache can't be written.
     """
-    wanted = sorted((one for one in figures if one.missing()), key=lambda one: one.renderer != "shaded")
-    for done, (figure, failure) in enumerate(_drawn(wanted, cache, jobs), len(figures) - len(wanted) + 1):
+    missing = sorted((one for one in figures if one.missing()), key=lambda one: one.renderer != "shaded")
+    for done, (figure, failure) in enumerate(_drawn(missing, cache, jobs), len(figures) - len(missing) + 1):
         figure.new, figure.failure = True, failure
         figure.take(cache)
         if figure.missing() and not failure:
@@ -224,9 +224,9 @@ def build_figures(
     the data of the figure, see `atlas.pictures.data`. A figure that fails does not stop the others. Raises AtlasError
     for a shaded figure that is neither PNG nor CSV.
     """
-    other = [kind for kind in formats if kind not in {"png", "csv"}]
-    if renderer == "shaded" and other:
-        raise AtlasError(f"a shaded figure is a PNG; {other[0]!r} is drawn by the vector renderer")
+    vector_kinds = [kind for kind in formats if kind not in {"png", "csv"}]
+    if renderer == "shaded" and vector_kinds:
+        raise AtlasError(f"a shaded figure is a PNG; {vector_kinds[0]!r} is drawn by the vector renderer")
     from atlas import gl
 
     cache = Cache(cache_folder(out))
@@ -296,5 +296,5 @@ def _costs(figure: FigureBuild) -> dict[str, Any]:
     """Return the record of one figure; from the cache, with its cost when it was drawn."""
     if figure.failure:
         return {"scene": figure.name, "from": "failed", "reason": figure.failure}
-    drawn = "drawn" if figure.new else "cache"
-    return {"scene": figure.name, "from": drawn, "reason": figure.reason, **figure.facts["cost"]}
+    origin = "drawn" if figure.new else "cache"
+    return {"scene": figure.name, "from": origin, "reason": figure.reason, **figure.facts["cost"]}

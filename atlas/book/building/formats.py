@@ -48,8 +48,8 @@ _SCRIPT = re.compile(r'<script src="([^"]+)" defer></script>\n?')
 def set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
     """Set the texts of a document; those that were set before are in the cache."""
     # pages of one object have most of their texts in common
-    which = "a page" if len(document.pages) == 1 else document.report.name
-    name = f"texts of {which} by {sources.closure([PACKAGE / 'book' / 'texts.py'])}"
+    group = "a page" if len(document.pages) == 1 else document.report.name
+    name = f"texts of {group} by {sources.closure([PACKAGE / 'book' / 'texts.py'])}"
     document.texts.memory = cache.load(name)
     document.set(*dict.fromkeys(LANGUAGES[form] for form in formats))
     cache.save(name, document.texts.used)
@@ -72,16 +72,16 @@ def _pages(
 
     code = sources.closure([PACKAGE / "book" / "fonts.py"])
     pages = html.pages(document)
-    drawn = {
+    contents = {
         name: figure.contents[kind]
         for figure, picture in figures.items()
         for kind, name in (*picture.files.items(), *picture.beside.items())
     }
-    files = {name: page.encode() for name, page in pages.items()} | drawn
+    files = {name: page.encode() for name, page in pages.items()} | contents
     cutting = sources.closure([PACKAGE / "book" / "html.py"])
     if len(cards := html.cards(document)) > 1:
         for card in cards:
-            png = drawn[card.figure.pictures[0].files["png"]]
+            png = contents[card.figure.pictures[0].files["png"]]
             files[card.file] = cache.recall(
                 digest("card", cutting, png, card.cut), partial(html.thumbnail, png, card.cut)
             )
@@ -116,9 +116,9 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
 
     page = files[INDEX].decode()
     style = re.sub(r'url\("?([^")]+)"?\)', lambda matched: f'url("{data(matched[1])}")', files["style.css"].decode())
-    first = _SCRIPT.findall(page)
-    later = [file for file in files if file.endswith(".js") and file not in first]
-    scripts = {file: _inline(files[file].decode()) for file in (*later, *first)}
+    sources = _SCRIPT.findall(page)
+    later = [file for file in files if file.endswith(".js") and file not in sources]
+    scripts = {file: _inline(files[file].decode()) for file in (*later, *sources)}
     scripts |= {"index.js": scripts["index.js"].replace(f'"{INDEX}"', '""')}
     page = _SCRIPT.sub("", page)
     page = page.replace('<link rel="stylesheet" href="style.css">', f"<style>\n{style}</style>")
@@ -129,7 +129,7 @@ def single(files: Mapping[str, bytes], name: str) -> bytes:
     page = re.sub(r'(src|srcset)="(figures/[^"]+\.(?:svg|png))"', lambda x: f'{x[1]}="{data(x[2])}"', page)
     page = re.sub(rf'href="{INDEX}(#[^"]*)?"', lambda matched: f'href="{matched[1] or "#page-index"}"', page)
     page = page.replace(f'href="../{name}.pdf"', f'href="{name}.pdf"')
-    run = [HANDED_OVER, *(scripts[file] for file in first)]
+    run = [HANDED_OVER, *(scripts[file] for file in sources)]
     blocks = [f'<script type="text/plain" data-file="{file}">{scripts[file]}</script>' for file in later]
     blocks += [f"<script>{text}</script>" for text in run]
     page = page.replace("</body>", "\n".join([*blocks, "</body>"]))

@@ -84,8 +84,8 @@ def _work(out: Path) -> Iterator[Path]:
     """Yield a folder to write to, on the disk of `out`, under a lock; files of a killed process are removed."""
     out.mkdir(parents=True, exist_ok=True)
     with files.turn(out):
-        for left in out.glob(f"{UNFINISHED}*"):
-            shutil.rmtree(left, ignore_errors=True)
+        for remaining in out.glob(f"{UNFINISHED}*"):
+            shutil.rmtree(remaining, ignore_errors=True)
         work = Path(mkdtemp(dir=out, prefix=UNFINISHED))
         try:
             yield work

@@ -160,11 +160,11 @@ def _stress() -> dict[str, Data]:
 
     limits = {name: ulps for family in FAMILIES.values() for name, ulps in family.promises.items()}
     record = json.loads((folder("reports") / "data" / "worst_errors.json").read_text(encoding="utf-8"))
-    worst = record["worst"]
-    order = [*(name for name in limits if name in worst), *(name for name in worst if name not in limits)]
+    errors = record["worst"]
+    order = [*(name for name in limits if name in errors), *(name for name in errors if name not in limits)]
     rows: list[tuple[str | Number, ...]] = []
     for name in order:
-        ulps, regime = worst[name]
+        ulps, regime = errors[name]
         broken = "**limit exceeded:** " if ulps > limits.get(name, math.inf) else ""
         limit = Number(f"{limits[name]:g}") if name in limits else "none"
         rows.append((title(name), _ulps(ulps), limit, broken + title(regime) if ulps > MIN_ULPS else ""))
@@ -203,15 +203,15 @@ def _tex(letter: str, index: str, power: str) -> str:
     """Return a letter with its index, or a power of ten."""
     if power:
         return f"10^{{{power}}}"
-    shown = _NAMED.get(letter, f"\\{letter}" if len(letter) > 1 else letter)
-    return f"{shown}_{{{index}}}" if len(index) > 1 else f"{shown}_{index}" if index else shown
+    text = _NAMED.get(letter, f"\\{letter}" if len(letter) > 1 else letter)
+    return f"{text}_{{{index}}}" if len(index) > 1 else f"{text}_{index}" if index else text
 
 
-def _ulps(worst: float) -> Number:
+def _ulps(error: float) -> Number:
     """Write an error in ulps; one beyond all bounds with its power of ten."""
-    if not worst:
+    if not error:
         return Number("0")
-    return Number(f"{worst:.3f}" if worst < MAX_PLAIN else f"{worst:.1e}")
+    return Number(f"{error:.3f}" if error < MAX_PLAIN else f"{error:.1e}")
 
 
 def _three(value: float | None) -> str | Number:
@@ -233,28 +233,28 @@ def described() -> dict[str, Described]:
     return {name: _described(getattr(atlas, name), _members(getattr(atlas, name))) for name in names}
 
 
-def _members(thing: Any) -> Mapping[str, Described]:
+def _members(owner: Any) -> Mapping[str, Described]:
     """Return the members of a class that have a docstring of ours, its own first."""
     members: dict[str, Described] = {}
-    for cls in inspect.getmro(thing) if inspect.isclass(thing) else ():
+    for cls in inspect.getmro(owner) if inspect.isclass(owner) else ():
         for name, member in vars(cls).items() if cls.__module__.startswith("atlas") else ():
-            called = not hasattr(member, "fget") and not hasattr(member, "func")  # no property, no cached property
+            is_callable = not hasattr(member, "fget") and not hasattr(member, "func")  # no property, no cached property
             inner = (getattr(member, attribute, None) for attribute in ("fget", "func", "__func__"))
             code = next(filter(None, inner), member)
             if not name.startswith("_") and inspect.isfunction(code) and name not in members:
-                members[name] = _described(code, {}, called=called)
+                members[name] = _described(code, {}, is_callable=is_callable)
     return members
 
 
-def _described(thing: Any, members: Mapping[str, Described], *, called: bool = True) -> Described:
-    return Described(_arguments(thing) if called else "", inspect.getdoc(thing) or "", members)
+def _described(member: Any, members: Mapping[str, Described], *, is_callable: bool = True) -> Described:
+    return Described(_arguments(member) if is_callable else "", inspect.getdoc(member) or "", members)
 
 
-def _arguments(thing: Any) -> str:
+def _arguments(member: Any) -> str:
     """Return the arguments of a class or function with their defaults, as text; empty for an exception."""
-    if inspect.isclass(thing) and issubclass(thing, BaseException):
+    if inspect.isclass(member) and issubclass(member, BaseException):
         return ""
-    signature = inspect.signature(thing)
+    signature = inspect.signature(member)
     plain = [
         parameter.replace(annotation=inspect.Parameter.empty)
         for name, parameter in signature.parameters.items()

@@ -86,8 +86,8 @@ def build_report(
         unchanged = None if key is None else _unchanged(file.stem, out, formats, cache, key)
         return unchanged or _build(file, out, formats, style, jobs, cache, sources, key, progress)
     except OSError as error:
-        where = f": {error.filename}" if error.filename else ""
-        raise OSError(f"the build in {out} stopped: {error.strerror or error}{where}.") from error
+        place = f": {error.filename}" if error.filename else ""
+        raise OSError(f"the build in {out} stopped: {error.strerror or error}{place}.") from error
 
 
 def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
@@ -95,15 +95,17 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     from atlas import gl
 
     text = file.read_bytes()
-    near = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
-    beside = (path for path in near if os.fsencode(path.name) in text or (b"gallery" in text and path.suffix == ".py"))
-    code = [PACKAGE / "book" / "building" / "report.py", *folder("figures").glob("*.py"), *beside]
+    neighbours = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
+    sources_beside = (
+        path for path in neighbours if os.fsencode(path.name) in text or (b"gallery" in text and path.suffix == ".py")
+    )
+    code = [PACKAGE / "book" / "building" / "report.py", *folder("figures").glob("*.py"), *sources_beside]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
     related = [find(name) for name in related_to(file)]
-    parts = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
+    content = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
     sources.save()
-    return digest(parts, sources.named(style), sys.version_info[:2], versions(), gl.library())
+    return digest(content, sources.named(style), sys.version_info[:2], versions(), gl.library())
 
 
 def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
@@ -111,7 +113,7 @@ def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: 
     last = cache.load(_noted(name, out))
     for form in formats:
         record = last.get(form, {"key": None})
-        if record["key"] != key or any(digest_of(out / file) != there for file, there in record["files"].items()):
+        if record["key"] != key or any(digest_of(out / file) != digest for file, digest in record["files"].items()):
             return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
     return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
@@ -210,8 +212,8 @@ def outlines(report: "Report") -> "dict[str, Document]":
     from atlas.book.load import load
     from atlas.book.pictures import pictures
 
-    beside = (load(find(name)) for name in report.related)
-    return {other.name: compose(other, pictures(other), outline=True) for other in beside}
+    related = (load(find(name)) for name in report.related)
+    return {document.name: compose(document, pictures(document), outline=True) for document in related}
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:
@@ -250,12 +252,12 @@ def _figures(
     """
     from atlas.book.building.figures import FigureBuild
 
-    shown = ("csv.gz", "narrow", "scene", "moves") if {"html", "single"} & set(formats) else ()
+    html_kinds = ("csv.gz", "narrow", "scene", "moves") if {"html", "single"} & set(formats) else ()
 
     def kinds(key: str, renderer: str) -> tuple[str, ...]:
         if renderer == "shaded" and library:
-            return "png", *shown
-        return *(("svg",) if shown else ()), "pdf", *(("png",) if key in cards else ()), *shown
+            return "png", *html_kinds
+        return *(("svg",) if html_kinds else ()), "pdf", *(("png",) if key in cards else ()), *html_kinds
 
     return {
         FigureBuild(picture.recipe, picture.parameters, picture.renderer, kinds(key, picture.renderer), style): picture

@@ -66,19 +66,19 @@ def _draw(task: Task) -> None:
     target = suited(scene, [find(name) for name in task.targets]) if task.targets else None
     with cache.temporary() as folder:
         paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind in FORMATS}
-        small, drawn = narrowed(scene), {}
+        small, files = narrowed(scene), {}
         if paths:
             kinds = {path: kind for kind, path in paths.items()}
-            drawn[scene] = save(scene, kinds, task.renderer, task.style, target)
+            files[scene] = save(scene, kinds, task.renderer, task.style, target)
         if "narrow" in task.keys:
             paths["narrow"] = folder / "narrow"
             paths["narrow"].touch()
             if small:
                 kind = "png" if renderer == "shaded" else "svg"
-                drawn[small] = save(small, {paths["narrow"]: kind}, renderer, task.style)
+                files[small] = save(small, {paths["narrow"]: kind}, renderer, task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
-    whole = not target and {*drawn} >= {version for version in (scene, small) if version}
-    figures = list(drawn.values()) if whole else []
+    figure = not target and {*files} >= {version for version in (scene, small) if version}
+    figures = list(files.values()) if figure else []
     contents |= _beside(task, scene, figures)
     facts = {
         "title": scene.title,

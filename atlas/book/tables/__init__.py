@@ -30,10 +30,10 @@ def compute(name: str, request: Request) -> Data:
     """Compute a table. Raises AtlasError for a table that there is not, and for a parameter that does not fit it."""
     if name not in TABLES:
         raise unknown("table", name, TABLES)
-    wanted = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
-    if not wanted.keys() - {"request"}:
+    arguments = {argument: kind for argument, kind in get_annotations(TABLES[name]).items() if argument != "return"}
+    if not arguments.keys() - {"request"}:
         _given(StrictStruct, request)  # no further parameters
-    return TABLES[name](**{argument: _given(kind, request) for argument, kind in wanted.items()})
+    return TABLES[name](**{argument: _given(kind, request) for argument, kind in arguments.items()})
 
 
 def _given(kind: type, request: Request) -> Any:

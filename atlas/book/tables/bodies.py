@@ -38,13 +38,13 @@ class SizeParameters(StrictStruct, frozen=True):
     magnet: float
 
 
-def sizes(asked: SizeParameters) -> Data:
+def sizes(setup: SizeParameters) -> Data:
     """Return charge, charge-to-mass ratio and Larmor's frequency of balls that hold all that their surface bears."""
-    _check(asked)
+    _check(setup)
     rows = []
-    for r in asked.radii:
-        e, mu = greatest_charge(r, asked.surface_field), greatest_ratio(r, asked.density, asked.surface_field)
-        b = cyclotron_frequency(mu, asked.magnet) / 2
+    for r in setup.radii:
+        e, mu = greatest_charge(r, setup.surface_field), greatest_ratio(r, setup.density, setup.surface_field)
+        b = cyclotron_frequency(mu, setup.magnet) / 2
         values = (r, e, e / ELEMENTARY_CHARGE, mu, b, 2 * pi / b)
         warmth = moment_of_inertia(e / mu, r) * b * b / BOLTZMANN
         rows.append(tuple(map(two, (*values, off_the_field(b), warmth))))
@@ -60,8 +60,8 @@ def sizes(asked: SizeParameters) -> Data:
             (r"$I_2b^2/k_{\mathrm{B}}$", "K"),
         ),
         tuple(rows),
-        f"Balls of {asked.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
-        f"{two(asked.surface_field).tex()} V m$^{{-1}}$ allows, in {asked.magnet:g} T: charge, charge-to-mass ratio, "
+        f"Balls of {setup.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
+        f"{two(setup.surface_field).tex()} V m$^{{-1}}$ allows, in {setup.magnet:g} T: charge, charge-to-mass ratio, "
         r"Larmor's frequency and its period; the angle $\delta$ between $\mathbf{m}$ and $\mathbf{B}$ for "
         f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$; and the temperature whose "
         "heat turns the ball with $b$.",
@@ -69,14 +69,14 @@ def sizes(asked: SizeParameters) -> Data:
     )
 
 
-def radiation(asked: SizeParameters) -> Data:
+def radiation(setup: SizeParameters) -> Data:
     """Return how long such bodies take to radiate their energy away, by their flight and by their rotation."""
-    _check(asked)
+    _check(setup)
     rows = []
-    for r in asked.radii:
-        mu = greatest_ratio(r, asked.density, asked.surface_field)
-        mass = greatest_charge(r, asked.surface_field) / mu
-        larmor = cyclotron_frequency(mu, asked.magnet) / 2
+    for r in setup.radii:
+        mu = greatest_ratio(r, setup.density, setup.surface_field)
+        mass = greatest_charge(r, setup.surface_field) / mu
+        larmor = cyclotron_frequency(mu, setup.magnet) / 2
         inertia = moment_of_inertia(mass, r)
         energy = inertia * larmor * larmor / 2
         times = (
@@ -115,9 +115,9 @@ def off_the_field(b: float) -> float:
     return abs(atan2(omega2 * B3 - third * B2, omega2 * B2 + third * B3))
 
 
-def _check(asked: SizeParameters) -> None:
+def _check(setup: SizeParameters) -> None:
     """Refuse parameters that are not all positive."""
-    if not (asked.radii and min(*asked.radii, asked.density, asked.surface_field, asked.magnet) > 0):
+    if not (setup.radii and min(*setup.radii, setup.density, setup.surface_field, setup.magnet) > 0):
         raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
 
 
@@ -158,24 +158,24 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
     density: float
 
 
-def magnetised(case: BodyAndField, asked: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
+def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
     """Return the title of a body, the body, and the factor of nu^2 in the energy of its own magnetism."""
     record, body = case.body_record, case.body
     if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
         raise AtlasError("this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio.")
-    field, volume = float(hypot(*case.physical.B)), record.mass / asked.density
-    return record.title, body, diamagnetic_energy(asked.susceptibility, volume, field, record.shape)
+    field, volume = float(hypot(*case.physical.B)), record.mass / setup.density
+    return record.title, body, diamagnetic_energy(setup.susceptibility, volume, field, record.shape)
 
 
-def diamagnetism(request: Request, asked: DiamagnetismParameters) -> Data:
+def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
     """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
-    if asked.density <= 0:
+    if setup.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
-        title, body, own = magnetised(case, asked)
+        title, body, magnetisation = magnetised(case, setup)
         by_charge = (body.I3 - body.I2) * hypot(*case.components) ** 2 / 2
-        rows.append((title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
+        rows.append((title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, magnetisation))))
     return Data(
         heads(
             "Body",
@@ -184,7 +184,7 @@ def diamagnetism(request: Request, asked: DiamagnetismParameters) -> Data:
         ),
         tuple(rows),
         r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with "
-        rf"a susceptibility $\chi_m$ of {Number(f'{asked.susceptibility:.1e}').tex()} and {asked.density:g} "
+        rf"a susceptibility $\chi_m$ of {Number(f'{setup.susceptibility:.1e}').tex()} and {setup.density:g} "
         "kg m$^{-3}$.",
         (r"Two digits of doubles, not proven: $\chi_m$ is known no better, and $\Delta N$ is that of a thin wall.",),
     )
@@ -206,18 +206,18 @@ class CoatParameters(StrictStruct, frozen=True):
     coats: tuple[Coat, ...]
 
 
-def coats(asked: CoatParameters) -> Data:
+def coats(setup: CoatParameters) -> Data:
     """Return the gyromagnetic factors of bodies whose charge is not spread like the mass, in units of e/m."""
     rows: list[tuple[str | Number, ...]] = []
-    for coat in asked.coats:
+    for coat in setup.coats:
         body = from_shape(coat.mass, mass=1.0, **coat.dimensions)
         charges = ChargeMoments.shape(
             cast("ShapeName", coat.charge), 1.0, **(coat.charge_dimensions or coat.dimensions)
         )
         I2, I3 = float(body.I2), float(body.I3)
-        across, along = charges.J2 / I2, charges.J3 / I3
-        A = (along * charges.J3 - across * charges.J2) / I2
-        values = (I3 / I2, across, along, across - along, A)
+        factor_across, factor_along = charges.J2 / I2, charges.J3 / I3
+        A = (factor_along * charges.J3 - factor_across * charges.J2) / I2
+        values = (I3 / I2, factor_across, factor_along, factor_across - factor_along, A)
         rows.append((coat.name, *(Number(f"{value + 0.0:.3f}") for value in values)))
     return Data(
         heads("Body", "$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$"),
@@ -229,17 +229,17 @@ def coats(asked: CoatParameters) -> Data:
     )
 
 
-def swings(request: Request, asked: DiamagnetismParameters) -> Data:
+def swings(request: Request, setup: DiamagnetismParameters) -> Data:
     """Return how bodies at rest in Larmor's frame swing there: by their charge alone, and magnetised too."""
     from atlas.motions.nutation.kernel_top import TopMotion
 
     rows: list[tuple[str | Number, ...]] = []
     for case in request.cases:
-        title, body, own = magnetised(case, asked)
+        title, body, potential = magnetised(case, setup)
         I2, I3, (B2, B3) = float(body.I2), float(body.I3), case.components
         b = hypot(B2, B3)
         periods, rates = [], []
-        for quadratic in (0.0, 2 * own):
+        for quadratic in (0.0, 2 * potential):
             top = TopMotion((I2, I3), (b * I2, b * I3), (B2, B3), (0.0, -B2, -B3), 0.0, quadratic)
             rates.append(sqrt(abs((I3 - I2) * b * b + quadratic) / I2))
             # a ball is free but for the rounding of its coupling
@@ -252,8 +252,8 @@ def swings(request: Request, asked: DiamagnetismParameters) -> Data:
             "Body",
             (r"$2\pi/b$", "s"),
             *(
-                (f"{head}, {what}", unit)
-                for what in ("charge alone", "magnetised")
+                (f"{head}, {words}", unit)
+                for words in ("charge alone", "magnetised")
                 for head, unit in ((r"$\sqrt{\lvert A\rvert}$", RATE), ("$T$", "s"))
             ),
             r"quotient of both $\lvert A\rvert$",
@@ -261,7 +261,7 @@ def swings(request: Request, asked: DiamagnetismParameters) -> Data:
         tuple(rows),
         r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "
         r"Larmor's period, the rate $\sqrt{\lvert A\rvert}$ of small swings of the axis and the period $T$ of its "
-        rf"inclination, with the charge alone and with $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:]}.",
+        rf"inclination, with the charge alone and with $\chi_m={Number(f'{setup.susceptibility:.1e}').tex()[1:]}.",
         ("Three digits of doubles, not proven; the ball does not swing.",),
     )
 

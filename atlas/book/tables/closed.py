@@ -15,15 +15,15 @@ PRINTED_DIGITS = 12
 """Digits that a double has for certain, and some to spare."""
 
 
-def closed(request: Request, thing: Thing) -> Data:
+def closed(request: Request, item: Thing) -> Data:
     """Give the best fractions p/q of phi/k and the closed motion of each, or of the turns in one nutation.
 
     Raises DomainError for a motion that does not turn, and where no fraction is told from the number itself.
     """
     from flint import arb, fmpq
 
-    elementary = thing.family.takes("omega2")
-    exact = thing.balls()
+    elementary = item.family.takes("omega2")
+    exact = item.balls()
     if elementary and exact.k == 0:
         raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
     if not elementary and exact.kind == "free body":
@@ -37,11 +37,11 @@ def closed(request: Request, thing: Thing) -> Data:
         raise DomainError("The turns in one nutation are a whole number, as far as can be told: each one closes.")
     misses = [quantity(value - fmpq(p, q), 2) for p, q in fractions]
     if elementary:
-        return _elementary(thing, value, fractions, misses, request.digits)
+        return _elementary(item, value, fractions, misses, request.digits)
     period = certified(lambda: exact.period, request.digits)
     times = column([q * period for _, q in fractions], request.digits)
     return Data(
-        heads("Turns", "Nutations", ("Time", thing.unit("time")), "Turns a nutation, less the fraction"),
+        heads("Turns", "Nutations", ("Time", item.unit("time")), "Turns a nutation, less the fraction"),
         tuple(
             (Number(str(p)), Number(str(q)), time, miss)
             for (p, q), time, miss in zip(fractions, times, misses, strict=True)
@@ -51,11 +51,11 @@ def closed(request: Request, thing: Thing) -> Data:
     )  # fmt: skip
 
 
-def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
+def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
     """Give the closed motion of each fraction that has one."""
     from atlas.motions.elementary.closed import ClosedMotion
 
-    ratio, field, omega2, *_ = thing.floats
+    ratio, field, omega2, *_ = item.floats
     rows = []
     for (p, q), miss in zip(fractions, misses, strict=True):
         try:
@@ -69,11 +69,11 @@ def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: i
         rows.append((f"${p}/{q}$", *shown, miss))
     if not rows:
         raise DomainError("No closed motion of the hyperbola (67) lies near.")
-    rate = thing.unit("1/time")
+    rate = item.unit("1/time")
     return Data(
         heads(
             r"$\phi/k$", (r"$\omega_2$", rate), (r"$\omega_2$ less that of this motion", rate),
-            ("Closes after", thing.unit("time")), r"$\phi/k$ less the fraction",
+            ("Closes after", item.unit("time")), r"$\phi/k$ less the fraction",
         ),
         tuple(rows),
         rf"The nearest closed motions, @theorem-closed: best fractions of $\phi/k$ = "
@@ -93,14 +93,14 @@ def convergents(value: Any) -> Iterator[tuple[int, int]]:
         return
     before, now = (0, 1), (1, 0)
     for _ in range(MAX_FRACTIONS):
-        whole = value.floor().unique_fmpz()
-        if whole is None:
+        quotient = value.floor().unique_fmpz()
+        if quotient is None:
             return
-        before, now = now, (int(whole) * now[0] + before[0], int(whole) * now[1] + before[1])
+        before, now = now, (int(quotient) * now[0] + before[0], int(quotient) * now[1] + before[1])
         if now[1] > MAX_DENOMINATOR:
             return
         yield now
-        value = value - whole
+        value = value - quotient
         if value.contains(0):
             return
         value = 1 / value
@@ -113,11 +113,11 @@ class CompanionParameters(StrictStruct, frozen=True):
     motions: tuple[tuple[float, float, float], ...]
 
 
-def companions(request: Request, asked: CompanionParameters) -> Data:
+def companions(request: Request, setup: CompanionParameters) -> Data:
     """Return the angles between axis and field of the steady precessions and where their companions turn back."""
-    angles_of_each = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
+    angles_of_each = certified(lambda: [angles(setup.ratio, *motion) for motion in setup.motions], request.digits)
     columns = [column(values, request.digits) for values in zip(*angles_of_each, strict=True)]
-    given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in asked.motions]
+    motions = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in setup.motions]
     return Data(
         heads(
             (r"$\mathbf{B}'$", RATE),
@@ -127,8 +127,8 @@ def companions(request: Request, asked: CompanionParameters) -> Data:
             (r"$\theta_+$", "degrees"),
             (r"$\theta_-$", "degrees"),
         ),
-        tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
-        f"Steady precessions of a body with $I={plain(asked.ratio)}$ that others leave and come back to: the angle "
+        tuple((*first, *others) for first, others in zip(motions, zip(*columns, strict=True), strict=True)),
+        f"Steady precessions of a body with $I={plain(setup.ratio)}$ that others leave and come back to: the angle "
         r"$\theta$ between axis and field, the rate $\sqrt c$ at which a push grows, and the angles $\theta_\pm$ at "
         r"which the companions turn, @theorem-companion-range.",
     )

@@ -64,17 +64,17 @@ def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
     from atlas.surfaces.certified import Quadric
 
     q = Quadric(case.exact, case.components)
-    first = [
+    sheet = [
         Quantity("ratio of the moments @(33)", "$I=I_3/I_2$", certified(lambda: q.I, digits)),
         Quantity("quadric @(51)", "", q.kind),
     ]
     if q.B2 == 0 or q.B3 == 0:
-        return first
+        return sheet
     beta, turn, a2, a3, axes, centre = certified(
         lambda: (q.beta, arb(q.beta) / 2 + arb.pi() / 4, q.a2, q.a3, q.semi_axes, q.centre), digits
     )
     return [
-        *first,
+        *sheet,
         Quantity(r"angle from $\mathbf{e}_2$ to $\mathbb{I}^{-1}\mathbf{B}'$", r"$\beta$", beta, "rad"),
         Quantity(r"angle from $\mathbf{e}_2$ to the axis of $\omega'_2$", r"$\beta/2+\pi/4$", turn, "rad"),
         Quantity("coefficient of @(54)", "$a_2$", a2),
@@ -90,7 +90,7 @@ class PointsParameters(StrictStruct, frozen=True):
     omega2: tuple[float, ...] = ()
 
 
-def points(request: Request, asked: PointsParameters) -> Data:
+def points(request: Request, setup: PointsParameters) -> Data:
     """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
     from atlas.arithmetic.certified_inputs import rational
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
@@ -99,12 +99,12 @@ def points(request: Request, asked: PointsParameters) -> Data:
     B2 = Fraction(request.case.components[0])
     I = Fraction(int(h.I.p), int(h.I.q))
     chosen: dict[Any, list[str]] = {}
-    left_out = [f"$\\omega_2={plain(value)}$" for value in asked.omega2 if value == -B2]
+    left_out = [f"$\\omega_2={plain(value)}$" for value in setup.omega2 if value == -B2]
     for name, omega2 in (
         ("at rest", Fraction(0)),
         (r"$\phi=0$", -2 * B2),
         (r"$\omega_3=0$", -(2 - I) * B2),
-        *(("", Fraction(value)) for value in asked.omega2),
+        *(("", Fraction(value)) for value in setup.omega2),
     ):
         if omega2 + B2 != 0:
             chosen.setdefault(Fraction(omega2), []).append(name)
@@ -160,22 +160,22 @@ class Samples(StrictStruct, frozen=True):
     omega3: float | None = None
 
 
-def motion(request: Request, asked: Motion) -> Data:
+def motion(request: Request, setup: Motion) -> Data:
     """List initial data, frequencies, stability and integrals of the motion that starts with `omega2`."""
-    columns, rows = side_by_side(request, [of_motion(case, asked, request.digits) for case in request.cases])
+    columns, rows = side_by_side(request, [of_motion(case, setup, request.digits) for case in request.cases])
     return Data(
         columns,
         rows,
-        rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
+        rf"The motion with $\omega_2={plain(setup.omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
     )
 
 
-def of_motion(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
+def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
     """Return the quantities of a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
-    motion = ElementaryMotion(case.exact, case.components, asked.omega2, asked.omega3)
+    motion = ElementaryMotion(case.exact, case.components, setup.omega2, setup.omega3)
     k, invariants = certified(lambda: (motion.k, motion.invariants), digits)
     squared, nutation = r"s$^{-2}$", []
     if motion.case in {"precession", "at rest"}:
@@ -198,34 +198,34 @@ def of_motion(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
     ]
 
 
-def samples(request: Request, asked: Samples) -> Data:
+def samples(request: Request, setup: Samples) -> Data:
     """Omega(t), (73), and the third axis of the body R_3(t), (84), at some `times`."""
     from atlas.motions.elementary.certified import ElementaryMotion
 
-    motion = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
+    motion = ElementaryMotion(request.case.exact, request.case.components, setup.omega2, setup.omega3)
     values = certified(
-        lambda: [(*motion.angular_velocity(t), *motion.third_axis(t)) for t in asked.times], request.digits
+        lambda: [(*motion.angular_velocity(t), *motion.third_axis(t)) for t in setup.times], request.digits
     )
     columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads(
             ("$t$", "s"), *((rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)), *((rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3))
         ),
-        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
-        rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
+        tuple(zip(map(Number.as_given, setup.times), *columns, strict=True)),
+        rf"The motion with $\omega_2={plain(setup.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
         r"@(73), and the body's axis in the laboratory, the third column of @(84).",
     )
 
 
-def sheet(request: Request, asked: Motion) -> Data:
+def sheet(request: Request, setup: Motion) -> Data:
     """List what the tables `quadric` and `motion` have, for the motion that starts with `omega2`."""
     columns, rows = side_by_side(
         request,
-        [[*of_quadric(case, request.digits), *of_motion(case, asked, request.digits)] for case in request.cases],
+        [[*of_quadric(case, request.digits), *of_motion(case, setup, request.digits)] for case in request.cases],
     )
     return Data(
         columns,
         rows,
         f"Data sheet of {titled(request)}: the quadric of initial data, @(51) to @(57), and the motion that starts "
-        rf"with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$.",
+        rf"with $\omega_2={plain(setup.omega2)}$ s$^{{-1}}$.",
     )

@@ -38,8 +38,8 @@ def _rows(family: Family) -> Iterator[Row]:
     for q in family.quantities:
         yield _names(q.names or (q.name,)), q.says, q.unit, cited(q.equation), _promise(family, q.checked)
     for s in family.sampled:
-        first, *_, last = s.columns
-        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, cited(s.equation), _promise(family, s.checked)
+        start, *_, end = s.columns
+        yield f"`{start}` ... `{end}`", f"{s.says} at `t`", s.unit, cited(s.equation), _promise(family, s.checked)
 
 
 def _names(names: tuple[str, ...]) -> str:

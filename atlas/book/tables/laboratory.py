@@ -53,13 +53,13 @@ class Dipole(StrictStruct, frozen=True):
         return self.dipole * 1e-6 * ELEMENTARY_CHARGE * self.field
 
 
-def levitated(asked: Dipole) -> Data:
+def levitated(setup: Dipole) -> Data:
     """Return nutation and precession of a ball with a dipole, beside what is expected of small and of fast turns."""
     rows: list[tuple[str | Number, ...]] = []
-    for spin in asked.spins:
-        motion = asked.motion(spin)
+    for spin in setup.spins:
+        motion = setup.motion(spin)
         I = motion.inertia[0]
-        small, slow = sqrt(asked.energy / I) / (2 * pi), -asked.energy / (I * 4 * pi**2 * spin) if spin else 0.0
+        small, slow = sqrt(setup.energy / I) / (2 * pi), -setup.energy / (I * 4 * pi**2 * spin) if spin else 0.0
         frequencies = 1 / float(motion.period), _precession(motion) / (2 * pi)
         rows.append((Number(f"{spin:g}"), *map(_three, (frequencies[0], small, frequencies[1], slow))))
     return Data(
@@ -68,8 +68,8 @@ def levitated(asked: Dipole) -> Data:
             ("Precession", "Hz"), (r"$-dE/4\pi^2I\,\text{spin}$", "Hz"),
         ),
         tuple(rows),
-        rf"A ball of the radius {asked.radius * 1e6:g} µm and {asked.density:g} kg m$^{{-3}}$ with a dipole of "
-        rf"{asked.dipole:g} $e$ µm, which starts {asked.inclination:g} rad off a field of {asked.field / 1e3:g} kV/m "
+        rf"A ball of the radius {setup.radius * 1e6:g} µm and {setup.density:g} kg m$^{{-3}}$ with a dipole of "
+        rf"{setup.dipole:g} $e$ µm, which starts {setup.inclination:g} rad off a field of {setup.field / 1e3:g} kV/m "
         "and spins about it: the frequencies of the motion, beside those of small librations and of a fast spin.",
         (
             (
@@ -93,35 +93,35 @@ class Lines(Dipole, frozen=True):
     least: float = 1e-3
 
 
-def lines(asked: Lines) -> Data:
+def lines(setup: Lines) -> Data:
     """Return the lines of the axis for each spin with the numbers they are made of, and how far they move a component.
 
     A line a exp(i f t) and its conjugate at -f draw an ellipse, whose larger semi-axis is twice the largest singular
     value of (Re a, Im a); the mean has no conjugate.
     """
     rows: list[tuple[str | Number, ...]] = []
-    for spin in asked.spins:
-        spectrum = asked.motion(spin).spectrum("axis", least=asked.least)
-        for f, amplitude, whole in zip(spectrum.frequencies, spectrum.amplitudes, spectrum.combinations, strict=True):
+    for spin in setup.spins:
+        spectrum = setup.motion(spin).spectrum("axis", least=setup.least)
+        for f, amplitude, total in zip(spectrum.frequencies, spectrum.amplitudes, spectrum.combinations, strict=True):
             if f < 0:
                 continue
-            parts = [f"{n:+d} {name}" for name, n in zip(spectrum.names, whole.tolist(), strict=True) if n]
-            n = np.array([0.0, np.sin(asked.inclination), np.cos(asked.inclination)])
+            components = [f"{n:+d} {name}" for name, n in zip(spectrum.names, total.tolist(), strict=True) if n]
+            n = np.array([0.0, np.sin(setup.inclination), np.cos(setup.inclination)])
             parts_of_line = amplitude - (amplitude @ n) * n, np.atleast_1d(amplitude @ n)
             sizes = [(1 + (f > 0)) * float(np.linalg.norm([a.real, a.imag], 2)) for a in parts_of_line]
-            seen = [_three(x if x > MIN_COMPONENT * asked.least else 0.0) for x in sizes]
+            visible = [_three(x if x > MIN_COMPONENT * setup.least else 0.0) for x in sizes]
             rows.append(
                 (
                     Number(f"{spin:g}"),
                     _three(f / (2 * pi)),
-                    " ".join(parts).lstrip("+").replace("-", MINUS) or "mean",
-                    *seen,
+                    " ".join(components).lstrip("+").replace("-", MINUS) or "mean",
+                    *visible,
                 )
             )
     return Data(
         heads(("Spin", "Hz"), ("Line", "Hz"), "Turns", "across the field", "along it"),
         tuple(rows),
-        f"Lines of the axis of the ball, down to {asked.least:g} of the whole: how far each moves a component of the "
+        f"Lines of the axis of the ball, down to {setup.least:g} of the whole: how far each moves a component of the "
         "axis to either side, that component across the field which it moves most, and that along the field.",
         ("Three digits of doubles, not proven, and a dash below a thousandth of the least; of the mean its size.",),
     )  # fmt: skip
@@ -135,26 +135,26 @@ class Watch(Dipole, frozen=True):
     noise: float
 
 
-def inferred(asked: Watch) -> Data:
+def inferred(setup: Watch) -> Data:
     """Return how well the axis alone tells what the ball and its field are, by the derivatives of the motion."""
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []
-    for spin in asked.spins:
-        motion = asked.motion(spin)
-        t = np.sort(np.random.default_rng(1).uniform(0.0, asked.seconds, asked.samples))
+    for spin in setup.spins:
+        motion = setup.motion(spin)
+        t = np.sort(np.random.default_rng(1).uniform(0.0, setup.seconds, setup.samples))
         v = motion.sensitivity(t, ["linear", "I3", "n2", "n3", "omega3", "omega1", "omega2"])
         n2, n3 = motion.direction
-        turned = np.broadcast_to(np.eye(3), (t.size, 3, 3))
-        unit = sqrt(asked.energy / motion.inertia[0])
+        rotated = np.broadcast_to(np.eye(3), (t.size, 3, 3))
+        unit = sqrt(setup.energy / motion.inertia[0])
         scaled = [motion.linear * v[:, 0], n3 * v[:, 2] - n2 * v[:, 3], motion.inertia[0] * v[:, 1], 2 * pi * v[:, 4]]
-        scaled += [unit * v[:, 5], unit * v[:, 6], *np.moveaxis(turned, 1, 0)]
-        J = np.stack([np.cross(derivative, motion.column(3, t)).ravel() for derivative in scaled], -1) / asked.noise
+        scaled += [unit * v[:, 5], unit * v[:, 6], *np.moveaxis(rotated, 1, 0)]
+        J = np.stack([np.cross(derivative, motion.column(3, t)).ravel() for derivative in scaled], -1) / setup.noise
         columns.append([*_deviations(J)[:4], _deviations(np.delete(J, 2, axis=1))[2]])
     return Data(
-        heads("What", *(f"spin {spin:g} Hz" for spin in asked.spins)),
+        heads("What", *(f"spin {spin:g} Hz" for spin in setup.spins)),
         tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
-        f"Standard deviations that {asked.samples} looks at the axis within {asked.seconds:g} s, each with a noise of "
-        f"{asked.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
+        f"Standard deviations that {setup.samples} looks at the axis within {setup.seconds:g} s, each with a noise of "
+        f"{setup.noise:g} in every component, allow at best; the direction of the field and the start are unknown too.",
         ("Two digits of doubles, not proven, of first order; a dash for what the axis does not tell by itself.",),
     )
 
@@ -164,10 +164,10 @@ def _deviations(J: Any) -> list[str | Number]:
     size = np.linalg.norm(J, axis=0)
     size[size == 0] = 1.0
     _, s, V = np.linalg.svd(J / size, full_matrices=False)
-    seen = s > NOT_SEEN * s[0]
-    lost = (abs(V[~seen]) > sqrt(NOT_SEEN)).any(axis=0)
-    deviations = np.sqrt(((V[seen] / s[seen, None]) ** 2).sum(axis=0)) / size
-    return ["–" if bad else Number(f"{x:.1e}") for x, bad in zip(deviations, lost, strict=True)]
+    information = s > NOT_SEEN * s[0]
+    unseen = (abs(V[~information]) > sqrt(NOT_SEEN)).any(axis=0)
+    deviations = np.sqrt(((V[information] / s[information, None]) ** 2).sum(axis=0)) / size
+    return ["–" if bad else Number(f"{x:.1e}") for x, bad in zip(deviations, unseen, strict=True)]
 
 
 class Design(StrictStruct, frozen=True):
@@ -187,27 +187,27 @@ class Design(StrictStruct, frozen=True):
     inclination: float
 
 
-def beyond_larmor(asked: Design) -> Data:
+def beyond_larmor(setup: Design) -> Data:
     """Return the precession beyond Larmor's turn by the charge, by magnetisation and by both, and what would spoil it.
 
     All have the same momentum in Larmor's frame, that of the spin about the axis. Rates do not add: what the charge
     changes is the rate by both less that by magnetisation alone.
     """
-    along = demagnetization(asked.aspect)
+    moment_along = demagnetization(setup.aspect)
     rows: list[tuple[str | Number, ...]] = []
-    for r in asked.radii:
-        volume = 4 / 3 * pi * asked.aspect * r**3
-        mass = asked.density * volume
-        body = from_shape("spheroid", mass=mass, equatorial=r, polar=asked.aspect * r)
-        mu = 3 * ELECTRIC_CONSTANT * asked.surface_field / (asked.density * r)
-        b = mu * asked.magnet / 2
-        magnetic = -anisotropy(asked.susceptibility, volume, along) * asked.magnet**2
-        n = np.sin(asked.inclination), np.cos(asked.inclination)
+    for r in setup.radii:
+        volume = 4 / 3 * pi * setup.aspect * r**3
+        mass = setup.density * volume
+        body = from_shape("spheroid", mass=mass, equatorial=r, polar=setup.aspect * r)
+        mu = 3 * ELECTRIC_CONSTANT * setup.surface_field / (setup.density * r)
+        b = mu * setup.magnet / 2
+        magnetic = -anisotropy(setup.susceptibility, volume, moment_along) * setup.magnet**2
+        n = np.sin(setup.inclination), np.cos(setup.inclination)
         I2, I3 = float(body.I2), float(body.I3)
-        own, induced, both = (
+        magnetisation, induced, total = (
             float(TopMotion(
                 (I2, I3), (larmor * I2, larmor * I3), n,
-                (0.0, -larmor * n[0], asked.spin * b - larmor * n[1]), 0.0, quadratic,
+                (0.0, -larmor * n[0], setup.spin * b - larmor * n[1]), 0.0, quadratic,
             ).precession_rate) + larmor
             for larmor, quadratic in ((b, 0.0), (0.0, magnetic), (b, magnetic))
         )  # fmt: skip
@@ -215,21 +215,24 @@ def beyond_larmor(asked: Design) -> Data:
         offset = abs(potential) / 2 / (mass * GRAVITY)
         speed = sqrt(8 * BOLTZMANN * ROOM_TEMPERATURE / (pi * MOLECULE))
         drag = 2 * pi / 3 * MOLECULE / (BOLTZMANN * ROOM_TEMPERATURE) * speed * r**4 / I3
-        pressure = abs(both - induced) / (2 * pi) / drag
-        rates = [Number(f"{rate / (2 * pi):.7g}") if magnetic else _three(rate / (2 * pi)) for rate in (induced, both)]
-        first, last = (r, b / (2 * pi), own / (2 * pi)), ((both - induced) / (2 * pi), magnetic / potential)
-        rows.append((*map(_three, first), *rates, *map(_three, (*last, offset, pressure))))
+        pressure = abs(total - induced) / (2 * pi) / drag
+        rates = [Number(f"{rate / (2 * pi):.7g}") if magnetic else _three(rate / (2 * pi)) for rate in (induced, total)]
+        first, shares = (
+            (r, b / (2 * pi), magnetisation / (2 * pi)),
+            ((total - induced) / (2 * pi), magnetic / potential),
+        )
+        rows.append((*map(_three, first), *rates, *map(_three, (*shares, offset, pressure))))
     return Data(
         heads(
             ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("by the charge", "Hz"), ("by magnetism", "Hz"), ("by both", "Hz"),
             ("both less magnetism", "Hz"), "quotient", (r"offset $\delta$", "m"), ("pressure", "Pa"),
         ),
         tuple(rows),
-        rf"Spheroids of $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:-1]}$ and {asked.density:g} "
-        rf"kg m$^{{-3}}$, {asked.aspect:g} times as high as wide, charged to "
-        rf"{Number(f'{asked.surface_field:.0e}').tex()} V/m, in {asked.magnet:g} T: the mean precession about the "
-        rf"field beyond Larmor's turn, of a spin of ${asked.spin:g}\,b$ in Larmor's frame, "
-        rf"{asked.inclination:g} rad off the field, by the charge alone, by magnetism alone and by both; the quotient "
+        rf"Spheroids of $\chi_m={Number(f'{setup.susceptibility:.1e}').tex()[1:-1]}$ and {setup.density:g} "
+        rf"kg m$^{{-3}}$, {setup.aspect:g} times as high as wide, charged to "
+        rf"{Number(f'{setup.surface_field:.0e}').tex()} V/m, in {setup.magnet:g} T: the mean precession about the "
+        rf"field beyond Larmor's turn, of a spin of ${setup.spin:g}\,b$ in Larmor's frame, "
+        rf"{setup.inclination:g} rad off the field, by the charge alone, by magnetism alone and by both; the quotient "
         rf"of the potentials, magnetism's over the charge's; the offset $\delta$ of the centre of charge for which "
         rf"$m_0g\delta$ is as large as the charge's potential; the pressure at which the gas stops the spin within "
         "one turn of what the charge changes.",

@@ -31,19 +31,19 @@ class ParticleParameters(StrictStruct, frozen=True):
     velocity: Vector = (0.0, 0.0, 0.0)
 
 
-def particle(request: Request, asked: ParticleParameters) -> Data:
+def particle(request: Request, setup: ParticleParameters) -> Data:
     """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
     case = request.case
-    motion = exact_particle(case, asked.position, asked.velocity)
+    motion = exact_particle(case, setup.position, setup.velocity)
     unit = speed = case.units.length_unit if case.units else ""
-    values = certified(lambda: [motion.position(t) for t in asked.times], request.digits)
+    values = certified(lambda: [motion.position(t) for t in setup.times], request.digits)
     omega, drift = certified(lambda: (motion.cyclotron_frequency, list(motion.drift)), request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     frequency = column([omega], request.digits)[0].tex().strip("$")
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
     return Data(
         heads(("$t$", "s"), *((f"$y_{j}$", unit) for j in (1, 2, 3))),
-        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
+        tuple(zip(map(Number.as_given, setup.times), *columns, strict=True)),
         "The path of the particle, @(101), in the laboratory frame.",
         (
             (
@@ -62,13 +62,13 @@ class BallParameters(StrictStruct, frozen=True):
     larmor: float
 
 
-def ball(request: Request, asked: BallParameters) -> Data:
+def ball(request: Request, setup: BallParameters) -> Data:
     """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
     from atlas.motions.elementary.certified_ball import BallMotion
 
-    if asked.larmor == 0:
+    if setup.larmor == 0:
         raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
-    motion = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
+    motion = BallMotion(1, setup.larmor, (setup.omega2, setup.omega3))
     gamma, k_hat = certified(lambda: (motion.gamma, motion.k_hat), request.digits)
     rows = (
         ("initial angular velocity", r"$m_2/I_0$", motion.m2, RATE),
@@ -95,22 +95,22 @@ class FlightParameters(StrictStruct, frozen=True):
     velocity: Vector = (0.0, 0.0, 0.0)
 
 
-def flight(request: Request, asked: FlightParameters) -> Data:
+def flight(request: Request, setup: FlightParameters) -> Data:
     """Positions y_0(t) and y_N(t) = y_0(t) + R(t) x_N(0) at some `times`, in the laboratory frame of figure Lssc."""
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.particle.certified import Flight
 
     case = request.case
-    motion = exact_particle(case, asked.position, asked.velocity)
-    turning = ElementaryMotion(case.exact, case.components, asked.omega2)
-    whole = Flight(motion, turning, asked.point)
+    motion = exact_particle(case, setup.position, setup.velocity)
+    turning = ElementaryMotion(case.exact, case.components, setup.omega2)
+    path = Flight(motion, turning, setup.point)
     unit = case.units.length_unit if case.units else ""
-    values = certified(lambda: [(*motion.position(t), *whole.position(t)) for t in asked.times], request.digits)
+    values = certified(lambda: [(*motion.position(t), *path.position(t)) for t in setup.times], request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     return Data(
         heads(
             ("$t$", "s"), *((f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)), *((f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3))
         ),
-        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
+        tuple(zip(map(Number.as_given, setup.times), *columns, strict=True)),
         r"The flight of the centre of mass $\mathbf{y}_0$, @(101), and of the point $\mathbf{y}_N$ of the body.",
     )

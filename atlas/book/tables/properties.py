@@ -42,32 +42,34 @@ class Thing:
     @classmethod
     def of(cls, request: Request) -> "Thing":
         """Read the family and its parameters. Raises AtlasError for unknown or missing names."""
-        rest = dict(request.parameters)
-        name, described = rest.pop("family", None), rest.pop("given", True)
-        units = {"time": str(rest.pop("time", "time"))} | _units(rest.pop("units", None))
+        surplus = dict(request.parameters)
+        name, described = surplus.pop("family", None), surplus.pop("given", True)
+        units = {"time": str(surplus.pop("time", "time"))} | _units(surplus.pop("units", None))
         if name not in FAMILIES:
             raise unknown("family", str(name), FAMILIES)
         family, case = FAMILIES[name], request.case
-        given: dict[str, Any] = {}
+        numbers: dict[str, Any] = {}
         floats, exact = [], []
         for p in family.parameters:
             value: Any
             if p.name == "ratio":
                 value, balls = case.body, case.exact
-                given[p.name] = Number(plain(case.ratio)) if case.body_record and case.body_record.shape else case.ratio
+                numbers[p.name] = (
+                    Number(plain(case.ratio)) if case.body_record and case.body_record.shape else case.ratio
+                )
             elif p.name == "field" and not p.option:
-                value = balls = given[p.name] = case.components
+                value = balls = numbers[p.name] = case.components
             else:
-                if p.needed and p.name not in rest:
+                if p.needed and p.name not in surplus:
                     raise AtlasError(f"parameters: the family {name!r} lacks {p.name!r}.")
                 omitted = p.omitted if not p.columns else (p.omitted,) * len(p.names)
-                value = balls = rest.pop(p.name, omitted)
-                given[p.name] = value
+                value = balls = surplus.pop(p.name, omitted)
+                numbers[p.name] = value
             floats.append(value)
             exact.append(balls)
-        if rest:
-            raise unknown("parameter", next(iter(rest)), [p.name for p in family.parameters], f"of {name!r}")
-        return cls(family, given, tuple(floats), tuple(exact), units, bool(described))
+        if surplus:
+            raise unknown("parameter", next(iter(surplus)), [p.name for p in family.parameters], f"of {name!r}")
+        return cls(family, numbers, tuple(floats), tuple(exact), units, bool(described))
 
     @property
     def says(self) -> str:
@@ -88,8 +90,8 @@ class Thing:
     def unit(self, unit: str) -> str:
         """Return a unit of the register in TeX, by the names that were asked for."""
         words = unit
-        for name, other in self.units.items():
-            words = words.replace(name, other)
+        for name, name_of_unit in self.units.items():
+            words = words.replace(name, name_of_unit)
         if words.startswith("1/"):
             base, _, power = words[2:].partition("^")
             return f"{base}^{MINUS}{power or 1}^"
@@ -109,13 +111,13 @@ def _units(name: Any) -> dict[str, str]:
     }  # fmt: skip
 
 
-def properties(request: Request, thing: Thing) -> Data:
+def properties(request: Request, item: Thing) -> Data:
     """List the parameters and quantities of one object of a `family`; `time` is the unit of time, `units` a system.
 
     With ``given = false`` what is given is left out. Why a quantity has no value stands below the table.
     """
-    rows = [*_rows_given(thing)] if thing.described else []
-    rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
+    rows = [*_rows_given(item)] if item.described else []
+    rows += [row for q in item.family.quantities for row in rows_of(item, q, request.digits)]
     names: dict[str, list[str]] = {}
     for _, name, value, _, _, reason in rows:
         if value is NONE:
@@ -126,56 +128,56 @@ def properties(request: Request, thing: Thing) -> Data:
     return Data(
         heads("Quantity", "Name", "Value", "Unit", "Equation", "Proven"),
         tuple(rows),
-        f"{lettered(thing.says)}: {heading}.",
+        f"{lettered(item.says)}: {heading}.",
         ("Given numbers are rounded to doubles, then exact.", *reasons),
     )  # fmt: skip
 
 
-def _rows_given(thing: Thing) -> Iterator[Row]:
+def _rows_given(item: Thing) -> Iterator[Row]:
     """Yield the inputs, a row for each component."""
-    for p in thing.family.parameters:
-        value = thing.given[p.name]
-        parts = value if p.columns else (value,)
-        for place, (name, component) in enumerate(zip(p.names, parts, strict=True)):
+    for p in item.family.parameters:
+        value = item.given[p.name]
+        components = value if p.columns else (value,)
+        for place, (name, component) in enumerate(zip(p.names, components, strict=True)):
             if component is not None:
                 number = component if isinstance(component, Number) else Number.as_given(component)
                 says = "" if place else p.says.partition(".")[0]
-                yield lettered(says), f"`{name}`", number, thing.unit(p.unit), "", "given"
+                yield lettered(says), f"`{name}`", number, item.unit(p.unit), "", "given"
 
 
-def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
+def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     """Give a quantity, a component a row; where it has no value, the reason."""
     try:
-        texts = _texts(thing, q, digits)
+        texts = _texts(item, q, digits)
     except DomainError as reason:
         yield lettered(q.says), f"`{q.name}`", NONE, "", cited(q.equation), str(reason).removesuffix(".")
         return
     if texts is None:
         yield lettered(q.says), f"`{q.name}`", "none", "", cited(q.equation), "exactly"
         return
-    case = thing.family.case(thing.kernels()) if q.cases else ""
+    case = item.family.case(item.kernels()) if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
     says = f"{q.name} {says}" if says.startswith("of ") else says
     for place, (name, words, text) in enumerate(_parts(q, texts)):
-        value, certain = _printed(thing, q, text, place if isinstance(texts, list | tuple) else None, digits)
-        unit = thing.unit(q.unit) if isinstance(value, Number) else ""
+        value, certainty = _printed(item, q, text, place if isinstance(texts, list | tuple) else None, digits)
+        unit = item.unit(q.unit) if isinstance(value, Number) else ""
         yield (
             lettered(words or ("" if place else says)),
             f"`{name}`",
             value,
             unit,
             "" if place else cited(equation),
-            certain,
+            certainty,
         )
 
 
-def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
+def _texts(item: Thing, q: Quantity, digits: int) -> Any:
     """Return the certified texts of a quantity, or the values of the kernels where there are none."""
     from atlas.arithmetic.certified_digits import certified
 
     if not (q.certified or q.printed or q.checked):
-        return q.value(thing.kernels())  # of kernels alone
-    exact = thing.balls()
+        return q.value(item.kernels())  # of kernels alone
+    exact = item.balls()
     return certified(lambda: q.value(exact, exact=True), digits, spare=SPARE_BITS)
 
 
@@ -185,28 +187,28 @@ def _parts(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
         return [(q.name, "", values)]
     numbered = [f"{q.name}[{i}]" for i in range(len(values))]
     if q.name == "roots" or (values and isinstance(values[0], list | tuple)):
-        parts = [q.text(component if q.lines else [component]) for component in values] or [q.text(values)]
+        components = [q.text(component if q.lines else [component]) for component in values] or [q.text(values)]
         symbols = [symbol for symbol, _ in q.lines] or numbered or [q.name]
-        return [(name, "", component) for name, component in zip(symbols, parts, strict=True)]
-    names, of = q.columns or numbered, q.symbol or q.says
-    words = [says for _, says in q.lines] or [f"{of}: {name}" if q.columns else "" for name in names]
+        return [(name, "", component) for name, component in zip(symbols, components, strict=True)]
+    names, subject = q.columns or numbered, q.symbol or q.says
+    words = [says for _, says in q.lines] or [f"{subject}: {name}" if q.columns else "" for name in names]
     return zip(names, words, values, strict=True)
 
 
-def _printed(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
+def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
     """Return a value as it is printed, and how sure it is."""
     from atlas.arithmetic.certified_digits import MARK, NOT_CERTIFIED
 
     if text == NOT_CERTIFIED:
-        value = q.value(thing.kernels())
+        value = q.value(item.kernels())
         value = value if place is None else value[place]
         value = value[0] if q.name == "roots" else value  # real, or its text would have an i
-        promise = thing.family.promises.get(q.checked)
+        promise = item.family.promises.get(q.checked)
         promised = f"{promise:g} ulp promised" if promise else "not certified"
         return Number(plain(value), proven=False), f"float, {promised}"
     if not re.fullmatch(r"-?\d[\d.]*(e[+-]\d+)?\??", text):
-        several = NOT_CERTIFIED if NOT_CERTIFIED in text else f"{digits}{SPACE}digits each"
-        return re.sub(r"-(?=\d)", MINUS, text), several if re.search(r"\d", text) else "exactly"
+        certainty = NOT_CERTIFIED if NOT_CERTIFIED in text else f"{digits}{SPACE}digits each"
+        return re.sub(r"-(?=\d)", MINUS, text), certainty if re.search(r"\d", text) else "exactly"
     proven = text.removesuffix(MARK)
     if text == "0":
         return Number("0"), "exactly"
@@ -220,12 +222,12 @@ def lettered(words: str) -> str:
 
 
 def _letter(matched: re.Match[str]) -> str:
-    vector, prime, name, primed, place, alone, minus = matched.groups()
+    vector, prime, name, primed, place, symbol, minus = matched.groups()
     if minus:
         return MINUS
     if vector:
         return rf"$\mathbf{{{vector}}}{prime or ''}$"
-    letter = name or alone
+    letter = name or symbol
     return f"${'' if len(letter) == 1 else chr(92)}{letter}{primed or ''}{f'_{place}' if place else ''}$"
 
 

@@ -100,8 +100,8 @@ def _power(value: Any) -> int | None:
     """Return the power of ten of a number's first digit, None for an input, for zero, and where no digit is proven."""
     if isinstance(value, Number) or value == 0:
         return None
-    first = _number(value, 1, "scientific")
-    return int(first.digits.partition("e")[2]) if first.proven else None
+    digit = _number(value, 1, "scientific")
+    return int(digit.digits.partition("e")[2]) if digit.proven else None
 
 
 def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> Number:

@@ -45,32 +45,32 @@ class MonodromyParameters(StrictStruct, frozen=True):
     points: int = 64
 
 
-def tops(request: Request, asked: TopsParameters) -> Data:
+def tops(request: Request, setup: TopsParameters) -> Data:
     """Return the period of nutation and the angles in it of several tops."""
     from atlas.motions.nutation.certified_top import TopMotion
 
     motions = [
         TopMotion((1.0, one.ratio), one.coupling, one.direction, one.omega, one.linear, one.quadratic)
-        for one in asked.tops
+        for one in setup.tops
     ]
     nutations = certified(
         lambda: [(top.period, top.precession_per_period, top.spin_per_period) for top in motions], request.digits
     )
     columns = [column(values, request.digits) for values in zip(*nutations, strict=True)]
-    given: list[tuple[str | Number, ...]] = [
+    labels: list[tuple[str | Number, ...]] = [
         (
             top.name,
             Number.as_given(top.ratio),
             *(_of_top(x) for x in (top.coupling, (top.linear, top.quadratic), top.direction, top.omega)),
         )
-        for top in asked.tops
+        for top in setup.tops
     ]
     return Data(
         heads(
             *("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$"),
             *("$T$", r"$\Delta\psi$", r"$\Delta\chi$"),
         ),
-        tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
+        tuple((*first, *others) for first, others in zip(labels, zip(*columns, strict=True), strict=True)),
         r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
         r"$\Delta\chi$ about the axis by which the body turns in it, in units of $J_2$ and of one time.",
         (
@@ -85,23 +85,23 @@ def _of_top(numbers: tuple[float, ...]) -> str:
     return "$" + ",".join(map(plain, numbers)) + "$"
 
 
-def monodromy(asked: MonodromyParameters) -> Data:
+def monodromy(setup: MonodromyParameters) -> Data:
     """Return the change of the basis of periods on loops round unstable spins, theorem-residue."""
     from atlas.maps.monodromy import around, on_loop
     from atlas.maps.wells import Wells
 
     rows: list[tuple[str | Number, ...]] = []
-    for loop_asked in asked.loops:
-        wells = Wells.at(loop_asked.M3, loop_asked.ratio, loop_asked.coupling, loop_asked.linear, loop_asked.quadratic)
-        loop = around(wells, loop_asked.p, asked.points)
+    for loop_setup in setup.loops:
+        wells = Wells.at(loop_setup.M3, loop_setup.ratio, loop_setup.coupling, loop_setup.linear, loop_setup.quadratic)
+        loop = around(wells, loop_setup.p, setup.points)
         on_this_loop = on_loop(
-            loop_asked.ratio, loop_asked.coupling, loop_asked.M3, loop, loop_asked.linear, loop_asked.quadratic
+            loop_setup.ratio, loop_setup.coupling, loop_setup.M3, loop, loop_setup.linear, loop_setup.quadratic
         )
         matrix = r"\\".join("&".join(map(str, row)) for row in on_this_loop.matrix)
         rows.append(
             (
-                loop_asked.name,
-                *(Number.as_given(x) for x in (loop_asked.ratio, loop_asked.M3, loop_asked.p)),
+                loop_setup.name,
+                *(Number.as_given(x) for x in (loop_setup.ratio, loop_setup.M3, loop_setup.p)),
                 Number(f"{on_this_loop.period.min():.4f}"),
                 Number(f"{on_this_loop.period.max():.4f}"),
                 rf"$\begin{{pmatrix}}{matrix}\end{{pmatrix}}$",
@@ -115,7 +115,7 @@ def monodromy(asked: MonodromyParameters) -> Data:
         r"Rows of the matrix: what $\mathbf{g}_1$, $\mathbf{g}_2$, $\mathbf{g}_3$ have become after one round. With it "
         r"the largest change of $\Delta\psi/2\pi$ or $\Delta\chi/2\pi$ from one point to the next, which must be less "
         "than a half, and the largest radius of the balls that hold them.",
-        (f"Loops of {asked.points} points, counter-clockwise in the plane of $p$ and $g$.",),
+        (f"Loops of {setup.points} points, counter-clockwise in the plane of $p$ and $g$.",),
     )
 
 
@@ -152,14 +152,14 @@ class Momenta(StrictStruct, frozen=True):
     momentum: tuple[float, ...]
 
 
-def critical(request: Request, asked: Momenta) -> Data:
+def critical(request: Request, setup: Momenta) -> Data:
     """List all critical values of H and F at each momentum along the field, theorem-critical, a piece in each row."""
     from atlas.maps.bifurcation import Bifurcation
 
     del request  # doubles of four digits
     rows: list[tuple[Any, ...]] = []
-    for p in asked.momentum:
-        diagram = Bifurcation(asked.inertia, asked.b, p * asked.b)
+    for p in setup.momentum:
+        diagram = Bifurcation(setup.inertia, setup.b, p * setup.b)
         ovals = list[tuple[str, float, float, bool]]()
         for part in diagram.stretches():
             name = f"{part.oval} oval" + (f", $v{'<>'[part.branch > 0]}0$" if p else "")
@@ -177,18 +177,18 @@ def critical(request: Request, asked: Momenta) -> Data:
     return Data(
         heads("$p$", "Piece", "from", "to", "Kind"),
         tuple(rows),
-        rf"All critical values of a body with $I_i={_row(asked.inertia)}$ at $b={plain(asked.b)}$ and momenta "
+        rf"All critical values of a body with $I_i={_row(setup.inertia)}$ at $b={plain(setup.b)}$ and momenta "
         r"$p=(\mathbf{M},\mathbf{K})/b$: elliptic motions from one place $z$ to another, stable for $C>0$, saddles for "
         r"$C<0$; plane pendulums from one value of $F$ to another; and spins along the field, with their $F$.",
         ("Four digits of doubles, not proven.",),
     )
 
 
-def elliptic(request: Request, asked: Family) -> Data:
+def elliptic(request: Request, setup: Family) -> Data:
     """List elliptic motions of one body in one field, a row each, theorem-elliptic."""
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 
-    motions = [EllipticMotion(asked.inertia, asked.field, z, branch) for z, branch in asked.places]
+    motions = [EllipticMotion(setup.inertia, setup.field, z, branch) for z, branch in setup.places]
     values = certified(
         lambda: [(m.v, *m.omega, m.splitting, m.period, m.turn_per_period) for m in motions], request.digits
     )
@@ -197,15 +197,15 @@ def elliptic(request: Request, asked: Family) -> Data:
         heads("$z$", "$v$", *(rf"$\omega_{i}$" for i in (1, 2, 3)), "$C/D^2$", "$T$", r"$\Theta$", "Motion"),
         tuple(
             (Number.as_given(z), *row, m.stability)
-            for (z, _), row, m in zip(asked.places, zip(*columns, strict=True), motions, strict=True)
+            for (z, _), row, m in zip(setup.places, zip(*columns, strict=True), motions, strict=True)
         ),
-        rf"Elliptic motions of a body with $I_i={_row(asked.inertia)}$ in $\mathbf{{B}}'={_row(asked.field)}$: the "
+        rf"Elliptic motions of a body with $I_i={_row(setup.inertia)}$ in $\mathbf{{B}}'={_row(setup.field)}$: the "
         r"place $(z,v)$, initial angular velocity, what decides on stability, the period $T$ of "
         r"$\mathbf{K}$, and the turn $\Theta$ of the body about the field in it.",
     )
 
 
-def periods(request: Request, asked: Motion) -> Data:
+def periods(request: Request, setup: Motion) -> Data:
     """List two pairs of times after which M and K are back, and the turn about the field, with proven digits."""
     from flint import fmpq
 
@@ -213,7 +213,7 @@ def periods(request: Request, asked: Motion) -> Data:
     from atlas.motions.torus.certified_torus import Torus
 
     inertia, K, omega = (
-        [fmpq(*x.as_integer_ratio()) for x in row] for row in (asked.inertia, asked.field, asked.omega)
+        [fmpq(*x.as_integer_ratio()) for x in row] for row in (setup.inertia, setup.field, setup.omega)
     )
     torus = Torus(tuple(inertia), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
     lattice = torus.periods(bits(request.digits) + 64)
@@ -221,27 +221,27 @@ def periods(request: Request, asked: Motion) -> Data:
     return Data(
         heads("Pair", "$T_H$", "$T_F$", r"$\theta$"),
         tuple((f"$r_{n}$", *row) for n, row in enumerate(zip(*columns, strict=True), 1)),
-        rf"Periods of the torus of the motion from $\boldsymbol\omega={_row(asked.omega)}$, "
-        rf"$I_i={_row(asked.inertia)}$, $\mathbf{{B}}'={_row(asked.field)}$: times of the flows of $H$ and $F/2$ after "
+        rf"Periods of the torus of the motion from $\boldsymbol\omega={_row(setup.omega)}$, "
+        rf"$I_i={_row(setup.inertia)}$, $\mathbf{{B}}'={_row(setup.field)}$: times of the flows of $H$ and $F/2$ after "
         r"which $\mathbf{M}$ and $\mathbf{K}$ are back, and the angle by which the body has turned about the field, in "
         r"Larmor's frame.",
     )
 
 
-def asymmetric(request: Request, asked: Samples) -> Data:
+def asymmetric(request: Request, setup: Samples) -> Data:
     """List the third axis of the body and its spin about it at some times, whatever the motion."""
     from atlas.motions.torus.certified import AsymmetricMotion
 
-    motion = AsymmetricMotion(asked.inertia, asked.field, asked.omega)
+    motion = AsymmetricMotion(setup.inertia, setup.field, setup.omega)
     values: list[Any] = certified(
-        lambda: [(*motion.column(3, t), motion.angular_velocity(t)[2]) for t in asked.times], request.digits
+        lambda: [(*motion.column(3, t), motion.angular_velocity(t)[2]) for t in setup.times], request.digits
     )
     columns = [column(values_of_column, request.digits) for values_of_column in zip(*values, strict=True)]
     return Data(
         heads("$t$", *(rf"$R_{{{i}3}}$" for i in (1, 2, 3)), r"$\Omega_3$"),
-        tuple(zip(map(Number.as_given, asked.times), *columns, strict=True)),
-        rf"The motion from $\boldsymbol\omega={_row(asked.omega)}$ of the body with $I_i={_row(asked.inertia)}$ in "
-        rf"$\mathbf{{B}}'={_row(asked.field)}$: its third axis in the laboratory and its spin about it.",
+        tuple(zip(map(Number.as_given, setup.times), *columns, strict=True)),
+        rf"The motion from $\boldsymbol\omega={_row(setup.omega)}$ of the body with $I_i={_row(setup.inertia)}$ in "
+        rf"$\mathbf{{B}}'={_row(setup.field)}$: its third axis in the laboratory and its spin about it.",
     )
 
 
