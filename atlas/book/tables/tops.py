@@ -166,7 +166,7 @@ def critical(request: Request, setup: Momenta) -> Data:
             joined = bool(ovals) and ovals[-1][0] == name and ovals[-1][2:] == (part.low, part.stable)
             low = ovals.pop()[1] if joined else part.low
             ovals.append((name, low, part.high, part.stable))
-        rays = [(f"pendulums about axis {axis + 1}", *ray) for axis, *ray in diagram.rays() if not p]
+        rays = [(f"pendulums about axis {axis + 1}", a, z, steady) for axis, a, z, steady in diagram.rays() if not p]
         for name, first, last, stable in (*ovals, *rays):
             ends = (Number(f"{x:.4g}") if isfinite(x) else r"$\infty$" for x in (first, last))
             rows += [(Number.as_given(p), name, *ends, "stable" if stable else "saddle")] * (first < last)
