@@ -15,7 +15,6 @@ from atlas.trial.ledger.citation import marked
 
 if TYPE_CHECKING:
     from atlas.book.blocks.composer import Composer
-    from atlas.book.building.report import Built, Progress
 
 
 @dataclass(frozen=True)
@@ -98,27 +97,3 @@ def chosen(names: Sequence[str], folder: Path) -> tuple[str, ...]:
         else:
             chosen_names.append(name if recipes.source(name) else "")
     return tuple(dict.fromkeys(chosen_names))
-
-
-def build_gallery(
-    names: Sequence[str], out: Path, progress: "Progress", *, style: str | None = None, jobs: int | None = None
-) -> "Built":
-    """Build a gallery of recipes, of all when none is named, as out/gallery/gallery.html.
-
-    The report that it is made from is written to out/gallery.md; a file NAME.py is a recipe of the user's own.
-    """
-    from atlas.book.building.cache import Cache
-    from atlas.book.building.report import build_report
-    from atlas.files import write
-    from atlas.places import cache_folder
-    from atlas.sources import Sources
-
-    places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names] or ["*"]
-    sources = Sources(Cache(cache_folder(out)))
-    version = sources.closure([Path(place) for place in places if place.endswith(".py")])
-    head = (
-        f'name = "gallery"\ntitle = "Gallery of figures"\ngallery = {places!r}\n# of recipes with the digest {version}'
-    )
-    source = out / "gallery.md"
-    write(source, f"+++\n{head}\n+++\n\n# All figures\n\nThey stand in the [gallery](gallery.html).\n")
-    return build_report(source, out, progress, formats=("html",), style=style, jobs=jobs)

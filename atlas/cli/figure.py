@@ -163,7 +163,7 @@ def command(
 
 def _gallery(names: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> int:
     """Build a gallery of the recipes and print its place; return the exit status."""
-    from atlas.book.gallery import build_gallery
+    from atlas.book.building.gallery import build_gallery
 
     with bar("gallery") as tell:
         built = build_gallery(names, out, tell, style=style, jobs=jobs)
