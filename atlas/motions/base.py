@@ -572,7 +572,7 @@ class Motion(Shown, Generic[Single]):
         Parameters
         ----------
         times : array_like, optional
-            Times of the frames; by default one period.
+            Times of the frames; by default as many periods, up to eight, as bring the body back, else one.
         fps : float
             Frames per second.
         style : str or dict or list, optional
@@ -581,7 +581,8 @@ class Motion(Shown, Generic[Single]):
         Returns
         -------
         matplotlib.animation.FuncAnimation
-            ``.save("x.gif")`` writes the animation to a file.
+            ``.save("x.gif")`` writes the animation to a file; ``jumps`` is true where its end does not lead back to
+            its start.
 
         Raises
         ------

@@ -167,14 +167,13 @@ def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], 
     return axis
 
 
-def scene_at(motion: Any, t: float, length: float) -> Scene:
-    """Return a motion at the time t: the body, what its axis has drawn for the `length` of time before, the field."""
+def scene_at(motion: Any, t: float, begin: float) -> Scene:
+    """Return a motion at the time t: the body, the trace of its axis since the time `begin`, the field."""
     R, upright = np.asarray(motion.rotation(t)), Upright.of(motion)
     layers: list[Layer] = [
         *body_of(motion, R, _FINE),
         Arrow(O, _AXIS * R[:, 2], "body_axis", r"$\mathbf{R}_3$"),
     ]
-    begin = max(0.0, t - length)
     if t > begin:
         layers.append(Curve(curve(lambda s: _AXIS * motion.third_axis(s), begin, t, _FINE, pieces=_PIECES), "trace"))
     if upright.role:

@@ -40,7 +40,7 @@ def test_the_bodies_of_the_film_strip_go_on_in_turn() -> None:
     assert "start" not in {one.text for one in layers(scene, Label)}
 
 
-@pytest.mark.parametrize("name", ["film_strip", "rolling_cones", "tipping_disk"])
+@pytest.mark.parametrize("name", MOVING)
 def test_a_loop_closes_or_says_that_it_jumps(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where the paths of a figure do not end as the identity, the command tells it beside the file's name."""
     monkeypatch.setattr(animation, "FRAMES", 2)
@@ -54,6 +54,49 @@ def test_a_loop_closes_or_says_that_it_jumps(name: str, tmp_path: Path, monkeypa
     assert done.stderr == (
         "" if closed else f"{file}: the motion does not end as it began, so that it jumps where it is repeated.\n"
     )
+
+
+def jumps(motion: Any, times: Any = None) -> bool:
+    """Return whether the animation of a motion says that its loop jumps; its frames are not written."""
+    moving = motion.animate(times)
+    moving._draw_was_started = True  # Matplotlib warns of animations that nobody sees
+    return moving.jumps
+
+
+@pytest.mark.parametrize(("p", "q", "periods"), [(-1, 1, 1), (2, 3, 3)])
+def test_an_animation_of_a_closed_motion_closes(p: int, q: int, periods: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It lasts until the body is back; a frame after the last would be the first, its trace included."""
+    monkeypatch.setattr(animation, "FRAMES", 4)
+    made: list[float] = []
+    draw = animation.any_motion.scene_at
+    monkeypatch.setattr(
+        animation.any_motion, "scene_at", lambda motion, t, begin: made.append(t) or draw(motion, t, begin)
+    )
+    motion = atlas.Hyperbola(1.5, (1.0, 2.0)).closed(p, q)
+    assert not jumps(motion)
+    times = np.unique(made)
+    after = times[-1] + times[1]
+    assert after == pytest.approx(periods * abs(2 * np.pi / motion.k))
+    assert np.abs(motion.rotation(after) - np.eye(3)).max() < 1e-12
+    first, second = (
+        [
+            points
+            for one in (Curve, Arrow)
+            for layer in layers(draw(motion, t, t - after), one)
+            for points in movement.points_of(layer)
+        ]
+        for t in (0.0, after)
+    )
+    assert len(first) > 2
+    assert all(np.abs(a - b).max() < 1e-9 for a, b in zip(first, second, strict=True))
+
+
+def test_an_animation_of_a_motion_that_does_not_close_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without times; with times of the user's own nothing is said."""
+    monkeypatch.setattr(animation, "FRAMES", 2)
+    motion = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
+    assert jumps(motion)
+    assert not jumps(motion, [0.0, 0.4])
 
 
 def test_cones_touch_along_omega_at_every_time() -> None:
@@ -189,11 +232,11 @@ def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.Mon
 def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
-    scene = animation.any_motion.scene_at(motion, 0.8, 1.0)
+    scene = animation.any_motion.scene_at(motion, 0.8, 0.0)
     (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
     assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
-    for t, start in ((0.8, 0.5), (0.2, 0.0)):  # the trace of its tip over the time before, not before the start
-        (trace,) = (one.points for one in layers(animation.any_motion.scene_at(motion, t, 0.3), Curve))
+    for t, start in ((0.8, 0.5), (0.2, -0.1)):  # the trace of its tip over the time before
+        (trace,) = (one.points for one in layers(animation.any_motion.scene_at(motion, t, start), Curve))
         ends = np.array([motion.third_axis(start), motion.third_axis(t)])
         assert np.allclose(trace[[0, -1]], np.linalg.norm(axis.tip) * ends)
     corners = np.unique(np.round(np.concatenate([one.rims[0] for one in layers(scene, Surface)]), 9), axis=0)

@@ -62,7 +62,7 @@ class OfFamily:
             from atlas.pictures import any_motion
 
             motion = self.kernels(values)
-            return any_motion.scene_at(motion, values["t"], any_motion.period(motion))
+            return any_motion.scene_at(motion, t := values["t"], max(0.0, t - any_motion.period(motion)))
         recipe = recipes.load(self.family.figures[0])
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
 

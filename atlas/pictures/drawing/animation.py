@@ -24,6 +24,8 @@ from atlas.pictures.layers import Label, Panel, Plane, Points, Scene, Space, fra
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
 FPS, FRAMES, MAX_FRAMES = 20.0, 60, 2000
+MAX_PERIODS = 8
+"""Periods of a motion after which its animation ends at the latest, back at its start or not."""
 _SCREEN = 96
 Progress: TypeAlias = Callable[[int, int, str], None]
 Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
@@ -196,11 +198,27 @@ def animate(
     return animation(make, len(values), fps=fps, style=style, progress=progress)
 
 
-def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> FuncAnimation:
-    """Return a motion at these times, or over one period, as an animation; `options` are those of `animation`."""
-    length = any_motion.period(motion)
-    moments = np.linspace(0.0, length, FRAMES, endpoint=False) if times is None else times
-    return animation(lambda k: any_motion.scene_at(motion, float(moments[k]), length), len(moments), **options)
+def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> Moving:
+    """Return a motion at these times as an animation; `options` are those of `animation`.
+
+    Without times it lasts as many periods, up to `MAX_PERIODS`, as bring the body back; where none do, it lasts one,
+    and its loop jumps. In a loop that closes every frame has the whole trace.
+    """
+    length, count, closed = any_motion.period(motion), 1, False
+    if times is None:
+        ends = motion.rotation(length * np.arange(MAX_PERIODS + 1))
+        back = np.flatnonzero(np.abs(ends[1:] - ends[0]).max(axis=(1, 2)) < movement.SEAM)
+        closed, count = bool(back.size), int(back[0]) + 1 if back.size else 1
+    length *= count
+    moments = np.linspace(0.0, length, count * FRAMES, endpoint=False) if times is None else times
+
+    def make(k: int) -> Scene:
+        t = float(moments[k])
+        return any_motion.scene_at(motion, t, t - length if closed else max(0.0, t - length))
+
+    moving = animation(make, len(moments), **options)
+    moving.jumps = times is None and not closed
+    return moving
 
 
 def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
