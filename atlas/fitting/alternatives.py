@@ -247,7 +247,7 @@ def wider_families(
             continue  # of a top the direction is seen, not the field
         try:
             other, start = _within(problem, values, model)
-            best, _ = minimum(other, start, steady=False)
+            best, _ = minimum(other, start)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no such motion beside it
         full, free = other.values(best), other.data.t.size * other.width - len(other.names)
@@ -289,5 +289,5 @@ def _within(problem: Problem, values: Values, model: Model) -> tuple[Problem, Fl
     params: dict[str, Any] = {name: {"value": inside.get(name, 0.0), "vary": name not in held} for name in model.names}
     free, _ = parameters_of(model, problem.data, params)
     other = Problem(model, problem.data, free, problem.loss, problem.rate)
-    other.followed = True
+    other.followed = model.slow
     return other, other.inside(inside)

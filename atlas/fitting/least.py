@@ -34,6 +34,9 @@ EXACT = 1e-13
 BEND = 0.75
 """Largest part of a step by which it is bent."""
 
+EQUAL = 0.02
+"""Difference of parameters, in natural units, below which two motions are one."""
+
 PROBE = 0.1
 """Part of a step at which its bend is taken."""
 
@@ -114,12 +117,12 @@ class Crowd:
             if decrement and ended.all():
                 break
 
-    def drop(self, count: int) -> None:
-        """Keep the best motions, each once."""
+    def drop(self, count: int, largest: float = np.inf) -> None:
+        """Keep the motions of least cost, each once; besides the best only those of a cost up to `largest`."""
         best: list[int] = []
         for i in np.argsort(self.costs, kind="stable"):
-            if all(abs((self.X[i] - self.X[j]) / self.problem.units_of_free).max() > 0.02 for j in best):
-                best.append(int(i))
-            if len(best) == count:
+            if len(best) == count or (best and self.costs[i] > largest):
                 break
+            if all(abs((self.X[i] - self.X[j]) / self.problem.units_of_free).max() > EQUAL for j in best):
+                best.append(int(i))
         self.X, self.damping, self.costs = self.X[best], self.damping[best], self.costs[best]

@@ -158,23 +158,14 @@ class Model:
         return {*B, *OMEGA} <= set(self.names)
 
     def vectors(self, p: Values, names: Sequence[str], t: FloatArray, units: Values, motion: Any) -> FloatArray:
-        """Return the turns v of R by the parameters, (N, P, 3): exactly, or by differences."""
+        """Return the vectors v with dR/dp = [v]x R of the named parameters, shape (N, P, 3), exactly or by differences.
+
+        Differences serve on a separatrix, where the exact derivatives raise an error, and families that lack them.
+        """
         if self.exact:
-            with suppress(
-                AtlasError, ZeroDivisionError
-            ):  # on a separatrix, and where a sum is too large: by differences
-                start = self.start(p) if self.start else {}
-                own = [x for x in names if x not in ATTITUDE and not (start and x in OMEGA)]
-                asked = [*own, *(OMEGA if start else ()), *ATTITUDE]
-                by, turns = np.zeros((len(names), len(asked))), _left(vector(p, ATTITUDE))
-                for row, name in zip(by, names, strict=True):
-                    if name in own:
-                        row[own.index(name)] = 1.0
-                    elif name in ATTITUDE:
-                        row[-3:] = turns[:, ATTITUDE.index(name)]
-                    if start:
-                        row[len(own) : -3] = start[name]
-                return np.asarray(by @ motion.sensitivity(t, asked))
+            with suppress(AtlasError, ZeroDivisionError):
+                inputs, chain = self._inputs(p, names)
+                return np.asarray(chain @ motion.sensitivity(t, inputs))
         out = np.empty((t.size, len(names), 3))
         for j, name in enumerate(names):
             h = STEP * units[name]
@@ -183,6 +174,27 @@ class Model:
             turn = up[0].rotation(t) @ down[0].rotation(t).swapaxes(1, 2)
             out[:, j] = Rotation.from_matrix(turn).as_rotvec() / width
         return out
+
+    def _inputs(self, p: Values, names: Sequence[str]) -> tuple[list[str], FloatArray]:
+        """Return the inputs of `sensitivity` that parameters change, and the derivatives (P, inputs) of the inputs.
+
+        A change da of the rotation vector turns the start by J da. On the hyperbola (67) a parameter changes Omega as
+        `start` says. Of a direction n of any length the part of dn across n counts, as the field of `sensitivity`.
+        """
+        blocks = [(ATTITUDE, dict(zip(ATTITUDE, _left(vector(p, ATTITUDE)).T, strict=True)))]
+        if self.has_direction:
+            n = direction_of(p)
+            slopes = (np.eye(3) - np.outer(n, n)) / np.linalg.norm(vector(p, DIRECTION))
+            blocks.append((B, dict(zip(DIRECTION, slopes, strict=True))))
+        if self.start:
+            blocks.append((OMEGA, dict(self.start(p))))
+        composed = {*ATTITUDE, *DIRECTION, *(OMEGA if self.start else ())}
+        inputs = [name for name in names if name not in composed]
+        chain = np.array([[float(name == own) for own in inputs] for name in names]).reshape(len(names), -1)
+        for several, by in blocks:
+            inputs += several
+            chain = np.hstack([chain, [by.get(name, np.zeros(3)) for name in names]])
+        return inputs, chain
 
     def _beside(self, p: Values, name: str, step: float) -> tuple[Any, float]:
         """Return a motion beside another, and the step; the other itself where there is none."""
@@ -215,7 +227,7 @@ MODELS: Mapping[str, Model] = {
         ),
         Model(
             "top", ("I3", "k2", "k3", "linear", "quadratic", *DIRECTION, *OMEGA, *ATTITUDE), _top,
-            {"n1": 0.0, "n2": 0.0, "n3": 1.0},
+            {"n1": 0.0, "n2": 0.0, "n3": 1.0}, exact=True,
         ),
         Model(
             "elliptic", ("I1", "I3", *B, "z", "branch", *ATTITUDE), _elliptic, {"branch": 1.0},

@@ -1,6 +1,6 @@
 """Least squares of one family on some data: residuals and their derivatives."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
@@ -32,9 +32,6 @@ HUGE, LOST = 1e6, 1e100
 
 LONG = 3000.0
 """Radians up to which motions without a fast closed form are integrated."""
-
-FULL: Mapping[str, Any] = {"ftol": 1e-5, "xtol": 1e-9, "gtol": 1e-10, "max_nfev": 60}
-"""Where SciPy's least squares end."""
 
 
 Vector: TypeAlias = Sequence[float] | FloatArray
@@ -267,16 +264,16 @@ class Problem:
         return 1.0 if known else chi / (self.data.t.size * self.width - len(self.names))
 
 
-def minimum(problem: Problem, x: FloatArray, *, steady: bool) -> tuple[FloatArray, FloatArray]:
-    """Return the least squares nearest to a start, or the start itself where it is steady, and the Jacobian there.
+def minimum(problem: Problem, x: FloatArray, *, steady: bool = False) -> tuple[FloatArray, FloatArray]:
+    """Return the least squares nearest to a start, or the start itself if it is steady, and the Jacobian there.
 
-    With a robust loss the Jacobian is the one that SciPy has weighted.
+    With a robust loss SciPy has weighted the Jacobian.
     """
     from scipy.optimize import least_squares
 
-    with np.errstate(invalid="ignore"):  # where a combination is not determined
+    with np.errstate(invalid="ignore"):  # for combinations that are not determined
         found = least_squares(
             problem.residuals, x, problem.jacobian, problem.bounds, loss=problem.loss, x_scale="jac",
-            **dict(FULL) | ({"gtol": np.inf} if steady else {}),
+            ftol=1e-5, xtol=1e-9, gtol=np.inf if steady else 1e-10, max_nfev=60,
         )  # fmt: skip
     return np.asarray(found.x), np.asarray(found.jac)

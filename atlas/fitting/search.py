@@ -212,7 +212,8 @@ def sought(problem: Problem, starts: int, seed: int, largest: float, *, last: bo
     crowd.drop(max(MANY, int(len(crowd.X) * KEPT)))
     crowd.refine(order[:count], 2 * ROUNDS - 1)
     while count < len(order) and away[count] < FAR:
-        crowd.drop(max(BEST, int(len(crowd.X) * KEPT)))
+        # a motion that has lost its phase does not find it again on a longer arc
+        crowd.drop(max(BEST, int(len(crowd.X) * KEPT)), count * _allowed(problem) ** 2)
         further = max(int((away < away[count - 1] * GROWTH).sum()), int(count * 1.3))
         count = min(further, len(order))
         crowd.refine(order[:count], ROUNDS)

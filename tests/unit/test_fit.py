@@ -5,6 +5,7 @@ import pickle
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import nullcontext
 from copy import copy, deepcopy
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, get_args
@@ -778,3 +779,16 @@ def test_the_sign_of_an_elementary_field_is_not_seen_on_the_axis() -> None:
     for name in ("B2", "B3", "omega2"):
         assert other.values[name] == -found.params[name].value
     assert any("omega2" in warning for warning in found.warnings)
+
+
+def test_fits_of_tops_have_exact_derivatives(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Derivatives in all parameters of a top, a direction of any length among them, are those of differences."""
+    values = {
+        "I3": 1.3, "k2": 0.5, "k3": 0.3, "linear": 0.2, "quadratic": 0.1, "n1": 0.3, "n2": 0.2, "n3": 0.8,
+        "omega1": 0.3, "omega2": 0.4, "omega3": 1.2, "a1": 0.3, "a2": 0.2, "a3": -0.5,
+    }  # fmt: skip
+    top, t = model_of("top"), np.linspace(0.0, 20.0, 30)
+    motion = top.make(values)
+    v = replace(top, exact=False).vectors(values, top.names, t, dict.fromkeys(values, 1.0), motion)
+    monkeypatch.setattr(type(top), "_beside", None)  # which differences need
+    assert top.vectors(values, top.names, t, {}, motion) == pytest.approx(v, abs=1e-7 * abs(v).max())
