@@ -228,6 +228,10 @@ def combinations(
 ) -> FloatArray:
     """Return the sums over basis functions that `weights` (3, 9 or 11, prod(shape)) describe, at times of any shape."""
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
+    if times.size == 1:
+        out = target(out, times.shape + shape)
+        np.matmul(functions_of_one(phases.circle_of_one(times.item()), len(weights)), weights, out=out.reshape(-1))
+        return out
     if times.size <= PRODUCT_MATRICES:
         out = target(out, times.shape + shape)
         functions = Basis(phases, times.size, len(weights)).at(times.reshape(-1))
@@ -240,6 +244,15 @@ def combinations(
         return lambda times, rows: combined(basis.at(times), weights, rows)
 
     return evaluate(times, shape, out, prepare)
+
+
+def functions_of_one(circle: list[tuple[float, float, float]], count: int) -> tuple[float, ...]:
+    """Return the functions of `Basis` over SCALE at one time, from `Phases.circle_of_one`."""
+    c, s, v = circle[0]
+    if count == 3:
+        return c, s, v
+    C, S, _ = circle[1]
+    return (c, C, s, S, v, c * C, s * C, c * S, s * S, v * C, v * S)[:count]
 
 
 def combined(functions: FloatArray, weights: FloatArray, rows: FloatArray) -> None:

@@ -9,7 +9,20 @@ from flint import arb, fmpq
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import BITS, Number, nearest, rational, workprec
 
-__all__ = ["BITS", "ONE", "TURN", "ZERO", "exact", "floats", "magnitude", "middle", "scaled", "turn_of", "words"]
+__all__ = [
+    "BITS",
+    "ONE",
+    "TURN",
+    "ZERO",
+    "exact",
+    "floats",
+    "magnitude",
+    "middle",
+    "scaled",
+    "turn_of",
+    "units",
+    "words",
+]
 
 
 def exact(*numbers: Any) -> tuple[fmpq, ...]:
@@ -34,6 +47,12 @@ def scaled(x: arb, exponent: int) -> arb:
     """Return x 2^exponent, for a ball without a radius."""
     m, e = x.man_exp()
     return arb((m, int(e) + exponent))
+
+
+def units(x: arb, digits: int) -> int:
+    """Return x in units of 2^-digits, rounded down, for a ball without a radius."""
+    m, e = (int(number) for number in x.man_exp())
+    return m << e + digits if e + digits >= 0 else m >> -(e + digits)
 
 
 def magnitude(x: arb) -> int:

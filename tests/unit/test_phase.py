@@ -64,6 +64,43 @@ def test_odd_quarter_turns_are_no_worse(f: float, digits: int, seed: int) -> Non
     assert worst(phases_of(f), f, np.minimum(turns * np.pi, 2.0**50) / f * (1 - 2.0**-52)) <= PROVEN
 
 
+@settings(max_examples=200)
+@given(
+    st.floats(-1e3, 1e3).filter(lambda f: abs(f) > 1e-6),
+    st.integers(-1000, 1000),
+    st.integers(-1070, 50),
+    st.integers(1, 2**32),
+    st.sampled_from((0.0, 0.25, 0.5, 0.75, 1.0)),
+)
+def test_one_time_is_as_true_as_many(f: float, power: int, digits: int, seed: int, near: float) -> None:
+    """At one time cos and sin are within 2 units, sin and the versine within 4 ulp of themselves; the array agrees."""
+    rng, f = np.random.default_rng(seed), float(np.ldexp(f, power))
+    with mp.workprec(3000):
+        phase = mpf(2) ** digits * rng.uniform(0.5, 1)
+        if digits > 3:
+            phase = (mp.floor(phase / (2 * mp.pi)) + near) * 2 * mp.pi
+        t = float(phase / mpf(f))
+        x = mpf(f) * mpf(t)
+        if not 0 < abs(t) < 1e300 or abs(x) > 2**50:
+            return
+        ((c, s, versine),) = phases_of(f).circle_of_one(t)
+        wanted = mp.cos(x), mp.sin(x), 2 * mp.sin(x / 2) ** 2
+        assert max(abs(2 * c - wanted[0]), abs(2 * s - wanted[1])) <= 2 * UNIT
+        for found, value in ((s, wanted[1]), (versine, wanted[2])):
+            if abs(value) > 1e-300 and abs(value) < 0.1:
+                assert abs(2 * found / value - 1) <= 8 * UNIT
+        several = circle(phases_of(f), np.array([t]))
+        assert max(abs(2 * c - several[0][0]), abs(2 * s - several[1][0])) <= (PROVEN + 2) * UNIT
+
+
+def test_one_time_of_no_and_of_extreme_frequencies() -> None:
+    """A frequency of zero stands still; beyond 2^50, at infinity and for NaN the time is refused."""
+    assert Phases([fmpq(0), in_turns(1e-300)]).circle_of_one(1e200) == [(0.5, 0.0, 0.0), (0.5, 5e-101, 2.5e-201)]
+    for t in (2.0**51, -np.inf, np.nan):
+        with pytest.raises(AtlasError, match="A time is"):
+            phases_of(1.0).circle_of_one(t)
+
+
 def test_the_tangent_is_within_an_ulp() -> None:
     """What the bound supposes of NumPy, at 30000 angles up to 0.9."""
     x = np.random.default_rng(0).uniform(0.0, 0.9, 30000)
