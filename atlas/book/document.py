@@ -141,6 +141,8 @@ class Document:
         folder, title = f"../{self.report.name}", self.report.title
         if name == f"report:{self.report.name}":
             return Link(title, f"{folder}/index.html", "page-index")
+        if name == "page:gallery" and self.report.gallery:
+            return Link("gallery", f"{folder}/gallery.html", "page-gallery")
         here = self.place(name)
         if here is None:
             return None

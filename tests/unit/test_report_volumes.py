@@ -77,7 +77,7 @@ def test_what_stands_elsewhere_is_words_in_print(volumes: dict[str, Document]) -
     assert volumes["atlas"].cite("typst")("page:slips", "") == Link("Slips found in the paper")
     assert (
         volumes["trial"].cite("typst")("fig:lssc", "").words
-        == "Figure 1 of An Atlas of a Charged Body in a Magnetic Field"
+        == "Figure 1 of An Atlas of Turning Bodies"
     )
     assert volumes["atlas"].cite("html")("report:trial", "")[:3] == (
         "The Paper on Trial",
