@@ -165,14 +165,14 @@ def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> N
     theta = made()
     n0, n1 = theta.denominator.weights
     zero, one = (
-        replace(theta.denominator, weights=w).of(theta.pairs(theta.start)) for w in ((n0, 0 * n1), (0 * n0, n1))
+        replace(theta.denominator, weights=w).value(theta.pairs(theta.start)) for w in ((n0, 0 * n1), (0 * n0, n1))
     )
     theta.denominator = replace(theta.denominator, weights=(n0, -n1 * zero / one))
     with workprec(240):
         assert np.isinf(Cell(theta, torus().periods(128)).rates()).all()
     assert bound(theta) == np.inf
     with monkeypatch.context() as patch:  # a bound beyond SMALL is none: there the growth is not bounded
-        patch.setattr(clebsch_proof, "_apart", lambda *_: np.full(3, 1e-3))
+        patch.setattr(clebsch_proof, "_deviation", lambda *_: np.full(3, 1e-3))
         assert bound(made()) == np.inf
     growth = clebsch_proof._growth
     monkeypatch.setattr(clebsch_proof, "_growth", lambda *given: 1e3 * growth(*given))

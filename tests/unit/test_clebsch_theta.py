@@ -87,7 +87,7 @@ def test_bounds_on_sums_hold_and_need_every_word(
         upper = [(forms, high, 0 * low) for forms, high, low in sums.words(ALL)]
         monkeypatch.setattr(sums, "words", lambda _: upper)
     phases, rest = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 2, 40))
-    x, rest = closed.rounding.into @ phases, rest * 2.0**-48
+    x, rest = closed.rounding.into_arguments @ phases, rest * 2.0**-48
     found, (P, Q) = sums.at(x, (rest + 0j) * (slip != "rest"), ALL), (sums.P, sums.Q)
     first, second = np.exp(1j * np.outer(P, x[0])), np.exp(1j * np.outer(Q, x[1]))
     errors = np.einsum("fpq,pm,qm->fm", abs(sums.table) * sums.steps, abs(first), abs(second))
@@ -114,7 +114,7 @@ def test_sums_of_upper_words_are_exact() -> None:
     closed = kernel(*NEAR)
     sums = closed.sums
     phases = [0.55 * np.pi * np.array(x) for x in ((-1, -1), (-1, 1), (1, -1), (1, 1), (0.3, 0.1), (-0.2, 0.4))]
-    w = np.exp(1j * closed.rounding.into @ np.transpose(phases))
+    w = np.exp(1j * closed.rounding.into_arguments @ np.transpose(phases))
     once, square = (np.array([inverse(x), x]) for x in (w[1], w[1] * w[1]))
     for (_, upper, _), (number, _, high) in zip(sums.words(ALL), sums.powers(once, square), strict=True):
         powers = number.reshape(2, -1, len(phases), 2)
@@ -130,7 +130,7 @@ def test_sums_of_upper_words_are_exact() -> None:
 def test_no_bound_is_given_where_powers_are_too_small(monkeypatch: pytest.MonkeyPatch) -> None:
     """The limit is that of the largest logarithm of a power at a corner of all phases."""
     rounding = kernel(*NEAR).rounding
-    corners = [rounding.into @ (0.55 * np.pi * np.array(x)) for x in product((-1, 1), repeat=2)]
+    corners = [rounding.into_arguments @ (0.55 * np.pi * np.array(x)) for x in product((-1, 1), repeat=2)]
     largest = rounding.sums.reach * np.abs(np.imag(corners)).max()
     assert largest > 10
     monkeypatch.setattr(clebsch_rounding, "MAX_POWER_LOG", largest * (1 - 1e-9))
@@ -146,9 +146,10 @@ def test_bounds_in_cells_are_those_at_their_points(case: tuple[Three, Three, Thr
     rng = np.random.default_rng(7)
     cells, half = rng.uniform(-1.6, 1.6, (2, 60)), 0.08
     inside = cells[:, :, None] + half * rng.uniform(-1, 1, (2, 60, 9))
-    assert (rounding.wrong(inside.reshape(2, -1), 0.0).reshape(60, 9) <= rounding.wrong(cells, half)[:, None]).all()
+    bounds = rounding.error_bounds(inside.reshape(2, -1), 0.0).reshape(60, 9)
+    assert (bounds <= rounding.error_bounds(cells, half)[:, None]).all()
     line = np.linspace(-0.55 * np.pi, 0.55 * np.pi, 100)
-    most = rounding.wrong(np.stack(np.meshgrid(line, line)).reshape(2, -1), 0.0).max() * 2.0**-53
+    most = rounding.error_bounds(np.stack(np.meshgrid(line, line)).reshape(2, -1), 0.0).max() * 2.0**-53
     assert most <= rounding.accuracy() <= 1.1 * most
 
 
@@ -270,7 +271,7 @@ def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> SingleAsymmetric:
     if slip == "characteristic":
         monkeypatch.setattr(clebsch_theta, "CHARACTERISTICS", ((0, 1), (0, 0), (1, 0), (1, 1)))
     elif slip == "sign of T_c":
-        pairs = (known.real, known.others, known.a, known.b)
+        pairs = (known.real, known.other_periods, known.a, known.b)
         rows = (tuple([x, y, -z] for x, y, z in pair) for pair in pairs)
         monkeypatch.setitem(balls.on_torus.torus.__dict__, "lattice", Lattice(*rows))  # type: ignore[arg-type]
     elif slip == "T_c of one period":

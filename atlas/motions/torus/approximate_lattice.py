@@ -1,10 +1,10 @@
 """The lattice of complex periods of a motion's torus, a symplectic basis of it, and its Riemann matrix.
 
-Periods are triples T = (T_H, T_F, T_c) of times of the flows of H and F/2 and of what the attitude turns about the
-field, -b T_c. They come from integrals between zeros of eta, see `atlas.motions.torus.approximate_periods`, and from
-relations with whole numbers that LLL finds, so nothing here is proved. The polarization E is the alternating form with
-whole values that the bilinear relation singles out; that it is of type (1,2) is the check that no period is missing:
-then
+Periods are triples T = (T_H, T_F, T_c) of times of the flows of H and F/2 and of the time T_c of the attitude, which
+turns by -b T_c about the field. They come from integrals between zeros of eta, see
+`atlas.motions.torus.approximate_periods`, and from relations with whole numbers that LLL finds, so nothing here is
+proved. The polarization E is the alternating form with whole values that the bilinear relation singles out; that it is
+of type (1,2) is the check that no period is missing: then
 
     E(a1, b1) = 1,    E(a2, b2) = 2,    0 for other pairs,    tau = X^-1 (b1 | b2),    X = (a1 | a2/2),
 
@@ -59,7 +59,7 @@ class Lattice:
     """Periods (T_H, T_F, T_c): two that generate the real ones, two more, and a symplectic basis (a1, a2, b1, b2)."""
 
     real: tuple[list[acb], list[acb]]
-    others: tuple[list[acb], list[acb]]
+    other_periods: tuple[list[acb], list[acb]]
     a: tuple[list[acb], list[acb]]
     b: tuple[list[acb], list[acb]]
     paths: tuple[tuple[acb, acb, acb], ...] = ()
@@ -78,8 +78,8 @@ class Lattice:
         """Riemann matrix X^-1 (b1 | b2), made symmetric."""
         (p, q, _), (r, s, _) = self.b
         tau = self.X.solve(acb_mat([[p, r], [q, s]]))
-        across = (tau[0, 1] + tau[1, 0]) / 2
-        return acb_mat([[tau[0, 0], across], [across, tau[1, 1]]])
+        off_diagonal = (tau[0, 1] + tau[1, 0]) / 2
+        return acb_mat([[tau[0, 0], off_diagonal], [off_diagonal, tau[1, 1]]])
 
 
 def lattice(motion: Integrals) -> Lattice:
@@ -89,14 +89,14 @@ def lattice(motion: Integrals) -> Lattice:
         try:
             return _of_paths(curve, PATHS_PER_ZERO)
         except NotCertifiedError:
-            if sum(len(list(curve.parts(*path))) for path in curve.paths(PATHS_PER_ZERO)) > MAX_PATH_PARTS:
+            if sum(len(list(curve.intervals(*path))) for path in curve.paths(PATHS_PER_ZERO)) > MAX_PATH_PARTS:
                 raise
             return _of_paths(curve, MAX_PATHS_PER_ZERO)
 
 
-def _of_paths(curve: Curve, each: int) -> Lattice:
+def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
     """Return the periods that integrals along some paths make, the best first, no more than are needed."""
-    ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(each)
+    ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(paths_per_zero)
     for path in paths:
         ways.append(list(curve.along(*path)))
         if len(ways) >= MIN_PATHS:
@@ -119,9 +119,9 @@ def _of_ways(ways: list[list[acb]]) -> Lattice:
     basis = _reduced(periods, _symplectic(_polarization(periods)))
     of_paths = sums(sums(weights, real), basis.tolist())
     a1, a2, b1, b2 = sums(periods, basis.tolist())
-    first, second = sums(periods[:2], _shortest(periods, basis))
-    others, whole = (periods[2], periods[3]), tuple(tuple(row) for row in of_paths)
-    return Lattice((first, second), others, (a1, a2), (b1, b2), weights=whole)
+    a_period, second = sums(periods[:2], _shortest(periods, basis))
+    other_periods, integers = (periods[2], periods[3]), tuple(tuple(row) for row in of_paths)
+    return Lattice((a_period, second), other_periods, (a1, a2), (b1, b2), weights=integers)
 
 
 def _real(period: Sequence[acb]) -> list[arb]:
@@ -139,14 +139,14 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
         raise NotCertifiedError(
             "not certified: the periods found for the motion's torus depend on one another."
         ) from error
-    whole = np.array([[round(float(conjugation[i, j].mid())) for j in range(4)] for i in range(4)])
+    integers = np.array([[round(float(conjugation[i, j].mid())) for j in range(4)] for i in range(4)])
     if not all(
-        abs(float(conjugation[i, j].mid()) - whole[i, j]) < INTEGER_TOLERANCE for i in range(4) for j in range(4)
+        abs(float(conjugation[i, j].mid()) - integers[i, j]) < INTEGER_TOLERANCE for i in range(4) for j in range(4)
     ):
         raise NotCertifiedError(
             "not certified: the periods found for the motion's torus are no lattice with conjugates."
         )
-    return whole
+    return integers
 
 
 def _real_first(conjugation: Whole) -> list[list[int]]:
@@ -170,10 +170,10 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
     gram = (zeta.conj().T @ np.linalg.solve(_riemann(vectors, basis).imag, zeta)).real
     rows = np.eye(2, dtype=int)
     for _ in range(MAX_REDUCTIONS):
-        (first, both), (_, second) = rows @ gram @ rows.T
-        if second < first:
+        (a_period, product), (_, second) = rows @ gram @ rows.T
+        if second < a_period:
             rows = rows[::-1]
-        elif n := round(float(both / first)):
+        elif n := round(float(product / a_period)):
             rows = np.array([rows[0], rows[1] - n * rows[0]])
         else:
             break
@@ -192,15 +192,15 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
         for i, x in enumerate(areas)
     ]
     for row in fmpz_mat(rows).lll().tolist():
-        whole = [int(x) >> AREA_INTEGER_BITS for x in row[2:]]
-        n = dict(zip(PAIRS, whole, strict=True))
+        integers = [int(x) >> AREA_INTEGER_BITS for x in row[2:]]
+        n = dict(zip(PAIRS, integers, strict=True))
         pfaffian = n[0, 1] * n[2, 3] - n[0, 2] * n[1, 3] + n[0, 3] * n[1, 2]
         if max(abs(int(x)) for x in row[:2]) > 1 << AREA_BITS // 2 or abs(pfaffian) != 2:
             continue
         form = np.zeros((4, 4), dtype=int)
         for (i, j), sign in zip(PAIRS, (1, -1, 1, 1, -1, 1), strict=True):
-            other = [k for k in range(4) if k not in (i, j)]
-            form[i, j] = sign * n[other[0], other[1]]
+            complement = [k for k in range(4) if k not in (i, j)]
+            form[i, j] = sign * n[complement[0], complement[1]]
         return np.array(form - form.T)
     raise NotCertifiedError(
         "not certified: the periods found for the motion's torus have no polarization of type (1,2)."
@@ -214,14 +214,17 @@ def _symplectic(form: Whole) -> Whole:
         E = rows @ form @ rows.T
         places = [(abs(int(E[i, j])), i, j) for i, j in combinations(range(len(rows)), 2) if E[i, j]]
         size, i, j = min(places)
-        first, second = (rows[i], rows[j]) if E[i, j] > 0 else (rows[j], rows[i])
-        rest = [row for k, row in enumerate(rows) if k not in (i, j)]
-        # what the others have beyond multiples of the smallest value is smaller, and taken next
-        less = [row - (row @ form @ second) // size * first + (row @ form @ first) // size * second for row in rest]
-        if any((row @ form @ second) % size or (row @ form @ first) % size for row in rest):
-            rows = np.array([first, second, *less])
+        a_period, second = (rows[i], rows[j]) if E[i, j] > 0 else (rows[j], rows[i])
+        remaining_rows = [row for k, row in enumerate(rows) if k not in (i, j)]
+        # remainders of the others modulo the smallest value are smaller, and taken next
+        less = [
+            row - (row @ form @ second) // size * a_period + (row @ form @ a_period) // size * second
+            for row in remaining_rows
+        ]
+        if any((row @ form @ second) % size or (row @ form @ a_period) % size for row in remaining_rows):
+            rows = np.array([a_period, second, *less])
             continue
-        chosen.append((first, second))
+        chosen.append((a_period, second))
         rows = np.array(less).reshape(-1, 4)
     if chosen[0][0] @ form @ chosen[0][1] == 2:
         chosen.reverse()

@@ -17,7 +17,7 @@ FIT_POINTS, TAYLOR_TERMS = 7, 64
 """Points of a fit, and terms of Taylor's series there."""
 
 CIRCLE_RATIO = 9
-"""They lie on a circle that is so many times smaller than that of convergence."""
+"""Ratio of the radius of convergence to the radius of the circle of these points."""
 
 Vector = list[acb]
 
@@ -31,7 +31,7 @@ class State:
     N: Vector
 
     @property
-    def all(self) -> Vector:
+    def components(self) -> Vector:
         """The components in a row."""
         return [*self.M, *self.K, *self.N]
 
@@ -43,28 +43,28 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         # with A = K_j^2 and s = K_j M_k - K_k M_j, F gives s^2 and H gives the product s K_j K_k
-        A, rest = fmpq_poly([0, 1]), fmpq_poly([b2, -1])
+        A, b2_less_A = fmpq_poly([0, 1]), fmpq_poly([b2, -1])
         s2 = b2 * (motion.F + D / I[k] * b2) - c * c + b2 * (D / I[j] - D / I[k]) * A
-        less = (c * c * A + s2 * rest) / I[j] + (c * c * rest + s2 * A) / I[k]
-        less = less + b2 * b2 * (I[j] * A + I[k] * rest - 2 * motion.H)
-        across = c * (1 / I[j] - 1 / I[k])
-        quartic = less * less - 4 * across * across * s2 * A * rest if c else less
+        less = (c * c * A + s2 * b2_less_A) / I[j] + (c * c * b2_less_A + s2 * A) / I[k]
+        less = less + b2 * b2 * (I[j] * A + I[k] * b2_less_A - 2 * motion.H)
+        difference = c * (1 / I[j] - 1 / I[k])
+        quartic = less * less - 4 * difference * difference * s2 * A * b2_less_A if c else less
         for root, _ in quartic.complex_roots():
-            a, d, s = (centre(value(x, root)).sqrt() for x in (A, rest, s2))
-            if abs(complex_of(2 * across * s * a * d - value(less, root))) > abs(
-                complex_of(2 * across * s * a * d + value(less, root))
+            a, d, s = (centre(value(x, root)).sqrt() for x in (A, b2_less_A, s2))
+            if abs(complex_of(2 * difference * s * a * d - value(less, root))) > abs(
+                complex_of(2 * difference * s * a * d + value(less, root))
             ):
                 s = -s
             K, M = [acb(0)] * 3, [acb(0)] * 3
             K[j], K[k] = a, d
             M[j], M[k] = (c * a - s * d) / b2, (c * d + s * a) / b2
             states.append((i, State([centre(x) for x in M], [centre(x) for x in K], [])))
-    return sorted(states, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].all))
+    return sorted(states, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].components))
 
 
 def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
     """Return Taylor coefficients of M, K and N along the flow of H, nine or six rows."""
-    rows = [[x] for x in start.all]
+    rows = [[x] for x in start.components]
     A = [1 / I for I in moments]
     for n in range(TAYLOR_TERMS):
         back = [row[::-1] for row in rows]
@@ -75,10 +75,10 @@ def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
                 _product(rows, back, j, k) * (A[k] - A[j])
                 + _product(rows, back, 3 + j, 3 + k) * (moments[k] - moments[j])
             )
-        for first in range(3, len(rows), 3):
+        for of_H in range(3, len(rows), 3):
             for i in range(3):
                 j, k = (i + 1) % 3, (i + 2) % 3
-                new.append(_product(rows, back, first + j, k) * A[k] - _product(rows, back, first + k, j) * A[j])
+                new.append(_product(rows, back, of_H + j, k) * A[k] - _product(rows, back, of_H + k, j) * A[j])
         for row, x in zip(rows, new, strict=True):
             row.append(centre(x / (n + 1)))
     return rows
@@ -108,5 +108,5 @@ def fields(moments: Sequence[fmpq], state: Array) -> Array:
     I = np.array([int(x.p) / int(x.q) for x in moments])
     M, K = state[..., :3], state[..., 3:]
     J = -I.prod() / I
-    first = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)], -1)
-    return np.stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)], -1)], -1)
+    of_H = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)], -1)
+    return np.stack([of_H, np.concatenate([np.cross(K, J * K), np.cross(K, M)], -1)], -1)

@@ -6,8 +6,7 @@ Over the curve v^2 = P(z) = prod(z + D/I_i), z = wp(u) - (I1 I2 + I1 I3 + I2 I3)
 
 with zeros at four u modulo the periods of wp. For any two of them, -2i times the integral of (D, z) du/eta from one to
 the other is a pair of complex times (T_H, T_F) after which M and K are back, so twice its real part is one of real
-times. What is found here is a start for `atlas.motions.torus.certified`, which proves that it is one, and nothing
-else.
+times. These approximations are starts for `atlas.motions.torus.certified`, which proves the periods.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -36,8 +35,8 @@ MAX_COEFFICIENT_BITS = 200
 field, or of a field 2^100 times the spin. Isolating the zeros takes hours for the largest."""
 
 NODES, ELLIPSE_LOG = 64, 1.1
-"""Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
-is left out is 2^-200, exp(-2 NODES ELLIPSE_LOG)."""
+"""Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: the
+remainder is 2^-200, exp(-2 NODES ELLIPSE_LOG)."""
 
 MIN_SINE = 1e-10
 """Sine of the angle with a path, as seen from its nearer end, from which on a place is not on the path."""
@@ -72,7 +71,7 @@ class Integrals:
     square: fmpq
 
     @classmethod
-    def of(cls, moments: tuple[fmpq, ...], Omega: Sequence[fmpq], K: Sequence[fmpq]) -> Self:
+    def of_state(cls, moments: tuple[fmpq, ...], Omega: Sequence[fmpq], K: Sequence[fmpq]) -> Self:
         """Return the integrals of a state, theorem-clebsch."""
         J = [moments[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
         H, F, c, square, _ = clebsch(*J, *Omega, *K)
@@ -97,8 +96,8 @@ class Integrals:
     @property
     def P(self) -> fmpq_poly:
         """The cubic of the body's curve."""
-        first, second, third = (fmpq_poly([self.D / I, 1]) for I in self.moments)
-        return first * second * third
+        start_places, second, third = (fmpq_poly([self.D / I, 1]) for I in self.moments)
+        return start_places * second * third
 
     @property
     def quartic(self) -> fmpq_poly:
@@ -130,7 +129,7 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
 class Curve:
     """The zeros of Psi on the torus of u, and integrals between them.
 
-    What is `proven` keeps the radii of its balls, which grow; else only their centres are taken on.
+    If `proven`, balls keep their radii, which grow; else they are replaced by their centres.
     """
 
     def __init__(self, motion: Integrals, *, proven: bool = False) -> None:
@@ -141,14 +140,14 @@ class Curve:
         m, size = arb((middle - low) / (high - low)), arb(high - low).sqrt()
         self.real = 2 * acb(m).elliptic_k().real / size
         self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
-        self.tau = self._held(self.imaginary / self.real)
+        self.tau = self._centred(self.imaginary / self.real)
         _, second, third, fourth = acb(0).modular_theta(self.tau)
         self.scale, self.foot = arb.pi() / self.real * third * fourth, motion.D / max(motion.moments)
         self.slope = -arb.pi() / self.real * second * second * self.scale * self.scale
         self.zeros = [self._place(z, v) for z, v in motion.zeros()]
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
-        """Return periods of wp, in two parts, up to so many cells along each."""
+        """Return periods of wp, in two parts, up to `cells` cells along each."""
         line = range(-cells, cells + 1)
         return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
 
@@ -163,23 +162,23 @@ class Curve:
 
     def _place(self, z: acb, v: acb) -> acb:
         """Return the u of a point of the curve, in the cell about zero."""
-        u = self._held(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
+        u = self._centred(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
         _, place = self.at(u)
-        if _far(place - v) > _far(place + v):
+        if _distance(place - v) > _distance(place + v):
             u = -u
-        return self._held(self.in_cell(u))
+        return self._centred(self.in_cell(u))
 
     def in_cell(self, u: acb) -> acb:
         """Return u modulo the periods of wp, in the cell about zero."""
         u -= round(float(u.imag.mid()) / float(self.imaginary.imag.mid())) * self.imaginary
         return u - round(float(u.real.mid()) / float(self.real.mid())) * self.real
 
-    def _held(self, x: acb) -> acb:
+    def _centred(self, x: acb) -> acb:
         return x if self.proven else centre(x)
 
-    def paths(self, each: int = PATHS_PER_ZERO) -> list[tuple[acb, acb]]:
+    def paths(self, paths_per_zero: int = PATHS_PER_ZERO) -> list[tuple[acb, acb]]:
         """Return straight paths between zeros, so many for each of four, those farthest from others first."""
-        found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
+        paths_of_pair: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
         starts = [(zero, self.distances(zero)) for zero in self.zeros]
         for (j, zero), (x, y) in product(enumerate(self.zeros), self._periods(PATH_CELLS)):
             stop = zero + x + y
@@ -190,10 +189,10 @@ class Curve:
                     continue
                 w = _elliptic(*_fractions(from_start, from_stop, way))
                 if (w.real > MIN_SINE * abs(w)).all():
-                    found.setdefault((i, j), []).append((w.real.min(), start, stop))
-        rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
-        chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
-        return [(start, stop) for _, start, stop in chosen[: 4 * each]]
+                    paths_of_pair.setdefault((i, j), []).append((w.real.min(), start, stop))
+        rows = [sorted(paths, key=lambda path: -path[0]) for paths in paths_of_pair.values()]
+        chosen = sorted((path for row in rows for path in row[:paths_per_zero]), key=lambda path: -path[0])
+        return [(start, stop) for _, start, stop in chosen[: 4 * paths_per_zero]]
 
     def distances(self, end: acb) -> Array:
         """Return the places of zeros and of the pole from the end of a path, (5, cells), each to a double's digits."""
@@ -201,22 +200,24 @@ class Curve:
         cells = np.arange(-ZERO_CELLS, ZERO_CELLS + 1)
         rows = []
         for zero in (*self.zeros, acb(0)):
-            near = self.in_cell(zero - end)
-            shift = complex_of(zero - end - near)
+            is_near = self.in_cell(zero - end)
+            shift = complex_of(zero - end - is_near)
             m, n = (round(x / size) for x, size in zip((shift.real, shift.imag), sizes, strict=True))
-            least = 0j if abs(complex_of(near)) < ZERO_TOLERANCE * min(sizes) else complex_of(near)
+            least = 0j if abs(complex_of(is_near)) < ZERO_TOLERANCE * min(sizes) else complex_of(is_near)
             rows.append(least + np.add.outer((cells + m) * sizes[0], 1j * (cells + n) * sizes[1]).ravel())
         return np.array(rows)
 
-    def _beside(self, start: acb, stop: acb) -> tuple[Array, Array]:
+    def _other_places(self, start: acb, stop: acb) -> tuple[Array, Array]:
         """Return the other places in units of a path, from its start, and from its stop backwards."""
         return _fractions(self.distances(start), self.distances(stop), complex_of(stop - start))
 
-    def parts(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
+    def intervals(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield the parts of a path, in units of half a turn of s, in whose ellipses no other zero and no pole is."""
-        first, last = (np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._beside(start, stop))
-        near = _elliptic(first, last).real < ELLIPSE_LOG
-        return _parts(first[near], last[near])
+        start_places, stop_places = (
+            np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._other_places(start, stop)
+        )
+        is_near = _elliptic(start_places, stop_places).real < ELLIPSE_LOG
+        return _intervals(start_places[is_near], stop_places[is_near])
 
     def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield places s on a path, u = start + (stop - start)(1 - cos s)/2, and the weights of a rule in s.
@@ -225,13 +226,13 @@ class Curve:
         another zero, or the pole of z, is so near that this takes more places, it is Gauss's on shorter parts: as many
         as the distance has digits.
         """
-        parts = list(self.parts(start, stop))
-        count = ceil(BITS * log(2) / (2 * _elliptic(*self._beside(start, stop)).real.min()))
-        if count <= NODES * len(parts):
+        intervals = list(self.intervals(start, stop))
+        count = ceil(BITS * log(2) / (2 * _elliptic(*self._other_places(start, stop)).real.min()))
+        if count <= NODES * len(intervals):
             for k in range(count):
                 yield arb.pi() * fmpq(2 * k + 1, 2 * count), arb.pi() / count
             return
-        for low, high in parts:
+        for low, high in intervals:
             half = arb.pi() * (high - low) / 2
             for x, weight in rule(NODES, BITS):
                 yield arb.pi() * low + half * (1 + x), half * weight
@@ -239,7 +240,7 @@ class Curve:
     def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
         """Return -2i times the integral of (D, z, v) du/eta along a path."""
         way, g = stop - start, acb_poly(self.g)
-        first, second, third, before = acb(0), acb(0), acb(0), None
+        start_places, second, third, before = acb(0), acb(0), acb(0), None
         for s, weight in self.nodes(start, stop):
             sin, cos = s.sin_cos()
             z, v = self.at(start + way * (1 - cos) / 2)
@@ -247,14 +248,14 @@ class Curve:
             if square.rel_accuracy_bits() < MIN_KNOWN_BITS:
                 raise NotCertifiedError("not certified: integrals between zeros of the motion's torus lose all digits.")
             root = centre(square).sqrt()
-            if before is not None and _far(root - before) > _far(root + before):
+            if before is not None and _distance(root - before) > _distance(root + before):
                 root = -root
             before, term = root, weight / root
-            first += term
+            start_places += term
             second += z * term
             third += v * term
         factor = acb(0, -1) * way
-        return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
+        return centre(start_places * factor * self.motion.D), centre(second * factor), centre(third * factor)
 
 
 def _check_sizes(polynomial: fmpq_poly) -> None:
@@ -271,25 +272,25 @@ def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
         return [arb.legendre_p_root(nodes, k, weight=True) for k in range(nodes - 1, -1, -1)]
 
 
-def _parts(first: Array, last: Array) -> Iterator[tuple[arb, arb]]:
+def _intervals(start_places: Array, stop_places: Array) -> Iterator[tuple[arb, arb]]:
     """Yield parts of (0, 1), in order, whose ellipses leave places out, seen from 0, and from 1 backwards.
 
     NotCertifiedError where one is too near the path to be told from a place on it.
     """
-    if not first.size:
+    if not start_places.size:
         yield arb(0), arb(1)
         return
-    for low, high in _halved(first):
+    for low, high in _halved(start_places):
         yield arb(low), arb(high)
-    for low, high in reversed(list(_halved(last))):
+    for low, high in reversed(list(_halved(stop_places))):
         yield arb(1 - high), arb(1 - low)
 
 
 def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
     """Yield parts of (0, 1/2), in order, whose ellipses leave places out."""
-    left = [(fmpq(0), fmpq(1, 2))]
-    while left:
-        low, high = left.pop()
+    pending = [(fmpq(0), fmpq(1, 2))]
+    while pending:
+        low, high = pending.pop()
         if high - low < SHORTEST:
             raise NotCertifiedError("not certified: zeros of the motion's torus are too close to one another.")
         a, b = (int(x.p) / int(x.q) for x in (low, high))
@@ -297,7 +298,7 @@ def _halved(places: Array) -> Iterator[tuple[fmpq, fmpq]]:
             yield low, high
         else:
             middle = (low + high) / 2
-            left += [(middle, high), (low, middle)]
+            pending += [(middle, high), (low, middle)]
 
 
 def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
@@ -342,8 +343,8 @@ def value(polynomial: fmpq_poly, z: acb) -> acb:
 
 def _fractions(from_start: Array, from_stop: Array, way: complex) -> tuple[Array, Array]:
     """Return places but the ends of a path in units of it, from its start, and from its stop backwards."""
-    others = (from_start != 0) & (from_stop != 0)
-    return from_start[others] / way, -from_stop[others] / way
+    other_places = (from_start != 0) & (from_stop != 0)
+    return from_start[other_places] / way, -from_stop[other_places] / way
 
 
 def _elliptic(x: Array, y: Array) -> Array:
@@ -366,5 +367,5 @@ def matrix_of(x: acb_mat) -> Array:
     return np.array([[complex_of(y) for y in row] for row in x.tolist()])
 
 
-def _far(x: acb) -> float:
+def _distance(x: acb) -> float:
     return abs(complex_of(x))

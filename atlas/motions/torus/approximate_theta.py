@@ -40,7 +40,7 @@ ComplexPair = tuple[acb, acb]
 class ThetaMotion:
     """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`.
 
-    Where a motion `near` is known, its origin and its start are followed; else they are looked for.
+    Where a motion `neighbour` is known, its origin and its start are followed; else they are looked for.
     """
 
     def __init__(
@@ -49,7 +49,7 @@ class ThetaMotion:
         W: Sequence[fmpq],
         K: Sequence[fmpq],
         lattice: Lattice,
-        near: "ThetaMotion | None" = None,
+        neighbour: "ThetaMotion | None" = None,
     ) -> None:
         self.motion, self.field, self.lattice = motion, K, lattice
         self.misfit = 0.0  # the largest residual of a fit, beside its values
@@ -58,16 +58,16 @@ class ThetaMotion:
             t = self.tau
             self.hat = acb_mat([[2 * t[0, 0], t[0, 1]], [t[0, 1], t[1, 1] / 2]])
             self.origin: tuple[int, State] = (
-                origins(motion)[0] if near is None else _next_to(near.origin, origins(motion))
+                origins(motion)[0] if neighbour is None else _nearest_origin(neighbour.origin, origins(motion))
             )
             self.denominator, self.K, self.M = self._fitted()
             e = frame(K)
             N = [acb(x, y) for x, y in zip(*e, strict=True)]
             M = [acb(I * w) for I, w in zip(motion.moments, W, strict=True)]
             self.at_start = State(M, [acb(x) for x in K], N)
-            self.start = self._place() if near is None else self._improved(near.times, reduced=False)
+            self.start = self._place() if neighbour is None else self._improved(neighbour.times, reduced=False)
             self.l, self.w = self._quasi_periods()
-            self.N = self._turned()
+            self.N = self._forms_of_N()
 
     @property
     def forms(self) -> list[Form]:
@@ -89,8 +89,8 @@ class ThetaMotion:
     def state(self, zeta: Sequence[acb]) -> State:
         """Return M and K at zeta."""
         pairs = self.pairs(zeta)
-        D = self.denominator.of(pairs)
-        M, K = ([centre(form.of(pairs) / D) for form in forms] for forms in (self.M, self.K))
+        D = self.denominator.value(pairs)
+        M, K = ([centre(form.value(pairs) / D) for form in forms] for forms in (self.M, self.K))
         return State(M, K, [])
 
     def _fitted(self) -> tuple[Form, list[Form], list[Form]]:
@@ -100,20 +100,21 @@ class ThetaMotion:
         pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]
         j = (axis + 1) % 3
         tried = list[tuple[float, Form]]()
-        for place, other in permutations(range(3), 2):
+        for place, axis_place in permutations(range(3), 2):
             rows = [
-                [state.K[j] * p[place][0], state.K[j] * p[place][1], -p[other][0], -p[other][1]]
+                [state.K[j] * p[place][0], state.K[j] * p[place][1], -p[axis_place][0], -p[axis_place][1]]
                 for p, (_, state) in zip(pairs, points, strict=True)
             ]
             null, error = _null(rows)
             tried.append((error, Form(place, (null[0], null[1]))))
         error, denominator = min(tried, key=lambda x: x[0])
-        D = [denominator.of(p) for p in pairs]
-        free = [n for n in range(3) if n != denominator.place]
-        rows = [[x * d for x in state.all] for (_, state), d in zip(points, D, strict=True)]
-        places = [(3,) if i % 3 == axis else free for i in range(6)]
+        D = [denominator.value(p) for p in pairs]
+        free_places = [n for n in range(3) if n != denominator.place]
+        rows = [[x * d for x in state.components] for (_, state), d in zip(points, D, strict=True)]
+        places = [(3,) if i % 3 == axis else free_places for i in range(6)]
         forms = [
-            self._form(pairs, list(column), near) for column, near in zip(zip(*rows, strict=True), places, strict=True)
+            self._form(pairs, list(column), neighbour)
+            for column, neighbour in zip(zip(*rows, strict=True), places, strict=True)
         ]
         return denominator, forms[3:], forms[:3]
 
@@ -135,14 +136,14 @@ class ThetaMotion:
         Conjugation takes origins to origins, which are half a period apart: so the imaginary part of the times between
         them and the start is a fourth of that of a period.
         """
-        target = np.array([complex_of(x) for x in self.at_start.all[:6]])
-        real, others = (matrix_of(acb_mat(pair))[:, :2] for pair in (self.lattice.real, self.lattice.others))
+        target = np.array([complex_of(x) for x in self.at_start.components[:6]])
+        real, columns = (matrix_of(acb_mat(pair))[:, :2] for pair in (self.lattice.real, self.lattice.other_periods))
         rough, quarters = Rough(self), np.array(list(product(range(4), repeat=2)))[:, None] / 4
         for count in GRIDS:
             steps = np.array(list(product(range(count), repeat=2))) / count
-            times = (steps @ real + quarters @ others).reshape(-1, 2)
-            far = np.linalg.norm(rough.states(times) - target, axis=1)
-            candidates = rough.near(times[np.argsort(far)[:CANDIDATES]], target)
+            times = (steps @ real + quarters @ columns).reshape(-1, 2)
+            distance = np.linalg.norm(rough.states(times) - target, axis=1)
+            candidates = rough.times_near(times[np.argsort(distance)[:CANDIDATES]], target)
             if candidates is not None:
                 return self._improved(candidates)
         raise NotCertifiedError("not certified: the place of the start on the motion's torus was not found.")
@@ -154,25 +155,25 @@ class ThetaMotion:
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
         """Return zeta at the start to all digits, from times near it, less an even period if `reduced`."""
-        rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.all[:6]]))
+        rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.components[:6]]))
         i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
-        start = self.at_start.all
+        start = self.at_start.components
         a, b, c, d = (acb(complex(rates[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
         times = [acb(complex(x)) for x in T]
         before = np.inf
         for _ in range(NEWTON_STEPS):
-            states = self.state(self.zeta(times)).all
+            states = self.state(self.zeta(times)).components
             f, g = start[i] - states[i], start[j] - states[j]
-            far = abs(complex_of(f)) + abs(complex_of(g))
-            if not far < before:
+            distance = abs(complex_of(f)) + abs(complex_of(g))
+            if not distance < before:
                 break
-            before = far
+            before = distance
             times = [
                 centre(times[0] + (f * d - g * b) / (a * d - b * c)),
                 centre(times[1] + (g * a - f * c) / (a * d - b * c)),
             ]
         zeta = self._near_real(self.zeta(times)) if reduced else self.zeta(times)
-        error = max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False))
+        error = max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).components, start, strict=False))
         self.misfit = max(self.misfit, error)
         if not error < MAX_RESIDUAL:
             raise NotCertifiedError("not certified: Newton's method does not find the start on the motion's torus.")
@@ -183,8 +184,8 @@ class ThetaMotion:
         Y = matrix_of(self.hat).imag
         v = [2 * zeta[0], zeta[1]]
         m, n = (2 * round(float(x) / 2) for x in np.linalg.solve(Y, [complex_of(x).imag for x in v]))
-        first, second = (v[k] - m * self.hat[0, k] - n * self.hat[1, k] for k in range(2))
-        return [centre(first / 2), centre(second)]
+        first_component, second = (v[k] - m * self.hat[0, k] - n * self.hat[1, k] for k in range(2))
+        return [centre(first_component / 2), centre(second)]
 
     def _quasi_periods(self) -> tuple[Vector, Vector]:
         """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""
@@ -199,7 +200,7 @@ class ThetaMotion:
         w = [centre((angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi())) for k in range(2)]
         return l, w
 
-    def _turned(self) -> list[Form]:
+    def _forms_of_N(self) -> list[Form]:
         """Return the forms of N, which has besides the factor exp(i l (zeta - start))."""
         points = around(self.motion.moments, self.at_start)
         shifted, factors = list[list[ComplexPair]](), Vector()
@@ -207,26 +208,26 @@ class ThetaMotion:
             way = self.zeta((t, acb(0)))
             zeta = [x + y for x, y in zip(way, self.start, strict=True)]
             shifted.append(self.pairs([x - y for x, y in zip(zeta, self.w, strict=True)]))
-            factors.append(self.denominator.of(self.pairs(zeta)) / (acb(0, 1) * dot(self.l, way)).exp())
+            factors.append(self.denominator.value(self.pairs(zeta)) / (acb(0, 1) * dot(self.l, way)).exp())
         return [
             self._form(shifted, [s.N[j] * x for (_, s), x in zip(points, factors, strict=True)], range(4))
             for j in range(3)
         ]
 
 
-def _next_to(known: tuple[int, State], states: Sequence[tuple[int, State]]) -> tuple[int, State]:
+def _nearest_origin(reference: tuple[int, State], states: Sequence[tuple[int, State]]) -> tuple[int, State]:
     """Return the origin next to a known one, of those that are found and their images by the signs of components."""
-    axis, state = known
+    axis, state = reference
 
     def images(states: State) -> Iterator[State]:
         for signs in product((1, -1), repeat=3):
             M, K = ([n * x for n, x in zip(signs, v, strict=True)] for v in (states.M, states.K))
             yield State(M, K, [])
 
-    def far(image: State) -> float:
-        return sum(abs(complex_of(x - y)) ** 2 for x, y in zip(image.all, state.all, strict=True))
+    def distance(image: State) -> float:
+        return sum(abs(complex_of(x - y)) ** 2 for x, y in zip(image.components, state.components, strict=True))
 
-    return axis, min((x for i, candidate in states if i == axis for x in images(candidate)), key=far)
+    return axis, min((x for i, candidate in states if i == axis for x in images(candidate)), key=distance)
 
 
 class Rough:
@@ -235,7 +236,7 @@ class Rough:
     def __init__(self, motion: ThetaMotion) -> None:
         self.moments = motion.motion.moments
         self.hat: Array = matrix_of(motion.hat)
-        self.inverse, self.into = np.linalg.inv(self.hat.imag), np.linalg.inv(matrix_of(motion.X)) * [[2], [1]]
+        self.inverse, self.to_arguments = np.linalg.inv(self.hat.imag), np.linalg.inv(matrix_of(motion.X)) * [[2], [1]]
         cell = np.array([[x, y] for x in (-1, 0, 1) for y in (-1, 0, 1)])
         forms = [motion.denominator, *motion.M, *motion.K]
         region = np.asarray(1j * np.pi * (cell @ self.hat.imag).T, complex)
@@ -243,23 +244,23 @@ class Rough:
 
     def states(self, times: Array) -> Array:
         """Return M and K at pairs of times (m, 2), shape (m, 6)."""
-        v = times @ self.into.T
+        v = times @ self.to_arguments.T
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # such places are no start
             D, *values = self.sums.at(np.pi * v.T, np.zeros_like(v.T), slice(0, 7))
             return np.asarray((np.array(values) / D).T)
 
-    def near(self, times: Array, target: Array) -> Array | None:
+    def times_near(self, times: Array, target: Array) -> Array | None:
         """Return times at which the state is the target, by Newton's method from several; None where all go astray."""
         size, before = float(np.linalg.norm(target)), np.inf
         for _ in range(NEWTON_STEPS):
             states = self.states(times)
-            far = np.linalg.norm(states - target, axis=1)
-            if far.min(initial=np.inf) < 1e-9 * size:
-                return np.asarray(times[far.argmin()])
-            nearer = far < 4 * before
-            times, states, before = times[nearer], states[nearer], far[nearer]
+            distance = np.linalg.norm(states - target, axis=1)
+            if distance.min(initial=np.inf) < 1e-9 * size:
+                return np.asarray(times[distance.argmin()])
+            converging = distance < 4 * before
+            times, states, before = times[converging], states[converging], distance[converging]
             ways = np.linalg.pinv(fields(self.moments, states)) @ (target - states)[..., None]
             times = times + ways[..., 0]
         return None
@@ -282,9 +283,9 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
     A, B = acb_mat(rows), acb_mat([[x] for x in values])
     adjoint = A.transpose().conjugate()
     solution = (adjoint * A).solve(adjoint * B)
-    rest = A * solution - B
+    residual = A * solution - B
     size = max(abs(x).mid() for x in values) or arb(1)  # they may be too small for a float
-    error = max(abs(rest[i, 0]).mid() for i in range(A.nrows())) / size
+    error = max(abs(residual[i, 0]).mid() for i in range(A.nrows())) / size
     return [centre(solution[i, 0]) for i in range(A.ncols())], float(error.mid())
 
 
@@ -292,8 +293,8 @@ def _null(rows: list[Vector]) -> tuple[Vector, float]:
     """Return the vector that rows are orthogonal to, with the best of its components 1, and the residual."""
     vectors = list[tuple[float, Vector]]()
     for k in range(2):
-        others = [n for n in range(len(rows[0])) if n != k]
-        solution, error = _least_squares([[row[n] for n in others] for row in rows], [-row[k] for row in rows])
+        columns = [n for n in range(len(rows[0])) if n != k]
+        solution, error = _least_squares([[row[n] for n in columns] for row in rows], [-row[k] for row in rows])
         solution.insert(k, acb(1))
         vectors.append((error, solution))
     error, vector = min(vectors, key=lambda x: x[0])

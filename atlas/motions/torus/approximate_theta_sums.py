@@ -32,8 +32,8 @@ PRODUCT, ROUNDED = 2.24, 1.01
 """Units of 2^-53 by which a complex product, and a number that is rounded once, are wrong beside themselves."""
 
 WEIGHT = 1.1
-"""Units of 2^-53 by which a sum over Q, which is rounded once, is wrong: 0.1 are for what lower words and sums of them
-lack, and for terms that are left out."""
+"""Units of 2^-53 by which a sum over Q, which is rounded once, is wrong: 0.1 are for the errors of lower words and of
+sums of them, and for omitted terms."""
 
 SPLIT_BITS = 22
 """Binary digits of the upper words of weights and of powers: in sums of 2^7 of their products no digit is lost."""
@@ -57,10 +57,10 @@ class Form:
     weights: tuple[acb, acb]
     shift: tuple[acb, acb] = (acb(0), acb(0))
 
-    def of(self, pairs: Sequence[tuple[acb, acb]]) -> acb:
+    def value(self, pairs: Sequence[tuple[acb, acb]]) -> acb:
         """Return the value, from those of all pairs of theta functions at v - shift."""
-        (n0, n1), (first, second) = self.weights, pairs[self.place]
-        return n0 * first + n1 * second
+        (n0, n1), (at_zero, second) = self.weights, pairs[self.place]
+        return n0 * at_zero + n1 * second
 
     def over(self, x: Any) -> "Form":
         """Return the form over a number."""
@@ -90,18 +90,18 @@ class Sums:
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
-        places = needed(hat, forms, origin, region, LEFT_OUT_LOG)
+        places = places_that_matter(hat, forms, origin, region, LEFT_OUT_LOG)
         low, high = places.min(axis=0), places.max(axis=0)
         centre = np.round((low + high) / 2).astype(int)
         rows, columns = (range(int(a), int(b) + 1) for a, b in zip(low, high, strict=True))
         reach = int(abs(places - centre)[:, 0].max())
         low[0], high[0] = centre[0] - reach, centre[0] + reach  # the middle row is that of P = 0
         self.table: Array = np.zeros((len(forms), *(high - low + 1)), complex)
-        self.rest = np.zeros_like(self.table)
+        self.low_words = np.zeros_like(self.table)
         for p, q in product(rows, columns):
             weights = weights_at(forms, hat, origin, (p, q))
             self.table[:, p - low[0], q - low[1]] = rounded = [complex_of(x) for x in weights]
-            self.rest[:, p - low[0], q - low[1]] = [
+            self.low_words[:, p - low[0], q - low[1]] = [
                 complex_of(x - acb(y)) for x, y in zip(weights, rounded, strict=True)
             ]
         self.centre = centre
@@ -114,35 +114,35 @@ class Sums:
         self.sizes = np.tile(np.exp2(np.ceil(np.log2(largest)) + 1), 2)  # a little beyond the region
         self._words = dict[tuple[int, int], list[Words]]()
 
-    def at(self, x: Array, rest: Array, part: slice) -> Array:
+    def at(self, x: Array, low_words: Array, chosen_rows: slice) -> Array:
         """Return some of the forms at places x + rest (2, m), the rest being tiny: shape (forms, m).
 
-        The sum over Q is that of the upper words of weights and powers, exact, and of what these lack; that over P goes
-        by Horner's rule from both ends.
+        The sum over Q is that of the upper words of weights and powers, exact, plus that of the lower words. The sum
+        over P is Horner's rule from both ends.
         """
         w = np.exp(1j * x)
-        w += w * (1j * rest)
+        w += w * (1j * low_words)
         w = np.concatenate([w, w[1:] * w[1:]])
         steps = np.stack([inverse(w), w], 1)
-        words, powers = self.words(part), self.powers(steps[1], steps[2])
+        words, powers = self.words(chosen_rows), self.powers(steps[1], steps[2])
         m, middle = x.shape[1], len(self.P) // 2
         rows, order = np.empty((sum(len(forms) for forms, _, _ in words) * len(self.P), 2 * m)), list[int]()
-        for (forms, upper, lower), known in zip(words, powers, strict=True):
+        for (forms, upper, lower), power_words in zip(words, powers, strict=True):
             sums = rows[len(order) * len(self.P) :][: len(upper)]
             step = max(UNTHREADED // max(lower.size, 1), 1)
             for i in range(0, 2 * m, step):
                 block = slice(i, i + step)
-                np.matmul(lower, known[:2].reshape(-1, 2 * m)[:, block], out=sums[:, block])
-                sums[:, block] += upper @ known[2, :, block]
+                np.matmul(lower, power_words[:2].reshape(-1, 2 * m)[:, block], out=sums[:, block])
+                sums[:, block] += upper @ power_words[2, :, block]
             order += forms
         sums = rows.view(np.complex128).reshape(len(order), len(self.P), m)
         ends = np.zeros((len(order), 2, m), np.complex128)
         for n in range(middle, 0, -1):
             ends += sums[:, middle - n : middle + n + 1 : 2 * n]
             ends *= steps[0]
-        found = np.empty((len(order), m), np.complex128)
-        found[order] = sums[:, middle] + ends[:, 1] + ends[:, 0]
-        return found
+        values = np.empty((len(order), m), np.complex128)
+        values[order] = sums[:, middle] + ends[:, 1] + ends[:, 0]
+        return values
 
     def powers(self, once: Array, square: Array) -> FloatArray:
         """Return even and odd powers of w_2 as words, (2, 3, rows, 2 m): the number, its lower and its upper word.
@@ -174,16 +174,16 @@ class Sums:
         return self._words[key]
 
     def _split(self, rows: slice, parity: int) -> Words:
-        """Cut weights, and what they lack, into two words each."""
+        """Return the forms of a parity, and their weights in an upper and a lower word."""
         forms = np.flatnonzero(self.odd[rows] == parity).tolist()
         columns, sizes = self.columns[parity], self.sizes[parity]
-        there = (self.Q[0] <= columns) & (columns <= self.Q[-1])
-        there[1] &= bool(parity)  # of the power 0 there is one
-        chosen = columns[there] - self.Q[0]
-        words, rest = np.zeros((2, len(forms), len(self.P), len(columns)), complex)
-        for sums, table in ((words, self.table), (rest, self.rest)):
-            sums[..., there] = table[rows][forms][:, :, chosen]
-        real, less = (np.concatenate([x.real, x.imag], -1).reshape(-1, len(sizes)) for x in (words, rest))
+        is_in_table = (self.Q[0] <= columns) & (columns <= self.Q[-1])
+        is_in_table[1] &= bool(parity)  # of the power 0 there is one
+        chosen = columns[is_in_table] - self.Q[0]
+        words, low_words = np.zeros((2, len(forms), len(self.P), len(columns)), complex)
+        for sums, table in ((words, self.table), (low_words, self.low_words)):
+            sums[..., is_in_table] = table[rows][forms][:, :, chosen]
+        real, less = (np.concatenate([x.real, x.imag], -1).reshape(-1, len(sizes)) for x in (words, low_words))
         largest = (abs(real) * sizes).max(axis=-1, keepdims=True)
         largest[largest == 0] = 1.0
         unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT_BITS) / sizes
@@ -192,27 +192,27 @@ class Sums:
 
     @property
     def steps(self) -> FloatArray:
-        """Units of 2^-53 by which each term is wrong beside itself, with what sums add to it, (P, Q).
+        """Units of 2^-53 by which each term is wrong relative to itself, sums included, (P, Q).
 
         That is, if w_1 were exact, and w_2 the root of its square in doubles, by which the odd powers differ from
         those of w_2 by half a product: by weights with the sum over Q, by powers, and by products and sums over P.
         """
         n, k, odd = abs(self.P), abs(self.Q) // 2, abs(self.Q) % 2
-        along = n * (PRODUCT + 1) + n * ROUNDED * (self.P < 0) + 2
+        steps_of_P = n * (PRODUCT + 1) + n * ROUNDED * (self.P < 0) + 2
         powers = np.where(odd, (k + 0.5) * PRODUCT, np.maximum(k - 1, 0) * PRODUCT) + (k + odd) * ROUNDED * (self.Q < 0)
-        return np.asarray((WEIGHT + along)[:, None] + powers)
+        return np.asarray((WEIGHT + steps_of_P)[:, None] + powers)
 
 
 def inverse(w: Array) -> Array:
-    """Return 1/w, rounded once: one step of Newton's method with what is left of 1, by halves of 26 digits."""
-    near = w.conj() / (w.real * w.real + w.imag * w.imag)
-    (a, a_low), (b, b_low) = _halves(w), _halves(near)
-    first, second = a.real * b.real, -a.imag * b.imag
-    left = np.empty_like(w)
-    left.real = (1 - np.maximum(first, second)) - np.minimum(first, second)  # exact, as is the imaginary part
-    left.imag = -(a.real * b.imag + a.imag * b.real)
-    left -= a * b_low + a_low * near
-    return np.asarray(near + near * left)
+    """Return 1/w, rounded once: one step of Newton's method with the residual of 1, by halves of 26 digits."""
+    places_near = w.conj() / (w.real * w.real + w.imag * w.imag)
+    (a, a_low), (b, b_low) = _halves(w), _halves(places_near)
+    at_zero, second = a.real * b.real, -a.imag * b.imag
+    residual = np.empty_like(w)
+    residual.real = (1 - np.maximum(at_zero, second)) - np.minimum(at_zero, second)  # exact, as is the imaginary part
+    residual.imag = -(a.real * b.imag + a.imag * b.real)
+    residual -= a * b_low + a_low * places_near
+    return np.asarray(places_near + places_near * residual)
 
 
 def _halves(w: Array) -> tuple[Array, Array]:
@@ -222,27 +222,27 @@ def _halves(w: Array) -> tuple[Array, Array]:
     return upper, w - upper
 
 
-def needed(
+def places_that_matter(
     hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array, left_out: float
 ) -> NDArray[np.int64]:
     """Return the places (P, Q) of terms that matter at v = origin + x/pi, x (2, m) in a region.
 
-    `left_out` is the logarithm of what the others are smaller by than the largest.
+    `left_out` is the logarithm of the ratio of the largest term to the omitted ones.
     """
     Y, shifts = matrix_of(hat).imag, np.array([[complex_of(x) for x in form.shift] for form in forms])
     v0 = np.array([complex_of(x) for x in origin])
     away = (v0[:, None] + region / np.pi).imag[None] - shifts.imag[:, :, None]
     peaks = -2 * np.einsum("ij,fjm->fmi", np.linalg.inv(Y), away)  # where terms are largest
-    return near(Y, np.unique(np.round(peaks.reshape(-1, 2), 1), axis=0), 4 * left_out / np.pi)
+    return places_near(Y, np.unique(np.round(peaks.reshape(-1, 2), 1), axis=0), 4 * left_out / np.pi)
 
 
-def near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDArray[np.int64]:
+def places_near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDArray[np.int64]:
     """Return the whole places n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2)."""
     reach = np.sqrt(most / np.linalg.eigvalsh(Y)[0])
     ends = zip(np.ceil(peaks.min(axis=0) - reach), peaks.max(axis=0) + reach, strict=True)
     lines = np.meshgrid(*(np.arange(low, high) for low, high in ends), indexing="ij")
     grid = np.stack(lines, -1).reshape(-1, 2).astype(int)
-    nearer = np.zeros(len(grid), bool)
+    is_near = np.zeros(len(grid), bool)
     for peak in peaks:
-        nearer |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < most
-    return np.asarray(grid[nearer])
+        is_near |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < most
+    return np.asarray(grid[is_near])

@@ -2,7 +2,7 @@
 
 Seen from the frame that turns with -B' the body moves as Clebsch's case of Kirchhoff's equations, theorem-clebsch, on a
 torus on which two flows commute. Times are reduced modulo the periods of both, `atlas.motions.torus.certified_torus`,
-and what is left goes by Taylor series, `atlas.motions.torus.certified_flow`:
+and the remainder goes by Taylor series, `atlas.motions.torus.certified_flow`:
 
     R(t) = R_B(-b t + n1 theta1 + n2 theta2) S(s),    (t, 0) = n1 r1 + n2 r2 + s.
 
@@ -26,16 +26,16 @@ from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop, 
 from atlas.motions.nutation.certified_general import Symmetric
 from atlas.motions.torus.approximate_periods import Integrals, nearest
 from atlas.motions.torus.certified_flow import Arrival, GrowthError
-from atlas.motions.torus.certified_torus import Torus, frequencies, turned
+from atlas.motions.torus.certified_torus import Torus, frequencies, rotated
 
 NEAR = fmpq(1, 1 << 16)
-"""Times up to so many are gone in one series about t = 0, whose numbers have their digits however small they are."""
+"""Longest time of the single series about t = 0, whose numbers keep their relative accuracy however small."""
 
 MAX_DIRECT_TIME = 16
-"""Times up to so many units of 1/rate are gone at once, without periods."""
+"""Longest time, in 1/rate, that is integrated at once, without periods."""
 
 MAX_FLOW_TIME = 128
-"""Times up to so many are gone where there are no periods."""
+"""Longest time, in 1/rate, where there are no periods."""
 
 NEARLY = fmpq(1, 1 << 40)
 """Difference of two moments, beside the largest, that may come from rounding."""
@@ -49,7 +49,7 @@ MAX_GROWTH_PRECISION = 600
 """Bits from which on growing errors get no more."""
 
 GUARD_BITS = 48
-"""Bits by which a way is gone more precisely than the matrix is wanted: so many are lost on it as a rule."""
+"""Bits of a flow beyond those of the matrix: the usual loss on the way."""
 
 
 class OnTorus:
@@ -106,8 +106,8 @@ class OnTorus:
         return arrived
 
     def _state(self, t: fmpq) -> tuple[Arrival, arb]:
-        bits, more = ctx.prec + GUARD_BITS, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
-        with workprec(bits + more):
+        bits, extra_bits = ctx.prec + GUARD_BITS, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
+        with workprec(bits + extra_bits):
             turn = -t * self.b
         if abs(t) <= MAX_DIRECT_TIME:
             return self.torus.flow.go(t, fmpq(0), bits), turn
@@ -119,26 +119,26 @@ class OnTorus:
         if abs(t) <= MAX_FLOW_TIME and self.torus.is_long:
             return self._directly(t, "a period of its torus is long"), turn
         try:
-            first, second = self.periods(ctx.prec + more)
+            r1, r2 = self.periods(ctx.prec + extra_bits)
         except NotCertifiedError as reason:
             return self._directly(t, str(reason).removeprefix("not certified: ").removesuffix(".")), turn
-        with workprec(bits + more):
-            area = first.H * second.F - first.F * second.H
-            n, m = (nearest(x) for x in (t * second.F / area, -t * first.F / area))
-            H, F = t - n * first.H - m * second.H, -n * first.F - m * second.F
-            left = [x.mid() for x in (H, F)]
-            arrival = self.torus.flow.go(left[0].fmpq(), left[1].fmpq(), bits)
-            arrival = self._moved(arrival, H - left[0], F - left[1])
-            return arrival, n * first.angle + m * second.angle + turn
+        with workprec(bits + extra_bits):
+            area = r1.H * r2.F - r1.F * r2.H
+            n, m = (nearest(x) for x in (t * r2.F / area, -t * r1.F / area))
+            H, F = t - n * r1.H - m * r2.H, -n * r1.F - m * r2.F
+            remaining = [x.mid() for x in (H, F)]
+            arrival = self.torus.flow.go(remaining[0].fmpq(), remaining[1].fmpq(), bits)
+            arrival = self._displaced(arrival, H - remaining[0], F - remaining[1])
+            return arrival, n * r1.angle + m * r2.angle + turn
 
     @cached_property
     def too_near(self) -> str:
         """Why periods are not looked for: two moments differ by rounding alone, and they are too long; else nothing."""
         least, middle, most = sorted(self.moments)
-        near = min(middle - least, most - middle) / most
-        if near > NEARLY:
+        gap = min(middle - least, most - middle) / most
+        if gap > NEARLY:
             return ""
-        return f"two moments differ by {nearest_float(near):.1g} of the largest, so that its periods are too long"
+        return f"two moments differ by {nearest_float(gap):.1g} of the largest, so that its periods are too long"
 
     def periods(self, bits: int) -> Any:
         """Return the two periods of the torus. Raises NotCertifiedError where none are proved, or looked for."""
@@ -162,7 +162,7 @@ class OnTorus:
                     raise
                 bits *= 2
 
-    def _moved(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
+    def _displaced(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
         """Return a state after the flows of H and F/2 have gone for the tiny times H and F."""
         wide = [x + arb(0, 2.0**-16) for x in (*arrival.W, *arrival.K)]
         X, Y = self.torus.fields(wide[:3], wide[3:])
@@ -171,9 +171,9 @@ class OnTorus:
             raise NotCertifiedError("not certified: the periods are not known well enough for so long a time.")
         V = [(H + F * I) * w for I, w in zip(self.moments, wide, strict=False)]
         state = [x + y for x, y in zip((*arrival.W, *arrival.K), ways, strict=True)]
-        return Arrival(state[:3], state[3:], turned(arrival.q, V))
+        return Arrival(state[:3], state[3:], rotated(arrival.q, V))
 
-    def _near(self, t: Any) -> list[list[arb]] | None:
+    def _series_at_zero(self, t: Any) -> list[list[arb]] | None:
         """Return Omega, K and the rows of R by the series about t = 0, for a time so near; else None.
 
         With W = Omega + K, W_i' = (I_j - I_k)/I_i (W_j W_k - K_j K_k), and x' = [x, Omega] of K and of each row of R.
@@ -195,23 +195,21 @@ class OnTorus:
             rates = [
                 (I[i - 2] - I[i - 1]) / I[i] * (times(W[i - 2], W[i - 1]) - times(K[i - 2], K[i - 1])) for i in range(3)
             ]
-            turned = [
-                [times(x[i - 2], Omega[i - 1]) - times(x[i - 1], Omega[i - 2]) for i in range(3)] for x in (K, *R)
-            ]
-            for row, rate in zip((*W, *K, *chain(*R)), (*rates, *chain(*turned)), strict=True):
+            spun = [[times(x[i - 2], Omega[i - 1]) - times(x[i - 1], Omega[i - 2]) for i in range(3)] for x in (K, *R)]
+            for row, rate in zip((*W, *K, *chain(*R)), (*rates, *chain(*spun)), strict=True):
                 row.append(rate / n)
             for row, w, k in zip(Omega, W, K, strict=True):
                 row.append(w[n] - k[n])
         most = max(abs(x) for x in (*self.torus.W, *self.field))
         falls = arb(2 * most * abs(t))
-        left = (1 + most) * (count + 1) * falls**count / (1 - falls) ** 2
-        return [[arb_poly(x)(arb(t)) + arb(0, left.upper()) for x in rows] for rows in (Omega, K, *R)]
+        remaining = (1 + most) * (count + 1) * falls**count / (1 - falls) ** 2
+        return [[arb_poly(x)(arb(t)) + arb(0, remaining.upper()) for x in rows] for rows in (Omega, K, *R)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
-        near = self._near(t)
-        if near:
-            return near[2:]
+        series = self._series_at_zero(t)
+        if series:
+            return series[2:]
         arrival, angle = self.state(t)
         w, *q = arrival.q
         i = self.pendulum
@@ -223,14 +221,14 @@ class OnTorus:
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B'."""
-        near = self._near(t)
-        return [k * self.rate for k in (near[1] if near else self.state(t)[0].K)]
+        series = self._series_at_zero(t)
+        return [k * self.rate for k in (series[1] if series else self.state(t)[0].K)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) = W - K."""
-        near = self._near(t)
-        if near:
-            return [w * self.rate for w in near[0]]
+        series = self._series_at_zero(t)
+        if series:
+            return [w * self.rate for w in series[0]]
         arrival, _ = self.state(t)
         return [(w - k) * self.rate for w, k in zip(arrival.W, arrival.K, strict=True)]
 
@@ -239,7 +237,7 @@ class AsymmetricMotion:
     """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3), from omega.
 
     `kind` says which case it is, decided on the exact inputs. Values are computed anew at the precision of the moment,
-    see `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for what cannot be enclosed.
+    see `atlas.arithmetic.certified_digits`; NotCertifiedError is raised for values that cannot be enclosed.
     """
 
     def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
@@ -358,7 +356,7 @@ class AsymmetricMotion:
     @property
     def invariants(self) -> Integrals:
         """The integrals H, F, (M, K) and K^2, exactly, theorem-clebsch."""
-        return Integrals.of(self.inertia, self.omega, self.field)
+        return Integrals.of_state(self.inertia, self.omega, self.field)
 
     @property
     def H(self) -> fmpq:

@@ -8,8 +8,8 @@ are analytic on it. Gauss's rule with n + 1 nodes is off by 64/15 M rho^-2n/(1 -
 (L. N. Trefethen, Approximation Theory and Approximation Practice, theorem 19.3), where M bounds the integrand on the
 ellipse rho with its foci in the ends: that is enclosed by balls on the ellipse. No other zero and no pole is in it, by
 a margin. The root r is continued from node to node: between two of them r^2 over its value at the first has a positive
-real part. What sums of paths make a basis of type (1,2) is taken from `atlas.motions.torus.approximate_lattice`, where
-integer relations tell it.
+real part. The sums of paths that make a basis of type (1,2) are taken from `atlas.motions.torus.approximate_lattice`,
+where integer relations tell them.
 
 The derivatives of eta by H, F/2 and c are D/eta, z/eta and v/eta, so that with S the integral of eta du over a cycle
 
@@ -47,7 +47,7 @@ INTEGER_TOLERANCE = 1e-9
 """How near to whole numbers the coefficients of a period of the torus in those of a basis are."""
 
 MIN_S_BITS = 40
-"""Bits of s from which on what a ball about it makes of eta is narrow."""
+"""Bits of s from which on the value of eta on its ball is narrow."""
 
 MIN_PATH_PART = 2.0**-10
 """Least part of a path that is gone at once."""
@@ -62,9 +62,9 @@ def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
     NotCertifiedError where an integral is not proved.
     """
     with workprec(int(ctx.prec) + GUARD_BITS):
-        curve, near = Curve(motion, proven=True), Curve(motion)
+        curve, rough = Curve(motion, proven=True), Curve(motion)
         ways = [
-            _integrals(curve, near, *path) if any(row[k] for row in lattice.weights) else [acb(0)] * 4
+            _integrals(curve, rough, *path) if any(row[k] for row in lattice.weights) else [acb(0)] * 4
             for k, path in enumerate(lattice.paths)
         ]
         return sums(ways, lattice.weights)
@@ -82,18 +82,18 @@ def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
 def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
     """Return the action of a cycle of the torus, a real period whose angle about a field of length b is given.
 
-    Cycles that go otherwise round the pole of eta du, where its residue is c/b, turn by whole turns more about the
-    field, and have so many times c/b more: T_c tells which it is. NotCertifiedError where that is not certain.
+    Cycles that go otherwise round the pole of eta du, where its residue is c/b, turn by n whole turns more about the
+    field, and have n c/b more: T_c tells n. NotCertifiedError where that is not certain.
     """
     places = np.array([[f(complex_of(x)) for x in row[:2] for f in (np.real, np.imag)] for row in basis])
-    along = np.array([float(period.H.mid()), 0.0, float(period.F.mid()), 0.0])
-    weights = np.linalg.solve(places.T, along)
-    whole = [[round(x) for x in weights.tolist()]]
-    ((T_H, T_F, T_c, S),) = sums(basis, whole)
+    times = np.array([float(period.H.mid()), 0.0, float(period.F.mid()), 0.0])
+    weights = np.linalg.solve(places.T, times)
+    integers = [[round(x) for x in weights.tolist()]]
+    ((T_H, T_F, T_c, S),) = sums(basis, integers)
     turn = 2 * arb.pi()
     turns = ((-b * T_c.real - period.angle) / turn).unique_fmpz()
     same = (
-        abs(weights - whole[0]).max() < INTEGER_TOLERANCE
+        abs(weights - integers[0]).max() < INTEGER_TOLERANCE
         and T_H.real.overlaps(period.H)
         and T_F.real.overlaps(period.F)
     )
@@ -102,18 +102,18 @@ def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
     return S.real / turn + turns * arb(c) / b
 
 
-def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> list[acb]:
+def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> list[acb]:
     """Return -2i times the integrals of (D, z, v) du/eta and eta du between the zeros next to two places.
 
     The first of them is near a known one, not near its negative.
     """
-    first, last, D, c = _zero_at(curve, start), _zero_at(curve, stop), curve.motion.D, curve.motion.c
+    start_zero, stop_zero, D, c = _zero_at(curve, start), _zero_at(curve, stop), curve.motion.D, curve.motion.c
     g, dg, dP = curve.g, curve.g.derivative(), curve.motion.P.derivative()
-    way, totals = last - first, [acb(0)] * 4
+    way, totals = stop_zero - start_zero, [acb(0)] * 4
 
     def values(s: acb) -> tuple[acb, acb, acb]:
         early = complex_of(s).real < 1.6  # a place next to either end is known relative to its distance from that
-        z, v = curve.at(first + way * (s / 2).sin() ** 2 if early else last - way * (s / 2).cos() ** 2)
+        z, v = curve.at(start_zero + way * (s / 2).sin() ** 2 if early else stop_zero - way * (s / 2).cos() ** 2)
         return z, v, value(g, z) + 2 * c * v
 
     def forms(s: acb) -> tuple[list[acb], acb]:
@@ -125,16 +125,16 @@ def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> l
             )
         return [acb(D), z, v, eta], eta / s.sin() ** 2
 
-    root, place, parts = acb(0), acb(0), list(near.parts(start, stop))[::-1]
+    root, place, intervals = acb(0), acb(0), list(rough.intervals(start, stop))[::-1]
     nodes = rule(ceil(ctx.prec * log(2) / (2 * RATE)) + 4, int(ctx.prec))
-    while parts:
-        low, high = parts.pop()
+    while intervals:
+        low, high = intervals.pop()
         middle, half = arb.pi() * (low + high) / 2, arb.pi() * (high - low) / 2
         largest = _largest(forms, middle, half)
         if largest is None:
             if high - low < MIN_PATH_PART:
                 raise NotCertifiedError("not certified: an integrand on the motion's torus has no bound.")
-            parts += [((low + high) / 2, high), (low, (low + high) / 2)]
+            intervals += [((low + high) / 2, high), (low, (low + high) / 2)]
             continue
         terms = [acb(0)] * 4
         for x, weight in nodes:
@@ -143,8 +143,8 @@ def _integrals(curve: Curve, near: Curve, start: acb, stop: acb, like: acb) -> l
             root, place = _root(r2) if root == 0 else _continued(forms, root, place, s), s
             terms = [total + weight * form / root for total, form in zip(terms, numerators, strict=True)]
         for k, most in enumerate(largest):
-            left = arb(64) / 15 * most * arb(-2 * RATE * (len(nodes) - 1)).exp() / (1 - arb(-2 * RATE).exp())
-            totals[k] += half * (terms[k] + acb(arb(0, left.upper()), arb(0, left.upper())))
+            remainder = arb(64) / 15 * most * arb(-2 * RATE * (len(nodes) - 1)).exp() / (1 - arb(-2 * RATE).exp())
+            totals[k] += half * (terms[k] + acb(arb(0, remainder.upper()), arb(0, remainder.upper())))
     totals = [x * acb(0, -1) * way for x in totals]
     return totals if abs(complex_of(totals[0] - like)) < abs(complex_of(totals[0] + like)) else [-x for x in totals]
 
@@ -172,18 +172,18 @@ def _zero_at(curve: Curve, place: acb) -> acb:
 
 
 def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
-    """Return what the forms over r are at most on the ellipse about a part of a path, None where that is not found."""
-    most, left = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
+    """Return bounds on the forms over r on the ellipse about a part of a path, or None if none are found."""
+    most, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
-    while left:
-        place, width = left.pop()
+    while remainder:
+        place, width = remainder.pop()
         angle = 2 * arb.pi() * arb(place + width / 2, width / 2)
         numerators, r2 = forms(acb(middle + half * long * angle.cos(), half * short * angle.sin()))
         size = abs(r2)
         if not (size > 0 and numerators[1].is_finite() and float(size.rad()) < float(size.mid()) / 2):
             if width < MIN_TURN_PART:
                 return None
-            left += [(place, width / 2), (place + width / 2, width / 2)]
+            remainder += [(place, width / 2), (place + width / 2, width / 2)]
             continue
         most = [max(x, (abs(form) / size.sqrt()).upper()) for x, form in zip(most, numerators, strict=True)]
     return most

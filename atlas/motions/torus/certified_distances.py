@@ -38,7 +38,7 @@ from atlas.errors import NotCertifiedError
 from atlas.motions.nutation.certified_cayley_klein import matrix
 from atlas.motions.torus.approximate_periods import BITS, centre, complex_of, matrix_of, nearest
 from atlas.motions.torus.approximate_theta import ThetaMotion
-from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS, HALF_TURN, Array, near, weights_at
+from atlas.motions.torus.approximate_theta_sums import CHARACTERISTICS, HALF_TURN, Array, places_near, weights_at
 from atlas.motions.torus.certified_torus import Period, Torus
 
 SPARE_BITS = 40
@@ -48,8 +48,8 @@ LEFT_OUT = 240.0
 """Logarithm of the ratio of the largest product of terms to the omitted products."""
 
 FAINT_LOG = 90.0
-"""Logarithm of what terms of D that are left out, and those of a defect that are bounded alike in the whole cell, are
-smaller by than the largest one."""
+"""Logarithm of the ratio of the largest term to omitted terms of D, and to the terms of a defect that have one bound in
+the whole cell."""
 
 ARGUMENT, FLOATS = 2000, 1e-12
 """Bounds on arguments and numbers of exponentials in a sum in doubles, and on its rounding errors beside the sum of
@@ -62,7 +62,7 @@ MAX_DISTANCE, WANTED_BOUND = 1e-6, 1e-17
 """Distance from the motion up to which growth is bounded, and the bound on it that is wanted."""
 
 PARTS = (1, 2, 3, 5)
-"""Into so many parts each period is divided, the first number that does."""
+"""Numbers of parts into which each period is divided, tried in this order."""
 
 CELLS_PER_PERIOD, MAX_HALVINGS, MAX_SQUARES = 24, 8, 1 << 15
 """Parts of each period in which |D| is bounded from below, how often one is halved if need be, and how many squares of
@@ -92,34 +92,36 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
         rates, sizes = cell.rates() * np.array([[H], [F]]), _sizes(theta)
         spread = HALF_TURN * np.sum([_growth(theta, sizes, *times) for times in cell.times.T], axis=0)
         widths = [max(float(x.rad()) for x in way) for way in zip(*((p.H, p.F, p.angle) for p in periods), strict=True)]
-        moved = _growth(theta, sizes, widths[0], 0.0) + _growth(theta, sizes, 0.0, widths[1])
-        off = moved @ sizes + np.array([0, 0, widths[2] * sizes[2]])
-        for parts in PARTS:
-            growth = _exponential(spread / parts)
+        drift_of_periods = _growth(theta, sizes, widths[0], 0.0) + _growth(theta, sizes, 0.0, widths[1])
+        off = drift_of_periods @ sizes + np.array([0, 0, widths[2] * sizes[2]])
+        for divisions in PARTS:
+            growth = _exponential(spread / divisions)
             if np.max(growth @ rates.sum(axis=0)) < WANTED_BOUND:
-                places = 2 * HALF_TURN * ((np.arange(parts) + 0.5) / parts - 0.5)
-                apart = [_apart(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
-                distance = WIDENING * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
+                places = 2 * HALF_TURN * ((np.arange(divisions) + 0.5) / divisions - 0.5)
+                deviations = [_deviation(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
+                distance = WIDENING * (growth @ (np.max(deviations, axis=0) + rates.sum(axis=0) / divisions) + off)
                 if np.max(distance) < MAX_DISTANCE:
                     return np.asarray(distance)
-    raise NotCertifiedError("not certified: what theta functions miss might grow too much over the motion's torus.")
+    raise NotCertifiedError(
+        "not certified: the defects of the theta functions might grow too much over the motion's torus."
+    )
 
 
-def drifts(theta: ThetaMotion, periods: Sequence[Period], taken: Sequence[Period]) -> Floats:
+def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Sequence[Period]) -> Floats:
     """Return proven bounds on how far M, K and N go astray in all turns where other periods are taken than the proved.
 
     Raises NotCertifiedError where they go too far for a bound.
     """
     with workprec(BITS + SPARE_BITS):
-        far, turn = np.zeros(3), 2 * arb.pi()
-        for p, q in zip(periods, taken, strict=True):
+        distance, turn = np.zeros(3), 2 * arb.pi()
+        for p, q in zip(periods, rounded_periods, strict=True):
             turns = (p.angle - q.angle) / turn
-            far += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
+            distance += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
     sizes = _sizes(theta)
-    growth = TURNS * _growth(theta, sizes, far[0], far[1])
+    growth = TURNS * _growth(theta, sizes, distance[0], distance[1])
     if not growth.sum() < MAX_DISTANCE:
         raise NotCertifiedError("not certified: the periods are not known well enough for long times.")
-    return np.asarray(WIDENING * (growth @ sizes + [0, 0, TURNS * far[2] * sizes[2]]))
+    return np.asarray(WIDENING * (growth @ sizes + [0, 0, TURNS * distance[2] * sizes[2]]))
 
 
 class Cell:
@@ -133,9 +135,11 @@ class Cell:
         self.flows = [(centre(2 * inverse[0, k]), centre(inverse[1, k])) for k in range(2)]
         self.lines = [centre(theta.l[0] * inverse[0, k] + theta.l[1] * inverse[1, k]) for k in range(2)]
         self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
-        self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
+        self.into_arguments: Array = (
+            np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
+        )
         self.Y = matrix_of(self.hat).imag
-        self.corners = self.into @ (HALF_TURN * np.array(list(product((-1, 1), repeat=2))).T)
+        self.corners = self.into_arguments @ (HALF_TURN * np.array(list(product((-1, 1), repeat=2))).T)
         self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
         self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT_LOG / np.pi)
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
@@ -153,7 +157,7 @@ class Cell:
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
         S, size, beyond = self._defects()
-        most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
+        most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.into_arguments.imag).sum(axis=1)[:, None]
         top = most.max()
         if not np.isfinite(top):
             return np.full((2, 3), np.inf)
@@ -161,25 +165,32 @@ class Cell:
         faint = np.exp(most[~matters] - top).sum(axis=0) + np.exp(beyond - top)
         S, size = S[matters], np.exp(size[matters] - top)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
-        ways, twice = (self.places - self.middle) @ self.into, ((S - 2 * self.middle) @ self.into).imag
+        ways, twice = (
+            (self.places - self.middle) @ self.into_arguments,
+            ((S - 2 * self.middle) @ self.into_arguments).imag,
+        )
         weight = max(abs(complex_of(x)) for x in self.theta.denominator.weights)
         spare = weight * np.exp(self._highest(0.0) - top / 2) * _beyond(FAINT_LOG, np.pi / 4 * self.narrow)
         if max(2 * HALF_TURN * max(abs(ways).max(), abs(twice).max()), len(ways), len(S)) > ARGUMENT:
             return np.full((2, 3), np.inf)
-        half, worst = HALF_TURN / CELLS_PER_PERIOD, np.zeros(6)
+        half, largest_defect = HALF_TURN / CELLS_PER_PERIOD, np.zeros(6)
         line = np.arange(-CELLS_PER_PERIOD + 1, CELLS_PER_PERIOD, 2) * half
         x = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
         for _ in range(MAX_HALVINGS):
             terms = weights * np.exp(1j * x @ ways.T)
-            value, slopes, far = abs(terms.sum(axis=1)), abs(terms @ ways).sum(axis=1), half * abs(ways).sum(axis=1)
-            below = value - half * slopes - abs(terms) @ (far**2 / 2 * np.exp(far) + FLOATS) - spare
-            good = below > value / 2
-            above = np.exp(-x[good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
-            worst = np.maximum(worst, (above / below[good, None] ** 2).max(axis=0, initial=0.0))
-            if good.all():
-                return np.asarray(WIDENING * worst.reshape(2, 3) * [1, 1, self.largest_factor])
+            value, slopes, distance = (
+                abs(terms.sum(axis=1)),
+                abs(terms @ ways).sum(axis=1),
+                half * abs(ways).sum(axis=1),
+            )
+            below = value - half * slopes - abs(terms) @ (distance**2 / 2 * np.exp(distance) + FLOATS) - spare
+            is_good = below > value / 2
+            above = np.exp(-x[is_good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
+            largest_defect = np.maximum(largest_defect, (above / below[is_good, None] ** 2).max(axis=0, initial=0.0))
+            if is_good.all():
+                return np.asarray(WIDENING * largest_defect.reshape(2, 3) * [1, 1, self.largest_factor])
             half /= 2
-            x = np.concatenate([x[~good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
+            x = np.concatenate([x[~is_good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
             if len(x) > MAX_SQUARES:
                 break
         return np.full((2, 3), np.inf)
@@ -190,25 +201,25 @@ class Cell:
         The third are logarithms of bounds, (6,), on the sums of all others, anywhere in the cell.
         """
         low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
-        found, beyond, parts = [], [], np.array([0.0, 0.0, 0.5] * 2)
+        sizes_found, beyond, divisions = [], [], np.array([0.0, 0.0, 0.5] * 2)
         peaks = {height: 2 * self._peaks(height) for height in (0.0, 0.5)}  # where coefficients are largest
-        highest = np.array([2 * self._highest(height) for height in parts])
-        others = np.log(_beyond(LEFT_OUT, 2 * np.pi * self.narrow))
+        highest = np.array([2 * self._highest(height) for height in divisions])
+        remainder = np.log(_beyond(LEFT_OUT, 2 * np.pi * self.narrow))
         for S in product(*(range(int(s), int(s) + 4) for s in low)):
             place: Floats = np.array(S)
             ways = [near_hull(self.Y, (peak - place) / 4, LEFT_OUT / (2 * np.pi)) for peak in peaks.values()]
             shifts = 4 * np.unique(np.concatenate(ways), axis=0)
-            less = [self._left_out(place, height) for height in parts]
+            less = [self._left_out(place, height) for height in divisions]
             defects = [
                 np.linalg.norm([float(abs(c).upper()) + spare for c in components])
                 for components, spare in zip(self._coefficients(S), less, strict=True)
             ]
-            sizes = np.array([self._size(place, height) for height in parts])
-            more = np.column_stack([self._size(place + shifts, height) for height in parts]) - sizes
-            found.append((place + shifts, more + np.log(defects)))
-            beyond.append(np.log(defects) - sizes + highest + others)
+            sizes = np.array([self._size(place, height) for height in divisions])
+            excess = np.column_stack([self._size(place + shifts, height) for height in divisions]) - sizes
+            sizes_found.append((place + shifts, excess + np.log(defects)))
+            beyond.append(np.log(defects) - sizes + highest + remainder)
         all_beyond = np.logaddexp.reduce(beyond, axis=0)
-        return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found]), all_beyond
+        return np.concatenate([x for x, _ in sizes_found]), np.concatenate([x for _, x in sizes_found]), all_beyond
 
     def _peaks(self, height: float) -> Floats:
         """Return the places (4, 2), not whole, of the largest term of a form at the corners of the cell."""
@@ -244,37 +255,39 @@ class Cell:
         A, J, unit = [1 / x for x in I], [-motion.D / x for x in I], [1, 1, 1]
         B, *slopes = self._products(S)
 
-        def turned(left: Sequence[int], right: Sequence[int], by: Sequence[object]) -> list[acb]:
-            return [B[left[j], right[k]] * by[k] - B[left[k], right[j]] * by[j] for j, k in ((1, 2), (2, 0), (0, 1))]
+        def crossed(lefts: Sequence[int], rights: Sequence[int], by: Sequence[object]) -> list[acb]:
+            return [
+                B[lefts[j], rights[k]] * by[k] - B[lefts[k], rights[j]] * by[j] for j, k in ((1, 2), (2, 0), (0, 1))
+            ]
 
         terms = (
-            [[turned(M, M, A), turned(K, K, I)], [turned(K, M, A)], [turned(N, M, A)]],
-            [[turned(K, K, J)], [turned(K, M, unit)], [turned(N, M, unit)]],
+            [[crossed(M, M, A), crossed(K, K, I)], [crossed(K, M, A)], [crossed(N, M, A)]],
+            [[crossed(K, K, J)], [crossed(K, M, unit)], [crossed(N, M, unit)]],
         )
         for slope, line, rates in zip(slopes, self.lines, terms, strict=True):
-            for rows, parts in zip((M, K, N), rates, strict=True):
-                more = acb(0, 1) * line if rows is N else acb(0)
-                changes = [slope[i, D] + more * B[i, D] for i in rows]
-                yield [x - sum(less, acb(0)) for x, *less in zip(changes, *parts, strict=True)]
+            for rows, divisions in zip((M, K, N), rates, strict=True):
+                excess = acb(0, 1) * line if rows is N else acb(0)
+                changes = [slope[i, D] + excess * B[i, D] for i in rows]
+                yield [x - sum(less, acb(0)) for x, *less in zip(changes, *divisions, strict=True)]
 
     def _products(self, S: tuple[int, ...]) -> list[acb_mat]:
         """Return the coefficients at S of all products f g, and of f' g - f g' along each flow."""
         places = self._places(np.array(S) / 2)
-        left = list(zip(*(self._terms(place) for place in places), strict=True))
-        right = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])
-        products = [acb_mat(left) * right]
+        lefts = list(zip(*(self._terms(place) for place in places), strict=True))
+        rights = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])
+        products = [acb_mat(lefts) * rights]
         for u, v in self.flows:
             rates = [acb(0, 1) * arb.pi() * ((2 * P - S[0]) * u + (2 * Q - S[1]) * v) for P, Q in places]
-            products.append(acb_mat([[x * rate for x, rate in zip(row, rates, strict=True)] for row in left]) * right)
+            products.append(acb_mat([[x * rate for x, rate in zip(row, rates, strict=True)] for row in lefts]) * rights)
         return products
 
     def _places(self, middle: Floats) -> list[Place]:
         """Return the places of the terms that matter, round the middle and round the middle plus a shift."""
-        near_places = near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
+        near_places = places_near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
         return [(int(P), int(Q)) for P, Q in near_places]
 
     def _left_out(self, S: Floats, height: float) -> float:
-        """Return a bound on what the terms that are left out add to a coefficient at S.
+        """Return a bound on the contribution of omitted terms to a coefficient at S.
 
         Beyond LEFT_OUT a sum of exp(-q), q = pi/2 (p, Y p), is one of exp(-q/10) times exp(-9/10 LEFT_OUT); a tenth of
         that goes for the factor p of a rate.
@@ -292,9 +305,9 @@ def _check_characteristics(theta: ThetaMotion) -> None:
     From S to S + 4j the product of forms of characteristics d and d' takes the sign (-1)^(j_2 (d + d')), besides g.
     """
     axes = [form.place for form in theta.K]
-    turned = {form.place ^ place for form, place in zip(theta.N, axes, strict=True)}
+    crossed = {form.place ^ place for form, place in zip(theta.N, axes, strict=True)}
     different = len({theta.denominator.place, *axes}) == len(CHARACTERISTICS)
-    alike = [form.place for form in theta.M] == axes and len(turned) == 1
+    alike = [form.place for form in theta.M] == axes and len(crossed) == 1
     if not (different and alike) or any(
         abs(complex_of(x)) for form in (theta.denominator, *theta.K, *theta.M, *theta.N) for x in form.shift
     ):
@@ -310,10 +323,10 @@ def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
     sides = corners[2] - corners[0], corners[1] - corners[0]
     lengths = [float(np.sqrt(side @ Y @ side)) for side in sides]
     steps = [int(np.ceil(min(length, 30.0))) + 1 for length in lengths]
-    far = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
+    distance = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
     s, t = np.meshgrid(*(np.linspace(0, 1, count) for count in steps))
     points = corners[0] + s.reshape(-1, 1) * sides[0] + t.reshape(-1, 1) * sides[1]
-    return near(Y, points, (np.sqrt(most) + far) ** 2 * (1 + 1e-9))
+    return places_near(Y, points, (np.sqrt(most) + distance) ** 2 * (1 + 1e-9))
 
 
 def _beyond(distance: float, narrow: float) -> float:
@@ -325,27 +338,27 @@ def _beyond(distance: float, narrow: float) -> float:
     return float(np.exp(-0.9 * distance) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
 
 
-def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
+def _deviation(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
     """Return bounds on the distances of M, K and N of the forms from the motion after some times (H, F)."""
     H, F = map(rational, times.tolist())
     way = theta.zeta([acb(H), acb(F)])
     zeta = [x + y for x, y in zip(way, theta.start, strict=True)]
     pairs, shifted = theta.pairs(zeta), theta.pairs([x - y for x, y in zip(zeta, theta.w, strict=True)])
-    below, factor = theta.denominator.of(pairs), (acb(0, 1) * dot(theta.l, way)).exp()
+    below, factor = theta.denominator.value(pairs), (acb(0, 1) * dot(theta.l, way)).exp()
     state = torus.flow.go(H, F, BITS)
     S = matrix(state.q)
-    wanted = [
+    expected = [
         [I * w for I, w in zip(torus.moments, state.W, strict=True)],
         state.K,
         [sum((S[i][j] * x for i, x in enumerate(theta.at_start.N)), acb(0)) for j in range(3)],
     ]
-    found = [
-        [form.of(pairs) / below for form in theta.M],
-        [form.of(pairs) / below for form in theta.K],
-        [factor * form.of(shifted) / below for form in theta.N],
+    sizes_found = [
+        [form.value(pairs) / below for form in theta.M],
+        [form.value(pairs) / below for form in theta.K],
+        [factor * form.value(shifted) / below for form in theta.N],
     ]
-    both = zip(found, wanted, strict=True)
-    return np.array([sum(float(abs(x - y).upper()) for x, y in zip(*pair, strict=True)) for pair in both])
+    pairs_of_vectors = zip(sizes_found, expected, strict=True)
+    return np.array([sum(float(abs(x - y).upper()) for x, y in zip(*pair, strict=True)) for pair in pairs_of_vectors])
 
 
 def _sizes(theta: ThetaMotion) -> Floats:

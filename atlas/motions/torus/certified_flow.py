@@ -4,11 +4,11 @@
     K' = [K, V],    q' = q V/2 (a quaternion, scalar first; S' = S V^)
 
 with (i, j, k) cyclic; for a = 1, g = 0 this is the motion as seen from Larmor's frame.
-Numbers are integers in units of 2^-bits, and a step is any polynomial p(x), x from 0 to 1: what it is wrong by follows
+Numbers are integers in units of 2^-bits, and a step is any polynomial p(x), x from 0 to 1: its error follows
 from its defect p' - h f(p), which is computed exactly. How errors of W and K grow from step to step follows from a
 fundamental matrix, which floats give well enough: with e = X w,
 
-    w(n+1) = w(n) + X(n+1)^-1 [(J X(n) - X(n+1)) w(n) + what the step adds],
+    w(n+1) = w(n) + X(n+1)^-1 [(J X(n) - X(n+1)) w(n) + error of the step],
 
 J the derivative of the step's flow, known to some ten digits, so that w hardly grows at all; each component of w has a
 bound of its own, and X begins anew with orthogonal columns where they become nearly dependent. q, of length 1, takes up
@@ -33,7 +33,7 @@ Series = list[list[int]]
 Rates = tuple[list[fmpq], list[fmpq], list[fmpq]]
 
 TERMS_PER_BIT = 0.27
-"""Terms of a series for each bit: a step is what makes the last one less than a unit."""
+"""Terms of a series for each bit: a step is so short that the last one is less than a unit."""
 
 PARTS = 1 << 20
 """The whole way is cut into steps that are multiples of this part."""
@@ -100,11 +100,11 @@ class Flow:
     def rates(self, a: fmpq, g: fmpq) -> Rates:
         """Return V_i/W_i, and the coefficients of W_j W_k and K_j K_k in the rates of W."""
         I = self.moments
-        across = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
+        moment_ratios = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
         return (
             [a + g * x for x in I],
-            [a * x for x in across],
-            [-(a + g * x) * y for x, y in zip(I, across, strict=True)],
+            [a * x for x in moment_ratios],
+            [-(a + g * x) * y for x, y in zip(I, moment_ratios, strict=True)],
         )
 
     def length(self, a: fmpq, g: fmpq) -> float:
@@ -121,9 +121,9 @@ class Flow:
                 f"not certified: so many digits would take more than {MAX_PRECISION} binary ones; of three moments "
                 "some 1000 decimal ones can be had, fewer of numbers near zero."
             )
-        first = max(1, min(PARTS, int(PARTS / max(self.length(a, g), 1e-9))))
-        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, first, proven=proven)
-        while way.left:
+        w_rates = max(1, min(PARTS, int(PARTS / max(self.length(a, g), 1e-9))))
+        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, w_rates, proven=proven)
+        while way.remaining:
             way.step()
         with workprec(2 * bits):
             return way.arrival()
@@ -132,11 +132,11 @@ class Flow:
 class _Way:
     """The state of a flow under way, and the bound on its error."""
 
-    def __init__(self, rates: Rates, start: list[int], bits: int, first: int, *, proven: bool) -> None:
+    def __init__(self, rates: Rates, start: list[int], bits: int, w_rates: int, *, proven: bool) -> None:
         self.rates, self.bits, self.proven = rates, bits, proven
         self.state = [*start, 1 << bits, 0, 0, 0]
-        self.left, self.steps = PARTS, 0
-        self.guess = first
+        self.remaining, self.steps = PARTS, 0
+        self.guess = w_rates
         self.order = max(12, int(TERMS_PER_BIT * bits))
         self.X: Matrix = np.eye(6)
         self.w: Matrix = np.ones(6)  # the start is rounded
@@ -150,19 +150,21 @@ class _Way:
         h = fmpq(self.guess, PARTS)
         rows = self._series(h)
         sizes = [max(abs(row[n]) for row in rows).bit_length() for n in range(self.order + 1)]
-        last = max((n for n, size in enumerate(sizes) if size > MIN_COEFFICIENT_BITS), default=0)
-        falls = (sizes[0] - sizes[last]) / last if last else 2.0 * sizes[0]
+        last_term = max((n for n, size in enumerate(sizes) if size > MIN_COEFFICIENT_BITS), default=0)
+        falls = (sizes[0] - sizes[last_term]) / last_term if last_term else 2.0 * sizes[0]
         scale = 2.0 ** min(1.0, falls - sizes[0] / self.order)  # the last terms become a unit
-        parts = max(1, min(self.left, int(self.guess * min(1.0, scale))))  # larger ones would swell the roundings
-        factor = fmpq(parts, self.guess)
+        step_parts = max(
+            1, min(self.remaining, int(self.guess * min(1.0, scale)))
+        )  # larger ones would swell the roundings
+        factor = fmpq(step_parts, self.guess)
         rows = [_scaled(row, factor) for row in rows]
-        if self.proven and (lipschitz := self._sizes(rows, fmpq(parts, PARTS))[3]) > MAX_LIPSCHITZ:
-            factor = fmpq(max(1, int(parts * MAX_LIPSCHITZ / lipschitz)), parts)
-            parts, rows = int(parts * factor), [_scaled(row, factor) for row in rows]
+        if self.proven and (lipschitz := self._sizes(rows, fmpq(step_parts, PARTS))[3]) > MAX_LIPSCHITZ:
+            factor = fmpq(max(1, int(step_parts * MAX_LIPSCHITZ / lipschitz)), step_parts)
+            step_parts, rows = int(step_parts * factor), [_scaled(row, factor) for row in rows]
         if self.proven:
-            self._account(rows, fmpq(parts, PARTS))
+            self._account(rows, fmpq(step_parts, PARTS))
         self.state = [sum(row) for row in rows]
-        self.left -= parts
+        self.remaining -= step_parts
         self.guess = max(1, min(PARTS, int(self.guess * scale)))
 
     def _scaled_rates(self, h: fmpq) -> tuple[list[int], ...]:
@@ -172,11 +174,11 @@ class _Way:
     def _series(self, h: fmpq) -> Series:
         """Return Taylor coefficients of W, K and q over a step h, in units."""
         b = self.bits
-        V, first, second = self._scaled_rates(h)
+        V, w_rates, second = self._scaled_rates(h)
         rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
         for n, c in enumerate(_products(rows, self.order, BLOCK if b >= MIN_FLINT_PRECISION else self.order)):
             for i in range(3):
-                rows[i].append((first[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
+                rows[i].append((w_rates[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
                 rows[3 + i].append((c[6 + i] - c[9 + i]) // ((n + 1) << b))
                 rows[7 + i].append((c[15 + i] + c[18 + i] - c[21 + i]) // ((n + 1) << b + 1))
                 rows[10 + i].append(V[i] * rows[i][-1] >> b)
@@ -218,18 +220,18 @@ class _Way:
         """Return bounds on |W| and |K| in the step, on h max|V_i/W_i|, and on the Lipschitz constant times h."""
         size = [_float(sum(map(abs, row)), self.bits) for row in rows[:6]]
         W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
-        most, first, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
-        return W, K, most, 2 * first * W + 2 * second * K + most * (W + K)
+        most, w_rates, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
+        return W, K, most, 2 * w_rates * W + 2 * second * K + most * (W + K)
 
     def _defect(self, rows: Series, h: fmpq, W: float, K: float) -> tuple[float, float]:
         """Return bounds in units on p' - h f(p) over the step, of (W, K) together and of q."""
         b = self.bits
-        V, first, second = self._scaled_rates(h)
+        V, w_rates, second = self._scaled_rates(h)
         p = [fmpz_poly(row) for row in rows]
         p += [v * x for v, x in zip(V, p, strict=False)]  # U in units of 2^-2b
         c = [p[x] * p[y] for x, y in PRODUCTS]
         unit = 1 << 2 * b
-        defects = [_size(p[i].derivative() * unit - first[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
+        defects = [_size(p[i].derivative() * unit - w_rates[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
         defects += [_size(p[3 + i].derivative() * unit - c[6 + i] + c[9 + i], 2 * b) for i in range(3)]
         turn = [_size(p[6].derivative() * (2 * unit) + c[12] + c[13] + c[14], 2 * b + 1)]
         turn += [
@@ -263,43 +265,42 @@ class _Way:
 def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
     """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, each of which may ask for the last ones of the rows.
 
-    What coefficients in the first half of a block add to those in its second half is one product of polynomials, of
-    blocks longer than ``least``.
+    In blocks longer than ``least``, the contribution of the first half to the second is one product of polynomials.
     """
     size = least
     while size < count:
         size *= 2
     sums = [[0] * size for _ in PRODUCTS]
 
-    def block(first: int, last: int) -> Iterator[list[int]]:
-        if last - first <= least:
-            for n in range(first, last):
-                back = [row[n - first :: -1] for row in rows]
+    def block(w_rates: int, last_term: int) -> Iterator[list[int]]:
+        if last_term - w_rates <= least:
+            for n in range(w_rates, last_term):
+                back = [row[n - w_rates :: -1] for row in rows]
                 for total, (x, y) in zip(sums, PRODUCTS, strict=True):
-                    total[n] += sum(map(mul, rows[x][first:], back[y]))
-                    if first:
-                        total[n] += sum(map(mul, rows[y][first:], back[x]))
+                    total[n] += sum(map(mul, rows[x][w_rates:], back[y]))
+                    if w_rates:
+                        total[n] += sum(map(mul, rows[y][w_rates:], back[x]))
                 yield [total[n] for total in sums]
             return
-        middle = (first + last) // 2
-        yield from block(first, middle)
-        factors = [fmpz_poly(row[first:middle]) for row in rows]
-        other = [fmpz_poly(row[: last - first]) for row in rows] if first else factors
+        middle = (w_rates + last_term) // 2
+        yield from block(w_rates, middle)
+        factors = [fmpz_poly(row[w_rates:middle]) for row in rows]
+        second_factor = [fmpz_poly(row[: last_term - w_rates]) for row in rows] if w_rates else factors
         for total, (x, y) in zip(sums, PRODUCTS, strict=True):
-            product = factors[x] * other[y] + (factors[y] * other[x] if first else 0)
-            for n in range(middle, last):
-                total[n] += product[n - first]
-        yield from block(middle, last)
+            product = factors[x] * second_factor[y] + (factors[y] * second_factor[x] if w_rates else 0)
+            for n in range(middle, last_term):
+                total[n] += product[n - w_rates]
+        yield from block(middle, last_term)
 
     yield from islice(block(0, size), count)
 
 
-def jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:
+def jacobian(state: Matrix, V: Matrix, w_rates: Matrix, second: Matrix) -> Matrix:
     """Return the coefficients (terms, 6, 6) of the derivative of the right-hand side along a series (6, terms)."""
     W, K = state[:3], state[3:]
     J = np.zeros((state.shape[1], 6, 6))
     for i, (j, k) in enumerate(CYCLE):
-        J[:, i, j], J[:, i, k] = first[i] * W[k], first[i] * W[j]
+        J[:, i, j], J[:, i, k] = w_rates[i] * W[k], w_rates[i] * W[j]
         J[:, i, 3 + j], J[:, i, 3 + k] = second[i] * K[k], second[i] * K[j]
         J[:, 3 + i, 3 + j], J[:, 3 + i, 3 + k] = V[k] * W[k], -V[j] * W[j]
         J[:, 3 + i, k], J[:, 3 + i, j] = V[k] * K[j], -V[j] * K[k]
@@ -312,11 +313,11 @@ def _inverse_rows(X: Matrix) -> Matrix:
         Y = np.linalg.inv(X)
     except np.linalg.LinAlgError as error:
         raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.") from error
-    left = float(np.linalg.norm(np.eye(6) - Y @ X)) + ROUNDING * float(np.linalg.norm(X) * np.linalg.norm(Y))
-    if not left < 0.5:
+    unit_defect = float(np.linalg.norm(np.eye(6) - Y @ X)) + ROUNDING * float(np.linalg.norm(X) * np.linalg.norm(Y))
+    if not unit_defect < 0.5:
         raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.")
     rows = np.linalg.norm(Y, axis=1)
-    return np.asarray(1.01 * (rows + left / (1 - left) * rows.max() * 6))
+    return np.asarray(1.01 * (rows + unit_defect / (1 - unit_defect) * rows.max() * 6))
 
 
 def _units(x: fmpq, bits: int) -> int:
@@ -325,7 +326,7 @@ def _units(x: fmpq, bits: int) -> int:
 
 
 def _scaled(row: list[int], factor: fmpq) -> list[int]:
-    """Return coefficients for an argument that is so many times larger."""
+    """Return the integer coefficients of p(factor x), rounded down, from those of p(x)."""
     if factor == 1:
         return row
     p, q, powers, up, down = int(factor.p), int(factor.q), [], 1, 1

@@ -13,6 +13,7 @@ moments from I_min to I_max, k = I_max/I_min, Omega differs by x and R by a turn
 """
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -88,24 +89,24 @@ class PlacedMotion:
                     x, y, z, w = max(products, key=lambda row: max(abs(float(q.mid())) for q in row))
                     axes = matrix([q.mid().fmpq() for q in (w, x, y, z)])
                     moments = [I if isinstance(I, fmpq) else I.mid().fmpq() for I in moments]
-            own = AsymmetricMotion(moments, times(axes, self.field), times(axes, self.omega))
-            near = product(transposed(axes), [[I * x for x in row] for I, row in zip(moments, axes, strict=True)])
-            apart = sum((abs(a - b) for p, q in zip(near, self.tensor, strict=True) for a, b in zip(p, q, strict=True)),
-                        fmpq(0))  # fmt: skip
-            self._bodies[bits] = own, axes, apart
+            motion = AsymmetricMotion(moments, times(axes, self.field), times(axes, self.omega))
+            rebuilt = product(transposed(axes), [[I * x for x in row] for I, row in zip(moments, axes, strict=True)])
+            pairs = zip(chain(*rebuilt), chain(*self.tensor), strict=True)
+            distance = sum((abs(a - b) for a, b in pairs), fmpq(0))
+            self._bodies[bits] = motion, axes, distance
         return self._bodies[bits]
 
     @cached_property
     def _sizes(self) -> tuple[arb, arb, arb, arb]:
         """Bounds, for both bodies, on the moments from below and above, and on the lengths of Omega and K."""
-        own, _, apart = self._body(LEAST_BITS)
-        least, most = min(own.inertia) / MARGIN, max(own.inertia) * MARGIN
-        if apart > (MARGIN - 1) / 4 * least:
+        motion, _, distance = self._body(LEAST_BITS)
+        least, most = min(motion.inertia) / MARGIN, max(motion.inertia) * MARGIN
+        if distance > (MARGIN - 1) / 4 * least:
             raise NotCertifiedError("not certified: the principal moments are of too different sizes.")
-        speed = arb((dot(self.omega, times(self.tensor, self.omega)) + apart * dot(self.omega, self.omega)) / least)
+        speed = arb((dot(self.omega, times(self.tensor, self.omega)) + distance * dot(self.omega, self.omega)) / least)
         return arb(least), arb(most), speed.sqrt(), arb(dot(self.field, self.field)).sqrt()
 
-    def _moved(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
+    def _deviation(self, t: Any) -> tuple[AsymmetricMotion, Matrix, arb, arb]:
         """Return a motion near it up to a time, its axes, and bounds on the differences of Omega and of R."""
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
@@ -119,23 +120,23 @@ class PlacedMotion:
                 f"not certified: at t = {float(size):g} the difference of two bodies near the tensor may have grown "
                 "beyond what is computed; its principal moments, by --inertia I1 I2 I3, have any times."
             )
-        own, axes, apart = self._body(bits)
-        pull = apart * (most * w * (w + 2 * b) / least**2 + w * (w + 5 * b) / least)
+        motion, axes, distance = self._body(bits)
+        pull = distance * (most * w * (w + 2 * b) / least**2 + w * (w + 5 * b) / least)
         apart_by = pull * size * (rate * size).exp()
-        return own, axes, arb(0, apart_by.upper()), arb(0, (apart_by / (w + b)).upper()) if w + b > 0 else arb(0)
+        return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by / (w + b)).upper()) if w + b > 0 else arb(0)
 
     def rotation(self, t: Any) -> Matrix:
         """Return R(t) as rows."""
-        own, axes, _, error = self._moved(t)
-        R = product(self.attitude, product(transposed(axes), product(own.rotation(t), axes)))
+        motion, axes, _, error = self._deviation(t)
+        R = product(self.attitude, product(transposed(axes), product(motion.rotation(t), axes)))
         return R if self.is_diagonal or rational(t, "the time") == 0 else [[x + error for x in row] for row in R]
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) along the given axes of the body."""
-        own, axes, error, _ = self._moved(t)
+        motion, axes, error, _ = self._deviation(t)
         if rational(t, "the time") == 0:
             return list(self.omega)
-        Omega = times(transposed(axes), own.angular_velocity(t))
+        Omega = times(transposed(axes), motion.angular_velocity(t))
         return Omega if self.is_diagonal else [x + error for x in Omega]
 
     def __getattr__(self, name: str) -> Any:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 BITS_A_DIGIT = log2(10)
 
 APPROXIMATE, BITS = 30, 200
-"""Digits of a Riemann matrix that is not proved, of some 50 that are computed with so many bits."""
+"""Digits of a Riemann matrix that is not proved, of some 50 that are computed, and the bits of the computation."""
 
 
 CYCLE_BITS = 64
@@ -80,9 +80,9 @@ class SpectralCurve:
         return ThetaMotion(self.torus.integrals, self.torus.W, self.torus.K, self.torus.lattice)
 
     def record(self, digits: int = 20) -> dict[str, Any]:
-        """Return the curve by name: rational coefficients, lowest first, and numbers of so many proven digits.
+        """Return the curve by name: rational coefficients, lowest first, and numbers with `digits` proven digits.
 
-        A complex number is a pair. The Riemann matrix has the digits of its integrals proved, to so many places; that
+        A complex number is a pair. The Riemann matrix has the digits of its integrals proved; that
         the cycles are a basis of type (1,2) rests on integer relations. Under `not_proved` stand the characteristics
         [e; d] of the theta functions of K and M, or why there are none; and where a zero of eta is so near to another
         that integrals are not proved, the matrix, to 30 digits, and why there are no actions.
@@ -117,8 +117,8 @@ class SpectralCurve:
             with workprec(BITS):
                 matrix = _matrix(self.theta.tau, APPROXIMATE)
             forms = {"denominator": self.theta.denominator}
-            forms |= {f"{name}{j + 1}": value for name, several in (("K", self.theta.K), ("M", self.theta.M))
-                      for j, value in enumerate(several)}  # fmt: skip
+            forms |= {f"{name}{j + 1}": value for name, values in (("K", self.theta.K), ("M", self.theta.M))
+                      for j, value in enumerate(values)}  # fmt: skip
             return {
                 "riemann_matrix": matrix,
                 "characteristics": {name: list(CHARACTERISTICS[value.place]) for name, value in forms.items()},

@@ -68,22 +68,22 @@ class Torus:
         self.moments, self.W, self.K = moments, W, K
         self.flow = Flow(moments, W, K)
         self._starts: list[tuple[fmpq, fmpq]] | None = None
-        self._known: dict[int, tuple[Period, Period]] = {}
-        self._lost, self._no_lattice = (0, ""), ""
+        self._stored: dict[int, tuple[Period, Period]] = {}
+        self._failure, self._no_lattice = (0, ""), ""
 
     @property
     def integrals(self) -> Integrals:
         """H, F and the Casimirs, exactly."""
         Omega = [w - k for w, k in zip(self.W, self.K, strict=True)]
-        return Integrals.of(self.moments, Omega, self.K)
+        return Integrals.of_state(self.moments, Omega, self.K)
 
     def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
         """Return the rates of (W, K) along the flows of H and of F/2."""
         I, cycle = self.moments, ((1, 2), (2, 0), (0, 1))
         M = [x * w for x, w in zip(I, W, strict=True)]
-        first = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
-        second = [(I[k] - I[j]) * (K[j] * K[k]) for j, k in cycle]
-        return [*first, *cross(K, W)], [*second, *cross(K, M)]
+        of_H = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
+        of_F = [(I[k] - I[j]) * (K[j] * K[k]) for j, k in cycle]
+        return [*of_H, *cross(K, W)], [*of_F, *cross(K, M)]
 
     @cached_property
     def is_long(self) -> bool:
@@ -94,21 +94,23 @@ class Torus:
             return False
 
     def periods(self, bits: int) -> tuple[Period, Period]:
-        """Return two periods with so many bits; NotCertifiedError where none are found."""
-        bits = min((known for known in tuple(self._known) if known >= bits), default=-(-bits // 32) * 32)
-        if bits not in self._known:
-            lost, reason = self._lost
-            if bits <= lost:  # a long way, which no fewer bits go
+        """Return two periods to `bits` binary digits; NotCertifiedError where none are found."""
+        bits = min(
+            (stored_bits for stored_bits in tuple(self._stored) if stored_bits >= bits), default=-(-bits // 32) * 32
+        )
+        if bits not in self._stored:
+            failed_bits, reason = self._failure
+            if bits <= failed_bits:  # a long way, which no fewer bits go
                 raise NotCertifiedError(reason)
             try:
-                first, second = (self._enclosed(start, bits) for start in self._approximate())
+                of_H, of_F = (self._enclosed(start, bits) for start in self._approximate())
             except NotCertifiedError as why:  # near an unstable spin errors may grow beyond the bounds of so few bits
                 if bits >= PERIOD_BITS:
-                    self._lost = bits, str(why)
+                    self._failure = bits, str(why)
                     raise
-                first, second = self.periods(PERIOD_BITS)
-            self._known[bits] = first, second
-        return self._known[bits]
+                of_H, of_F = self.periods(PERIOD_BITS)
+            self._stored[bits] = of_H, of_F
+        return self._stored[bits]
 
     @cached_property
     def spin(self) -> int | None:
@@ -123,12 +125,12 @@ class Torus:
         if self.spin is None:
             return None
         state = np.array([[float(x) if i % 3 == self.spin else 0.0] for i, x in enumerate((*self.W, *self.K))])
-        across = [*CYCLE[self.spin], *(3 + i for i in CYCLE[self.spin])]
+        transverse = [*CYCLE[self.spin], *(3 + i for i in CYCLE[self.spin])]
         H, F = (
             jacobian(state, *(np.array([float(x) for x in row]) for row in self.flow.rates(*way)))[0]
             for way in ((fmpq(1), fmpq(0)), (fmpq(0), fmpq(1)))
         )
-        H, F = (x[np.ix_(across, across)] for x in (H, F))
+        H, F = (x[np.ix_(transverse, transverse)] for x in (H, F))
         size = np.linalg.norm(H), np.linalg.norm(F)
         values, vectors = np.linalg.eig(H / size[0] + F / (2 * size[1]))
         waves = vectors[:, values.imag > 0].T
@@ -137,8 +139,8 @@ class Torus:
         rates = np.array([[(w.conj() @ x @ w).imag / (w.conj() @ w).real for x in (H, F)] for w in waves])
         if abs(np.linalg.det(rates / size)) < MIN_DETERMINANT:
             return None
-        first, second = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
-        return [tuple(first), tuple(second)]
+        of_H, of_F = (2 * np.pi * np.linalg.inv(rates)).T.tolist()
+        return [tuple(of_H), tuple(of_F)]
 
     def _approximate(self) -> list[tuple[fmpq, fmpq]]:
         if self._starts is None and self.pushed is not None:
@@ -207,8 +209,8 @@ class Torus:
     def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
         with workprec(bits + 2 * GUARD_BITS):
             arrival = self.flow.go(*r, bits + GUARD_BITS)
-            first = self._newton(arrival, self.W, self.K, chosen)
-            reach = 4 * max((abs(x).upper() for x in first), key=float)
+            of_H = self._newton(arrival, self.W, self.K, chosen)
+            reach = 4 * max((abs(x).upper() for x in of_H), key=float)
             box = arb(0, reach)
             X, Y = self.fields(arrival.W, arrival.K)
             y = [*arrival.W, *arrival.K]
@@ -216,19 +218,19 @@ class Torus:
             X, Y = self.fields(wide[:3], wide[3:])
             inside = all(w.contains_interior(p + box * a + box * b) for w, p, a, b in zip(wide, y, X, Y, strict=True))
             step = self._newton(arrival, wide[:3], wide[3:], chosen)
-            if not (inside and all(box.contains_interior(x) for x in step) and self._told_apart(wide, chosen)):
+            if not (inside and all(box.contains_interior(x) for x in step) and self._are_told_apart(wide, chosen)):
                 raise NotCertifiedError("not certified: that the motion's torus has this period could not be proved.")
             V = [(step[0] + step[1] * I) * w for w, I in zip(wide[:3], self.moments, strict=True)]
-            q = turned(arrival.q, V)
+            q = rotated(arrival.q, V)
             b = arb(dot(self.K, self.K)).sqrt()
-            along = dot(q[1:], [k / b for k in self.K])
-            angle = 2 * arb.atan2(along, q[0])
+            line = dot(q[1:], [k / b for k in self.K])
+            angle = 2 * arb.atan2(line, q[0])
             return Period(r[0] + step[0], r[1] + step[1], angle)
 
-    def _told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
+    def _are_told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
         """Whether states near the start with its integrals differ in the chosen components, if at all."""
-        near = [arb(x).union(w) for x, w in zip((*self.W, *self.K), wide, strict=True)]
-        W, K, J = near[:3], near[3:], self.moments
+        doubles = [arb(x).union(w) for x, w in zip((*self.W, *self.K), wide, strict=True)]
+        W, K, J = doubles[:3], doubles[3:], self.moments
         D = J[0] * J[1] * J[2]
         M = [I * w for I, w in zip(J, W, strict=True)]
         gradients = [
@@ -237,21 +239,21 @@ class Torus:
             [*(I * k for k, I in zip(K, J, strict=True)), *M],
             [arb(0)] * 3 + K,
         ]
-        others = [n for n in range(6) if n not in chosen]
-        return not arb_mat([[row[n] for n in others] for row in gradients]).det().contains(0)
+        remaining = [n for n in range(6) if n not in chosen]
+        return not arb_mat([[row[n] for n in remaining] for row in gradients]).det().contains(0)
 
 
 def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
     """Return f1, f2 of M and K, and f3 about a field of length b, of which the angles of the periods are part."""
-    (first, second), turn = periods, 2 * arb.pi()
-    area = first.H * second.F - first.F * second.H
-    along = second.F / area, -first.F / area
-    return [turn * along[0], turn * along[1], first.angle * along[0] + second.angle * along[1] - b]
+    (of_H, of_F), turn = periods, 2 * arb.pi()
+    area = of_H.H * of_F.F - of_H.F * of_F.H
+    line = of_F.F / area, -of_H.F / area
+    return [turn * line[0], turn * line[1], of_H.angle * line[0] + of_F.angle * line[1] - b]
 
 
-def turned(q: list[arb], V: list[arb]) -> list[arb]:
+def rotated(q: list[arb], V: list[arb]) -> list[arb]:
     """Return a unit quaternion after a small turn at a rate in the balls V for a unit of time."""
     most = arb(0, sum((abs(x) for x in V), arb(0)).upper())
     w, *vector = (x + most for x in q)  # wherever it is on the way
-    turned = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]
-    return [x + y / 2 for x, y in zip(q, turned, strict=True)]
+    rotated = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]
+    return [x + y / 2 for x, y in zip(q, rotated, strict=True)]

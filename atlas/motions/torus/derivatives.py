@@ -74,31 +74,31 @@ class TorusVaried:
         """Return None: nothing is cached for combinations of inputs."""
 
     def vectors(
-        self, t: FloatArray, slopes: bool, left: FloatArray, names: FloatArray, turns: FloatArray, *_: Any
+        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, *_: Any
     ) -> list[FloatArray]:
         """Return v of combinations of inputs, see `Weighted`, (m, names, 3), and R dOmega/dp, which is dv/dt."""
         out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             for block, values in zip(out, self._block(t[i : i + BLOCK], slopes), strict=True):
-                block[i : i + BLOCK] = np.einsum("np,pmk->mnk", names, values) @ left.T
+                block[i : i + BLOCK] = np.einsum("np,pmk->mnk", names, values) @ to_laboratory.T
         out[0] += turns
         return out
 
     def _block(self, t: FloatArray, slopes: bool) -> list[FloatArray]:
-        half, rest, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
-        half = half + rest
+        half, low_words, _ = self.kernel._phases(t)  # noqa: SLF001  of the same floor
+        half = half + low_words
         x = self.ways @ half[:2]
-        grown = self.d_frequencies[:, :, None] * t / 2
-        dx = self.d_ways @ half[:2] + self.ways @ grown[:, :2]
+        phase_slopes = self.d_frequencies[:, :, None] * t / 2
+        dx = self.d_ways @ half[:2] + self.ways @ phase_slopes[:, :2]
         turn = np.exp(1j * (x[2].real + 2 * half[2]) - x[2].imag)
-        d_turn = 1j * (dx[:, 2] + 2 * grown[:, 2])
+        d_turn = 1j * (dx[:, 2] + 2 * phase_slopes[:, 2])
         waves = self._waves(self.P, x[0]) * self._waves(self.Q, x[1])
         inputs, forms = len(self.d_ways), 10 if slopes else 7
         table = [self.weights, 1j * self.P * self.weights, 1j * self.Q * self.weights, *self.d_weights]
         sums = np.concatenate([x[:forms] for x in table]) @ waves
-        S, by_P, by_Q, *own = sums.reshape(3 + inputs, forms, -1)
+        S, by_P, by_Q, *by_inputs = sums.reshape(3 + inputs, forms, -1)
         D = S[3]
-        changed = np.array(own).reshape(inputs, forms, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
+        changed = np.array(by_inputs).reshape(inputs, forms, -1) + dx[:, :1] * by_P + dx[:, 1:2] * by_Q
         values = S / D
         sizes = (abs(changed) + abs(values * changed[:, 3:4])) / abs(D)
         sizes = np.stack([sizes[:, :3].max(1), sizes[:, 4:7].max(1)], 1)
@@ -109,8 +109,8 @@ class TorusVaried:
         rows, d_rows = np.array([N.real, N.imag, K]), np.stack([dN.real, dN.imag, dK], 1)
         R = np.einsum("ka,kbm->mab", self.frame, rows)
         dR = np.einsum("pka,kbm->pmab", self.d_frame, rows) + np.einsum("ka,pkbm->pmab", self.frame, d_rows)
-        turned = dR @ R.swapaxes(-1, -2)
-        v = np.stack([turned[..., 2, 1], turned[..., 0, 2], turned[..., 1, 0]], -1)
+        spins = dR @ R.swapaxes(-1, -2)
+        v = np.stack([spins[..., 2, 1], spins[..., 0, 2], spins[..., 1, 0]], -1)
         terms = abs(self.d_frame).max(2) @ abs(rows).max(1)
         terms += np.tensordot(sizes[:, [0, 0, 1]], abs(self.frame).max(1), (1, 0))
         if not (ROUNDING * terms <= MAX_ERROR * (1 + abs(v).max(2))).all():
@@ -149,12 +149,12 @@ class Neighbours:
     def slopes(self, places: Sequence[int]) -> list[Array]:
         """Return the derivatives of the four rows in the inputs at some places, each (places, row)."""
         # the largest of all moments, and of all rates, follows from the others: constants are homogeneous
-        left = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
-        found = {place: self._by_step(place) for place in set(places) - left}
-        found |= {place: self._by_scale(place, found) for place in left}
+        to_laboratory = {max(group, key=lambda i: abs(self.values[i])) for group in GROUPS if set(group) <= set(places)}
+        slopes_by_place = {place: self._by_step(place) for place in set(places) - to_laboratory}
+        slopes_by_place |= {place: self._by_scale(place, slopes_by_place) for place in to_laboratory}
         units = [self.kernel.rate if place > 2 else self.unit for place in places]
         return [
-            np.array([found[place][kind] / unit for place, unit in zip(places, units, strict=True)])
+            np.array([slopes_by_place[place][kind] / unit for place, unit in zip(places, units, strict=True)])
             for kind in range(4)
         ]
 
@@ -163,10 +163,10 @@ class Neighbours:
         field = max(map(abs, self.sizes[3:6]))
         weak = min(max(round(-2 * np.log2(field)), 0), WEAK_FIELD_BITS)
         step = STEP_BITS + weak * (place in (3, 4, 5))
-        moved = _moved(self.values, place, step, self.rate, self.kernel.made_of[0])
-        return _slopes(self.exact, self._tables(moved), step)
+        values_there = _neighbour(self.values, place, step, self.rate, self.kernel.made_of[0])
+        return _slopes(self.exact, self._tables(values_there), step)
 
-    def _by_scale(self, place: int, found: Mapping[int, Sequence[Array]]) -> list[Array]:
+    def _by_scale(self, place: int, slopes_by_place: Mapping[int, Sequence[Array]]) -> list[Array]:
         """Return derivatives from those in the other inputs of the group, by Euler's theorem on homogeneous functions.
 
         With all rates grow K, W and the frequencies, and the frame falls; with all moments nothing changes.
@@ -177,11 +177,11 @@ class Neighbours:
             weights * np.repeat([0, 1], [4 * count, 6 * count]), 0 * ways, frequencies,
             -frame * np.repeat([0, 1], [6, 3]),
         ]  # fmt: skip
-        whole = by_rates if place > 2 else [0 * x for x in by_rates]
-        others = [i for i in GROUPS[place > 2] if i != place]
+        by_scale = by_rates if place > 2 else [0 * x for x in by_rates]
+        group_rest = [i for i in GROUPS[place > 2] if i != place]
         return [
-            (x - sum(self.sizes[i] * found[i][kind] for i in others)) / self.sizes[place]
-            for kind, x in enumerate(whole)
+            (x - sum(self.sizes[i] * slopes_by_place[i][kind] for i in group_rest)) / self.sizes[place]
+            for kind, x in enumerate(by_scale)
         ]
 
     def _tables(self, constants: Constants) -> list[list[Any]]:
@@ -197,11 +197,11 @@ class Neighbours:
         ]
 
 
-def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
+def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
     """Return the constants of a motion one of whose moments, field and omega is larger by a step."""
-    moved = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
-    K, omega = moved[3:6], moved[6:]
-    torus = Torus(tuple(moved[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
+    values_there = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
+    K, omega = values_there[3:6], values_there[6:]
+    torus = Torus(tuple(values_there[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
     try:
         with workprec(BITS):
             lattice = _followed(torus.lattice, here.lattice)
@@ -213,30 +213,30 @@ def _moved(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: Thet
 
 def _followed(lattice: Lattice, like: Lattice) -> Lattice:
     """Return a lattice in the basis that is next to another one's."""
-    periods = [*lattice.real, *lattice.others]
+    periods = [*lattice.real, *lattice.other_periods]
 
     def reals(rows: Sequence[Sequence[acb]]) -> FloatArray:
         return np.array([[complex_of(x) for x in row[:2]] for row in rows]).view(float)
 
     def next_to(rows: tuple[list[acb], list[acb]]) -> tuple[list[acb], list[acb]]:
-        whole = np.linalg.solve(reals(periods).T, reals(rows).T).T
-        if not abs(whole - np.rint(whole)).max() < INTEGER_TOLERANCE:
+        by_scale = np.linalg.solve(reals(periods).T, reals(rows).T).T
+        if not abs(by_scale - np.rint(by_scale)).max() < INTEGER_TOLERANCE:
             raise _other_form()
-        first, second = (
+        row_here, second = (
             [sum((round(n) * period[k] for n, period in zip(row, periods, strict=True)), acb(0)) for k in range(3)]
-            for row in whole.tolist()
+            for row in by_scale.tolist()
         )
-        return first, second
+        return row_here, second
 
-    return Lattice(next_to(like.real), next_to(like.others), next_to(like.a), next_to(like.b))
+    return Lattice(next_to(like.real), next_to(like.other_periods), next_to(like.a), next_to(like.b))
 
 
-def _slopes(here: list[list[Any]], there: list[list[Any]], step: int) -> list[Array]:
+def _slopes(here: list[list[Any]], row_there: list[list[Any]], step: int) -> list[Array]:
     """Return the derivatives of constants, whose changes are small beside the largest of their kind."""
     slopes: list[Array] = []
-    for first, second in zip(here, there, strict=True):
-        change = np.array([complex_of(acb(y - x)) for x, y in zip(first, second, strict=True)], dtype=complex)
-        if not abs(change).max() <= MAX_CHANGE * max(abs(complex_of(acb(x))) for x in first):
+    for row_here, second in zip(here, row_there, strict=True):
+        change = np.array([complex_of(acb(y - x)) for x, y in zip(row_here, second, strict=True)], dtype=complex)
+        if not abs(change).max() <= MAX_CHANGE * max(abs(complex_of(acb(x))) for x in row_here):
             raise _other_form()
         slopes.append(np.asarray(change * 2.0**step, dtype=np.complex128))
     return slopes

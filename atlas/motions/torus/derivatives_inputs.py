@@ -31,14 +31,14 @@ class OnTorus(Inputs):
 
     kernel: ThetaKernel = field(kw_only=True)
     exact: AsymmetricMotion = field(kw_only=True)
-    known: dict[tuple[str, ...], TorusVaried] = field(default_factory=dict)
+    cached: dict[tuple[str, ...], TorusVaried] = field(default_factory=dict)
 
     def varied(self, names: Sequence[str]) -> TorusVaried:
-        """Return what gives v and R dOmega/dp for some of the inputs, kept for what is asked for next."""
+        """Return the evaluator of v and R dOmega/dp for some of the inputs, from a cache."""
         key = tuple(names)
-        if key not in self.known:
-            self.known[key] = TorusVaried(self.exact, self.kernel, self._places(names))
-        return self.known[key]
+        if key not in self.cached:
+            self.cached[key] = TorusVaried(self.exact, self.kernel, self._places(names))
+        return self.cached[key]
 
     def of_scalar(self, name: str, names: Sequence[str]) -> FloatArray:
         """Return the derivatives of a frequency, (len(names),)."""

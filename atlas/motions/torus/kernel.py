@@ -56,7 +56,7 @@ class SingleAsymmetric:
         self.certified = Certified(exact, self.size)
 
     @cached_property
-    def _first(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
+    def _candidate(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
         """The closed form if there is one, not yet compared, else None; and its proof status, or why there is none."""
         elliptic = self.exact.elliptic
         if elliptic is not None:
@@ -72,9 +72,9 @@ class SingleAsymmetric:
     @cached_property
     def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
         """The closed form if it is proved or agrees with the certified counterpart, else None; and its proof status."""
-        closed, known = self._first
+        closed, status = self._candidate
         if closed is None or isinstance(closed, SingleElliptic):
-            return closed, known
+            return closed, status
         on_torus = self.exact.on_torus
         count = DIRECT_CHECKS if on_torus is not None and on_torus.torus.is_long else len(CHECK_TIMES)
         times = [t / self.size for t in (CHECK_TIMES[:count] if closed.proved is None else CHECK_TIMES[-1:])]
@@ -86,16 +86,16 @@ class SingleAsymmetric:
                 if not differences:
                     return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
                 break
-        worst, times = max(differences), times[: len(differences)]
-        if not worst <= min(closed.accuracy, MAX_DIFFERENCE):
-            return None, f"certified at each time: theta functions differ from the certified twin by {worst:.1e}."
-        known = (
-            f"not proved; agrees with the certified twin within {worst:.1e} at {len(times)} times up to |t| = "
+        largest, times = max(differences), times[: len(differences)]
+        if not largest <= min(closed.accuracy, MAX_DIFFERENCE):
+            return None, f"certified at each time: theta functions differ from the certified twin by {largest:.1e}."
+        status = (
+            f"not proved; agrees with the certified twin within {largest:.1e} at {len(times)} times up to |t| = "
             f"{max(map(abs, times)):.3g}"
             if closed.proved is None
             else f"proved for this motion, at all times within {closed.proved:.1e}"
         )
-        return closed, f"{known}; rounding adds {closed.accuracy:.1e} at most"
+        return closed, f"{status}; rounding adds {closed.accuracy:.1e} at most"
 
     def _elliptic(self, exact: EllipticMotion) -> tuple[SingleElliptic | None, str]:
         """Return the closed form by Jacobi's functions, and its proof status, or why it is not used."""
@@ -104,7 +104,7 @@ class SingleAsymmetric:
                 single: SingleElliptic = SingleEulerTop(exact, floats(self.exact.field))
             else:
                 single = SingleElliptic(exact)
-            single.pair  # noqa: B018  what floats do not hold is refused here
+            single.pair  # noqa: B018  raises DomainError outside the range of floats
         except DomainError:  # next to the line about which its axis turns
             return None, "certified at each time: Jacobi's functions are too small for a float."
         error = single.accuracy(self.size)
@@ -123,7 +123,7 @@ class SingleAsymmetric:
     @property
     def closed(self) -> ThetaKernel | SingleElliptic | None:
         """The closed form by theta or Jacobi's functions, where there is one that fits, or agrees with the twin."""
-        closed, _ = self._first
+        closed, _ = self._candidate
         if closed is None or isinstance(closed, SingleElliptic) or (closed.fits and "_choice" not in vars(self)):
             return closed
         return self._choice[0]
@@ -137,7 +137,7 @@ class SingleAsymmetric:
 
     @property
     def accuracy(self) -> float:
-        """Bound on what rounding adds, that of a value which is rounded once where there is no closed form."""
+        """Bound on rounding errors; without a closed form that of one rounding."""
         if isinstance(self.closed, SingleElliptic):
             return MAX_ERROR if self._slender else self.closed.accuracy(self.size)
         return self.closed.accuracy if self.closed else 2.0**-52
@@ -172,16 +172,16 @@ class SingleAsymmetric:
         """Return K(t), shape (..., 3)."""
         return self._started("field_in_body", floats(self.exact.field), t, out)
 
-    def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *which: int) -> FloatArray:
+    def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *column_number: int) -> FloatArray:
         """Return the values of a function of time, which is known at zero, without a closed form."""
-        known = np.asarray(real(t, "The time") == 0)
-        if known.all():
-            products = target(out, known.shape + start.shape)
+        status = np.asarray(real(t, "The time") == 0)
+        if status.all():
+            products = target(out, status.shape + start.shape)
         else:
             balls = self.closed is None or (name == "angular_velocity" and self._slender)
-            products = getattr(self.certified if balls else self.closed, name)(*which, t, out)
-        if known.any():
-            products[known] = start
+            products = getattr(self.certified if balls else self.closed, name)(*column_number, t, out)
+        if status.any():
+            products[status] = start
         return products
 
 
@@ -254,7 +254,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
             *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
         ]
         super().__init__(_single, *parts)
-        self._of_each(lambda single: single.exact.kind)  # what is no motion is refused here
+        self._of_each(lambda single: single.exact.kind)  # inputs of no motion are refused here
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
         kept = (tuple(map(as_given, parts[i : i + 3])) for i in (0, 3, 6))
         self.arguments = dict(zip(("inertia", "field", "omega"), kept, strict=True))

@@ -56,8 +56,8 @@ class Certified:
                 f"{MAX_STEPPED_PHASE / self.size:.6g}."
             )
         quaternions, out = of_matrix(self.rotation(times)), target(out, (*times.shape, 4))
-        near = self._followed(times.ravel()).reshape(quaternions.shape)
-        out[...] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
+        reference = self._followed(times.ravel()).reshape(quaternions.shape)
+        out[...] = quaternions * np.sign((quaternions * reference).sum(-1, keepdims=True))
         return out
 
     def _followed(self, times: FloatArray) -> FloatArray:
@@ -83,9 +83,9 @@ class Certified:
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
         """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
-        first, further = rational(start, "The start"), rational(step, "The step")
+        start_time, further = rational(start, "The start"), rational(step, "The step")
         for i, matrix in enumerate(out):
-            matrix[...] = rounded(lambda i=i: self.exact.rotation(first + i * further), 1.0).reshape(3, 3)  # type: ignore[misc]
+            matrix[...] = rounded(lambda i=i: self.exact.rotation(start_time + i * further), 1.0).reshape(3, 3)  # type: ignore[misc]
 
     def _filled(
         self, function: Callable[[Any], Any], t: Any, shape: tuple[int, ...], size: float, out: FloatArray | None

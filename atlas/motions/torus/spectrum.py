@@ -19,11 +19,11 @@ def of_torus(exact: AsymmetricMotion, kernel: ThetaKernel, L: FloatArray, C: Flo
     f = np.array([float(x.mid()) for x in enclosed(lambda: exact.frequencies, BITS)])
     n = L @ kernel.axis
 
-    def at(of: str, x: FloatArray) -> FloatArray:
+    def at(quantity: str, x: FloatArray) -> FloatArray:
         R, Omega, K = kernel.on_torus(x)
-        if of == "angular_velocity":
+        if quantity == "angular_velocity":
             return Omega @ C
-        return K @ C if of == "field" else L @ R @ C
+        return K @ C if quantity == "field" else L @ R @ C
 
     return Wheels(n, float(f[2]), np.array([0.0, 0.0, 1.0]), 0.0, f[:2], at, partial(_actions, exact, kernel))
 
@@ -39,8 +39,8 @@ def _actions(exact: Any, kernel: ThetaKernel, J: FloatArray) -> list[float]:
             phases = np.zeros((2, x.shape[1]))
             phases[i] = x[0]
             _, Omega, K = kernel.on_torus(phases)
-            W, along = (Omega + K) / kernel.rate, scaled(K.T)[0]
-            M, n = J / unit * W, along / np.linalg.norm(along, axis=0)
+            W, directions = (Omega + K) / kernel.rate, scaled(K.T)[0]
+            M, n = J / unit * W, directions / np.linalg.norm(directions, axis=0)
             return np.asarray(T[0] * (M * W).sum(1) + T[1] * (M * M).sum(1) - T[2] * (M * n.T).sum(1))
 
         actions_of_cycles.append(mean(work) * unit * kernel.rate / (2 * np.pi))

@@ -63,7 +63,7 @@ SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
 
 
 class Constants:
-    """What a motion is made of, to some forty digits: `forms` of N, D, K and W, `ways` (3, 2), `frequencies`, `frame`.
+    """Constants of a motion to some forty digits: `forms` of N, D, K and W, `ways` (3, 2), `frequencies`, `frame`.
 
     Half the phases go by `ways` to the arguments of the forms and the angle by which N turns; `frame` are e_x, e_y and
     B'/b^2, of which R consists with the real and the imaginary part of N, and with K.
@@ -73,20 +73,20 @@ class Constants:
         with workprec(BITS):
             motion, X = theta.motion, theta.X.inv()
             self.b = arb(motion.square).sqrt()
-            periods = [Period(H.real, F.real, -self.b * along.real) for H, F, along in theta.lattice.real]
+            periods = [Period(H.real, F.real, -self.b * T_c.real) for H, F, T_c in theta.lattice.real]
             if not theta.misfit < MAX_MISFIT:
                 periods = [Period(p.H.mid(), p.F.mid(), p.angle.mid()) for p in torus.periods(PERIOD_BITS)]
-            into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
-            lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
+            to_ways = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
+            lines = [theta.l[0] * to_ways[0][k] + theta.l[1] * to_ways[1][k] for k in range(2)]
             # the angles of the periods are known but for whole turns
             angles = [
                 p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid()))
                 for p, x in zip(periods, lines, strict=True)
-            ]  # those nearest to what N turns by
+            ]  # those nearest to the angles of N
             self.periods = [replace(p, angle=angle) for p, angle in zip(periods, angles, strict=True)]
             self.frequencies = [x * rate for x in frequencies(self.periods, self.b)]
             turning = [(x - a) / arb.pi() for x, a in zip(lines, angles, strict=True)]
-            self.ways = [[2 * x for x in into[0]], into[1], turning]
+            self.ways = [[2 * x for x in to_ways[0]], to_ways[1], turning]
             self.hat, self.start = theta.hat, (2 * theta.start[0], theta.start[1])
             *forms, M1, M2, M3 = theta.forms
             self.forms = [*forms, *(x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True))]
@@ -96,8 +96,8 @@ class Constants:
 class ThetaKernel:
     """R, K and W = II^-1 M of one motion at many times; `rate` is the unit 1/time, `size` the largest rate in it.
 
-    `accuracy` bounds rounding errors, `proved` what the formulas, without rounding, are wrong by at any time: None
-    where there is no proof. Both are found when they are asked for.
+    `accuracy` bounds rounding errors, `proved` the errors of the formulas without rounding, at any time: None where
+    there is no proof. Both are computed when first asked for.
     """
 
     def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
@@ -188,9 +188,9 @@ class ThetaKernel:
         half = np.concatenate([(phases + np.pi) % (2 * np.pi) - np.pi, np.zeros((1, phases.shape[1]))]) / 2
         for x, period in zip(half[:2], self.periods, strict=True):
             half[2] += x * round(float(period.angle.mid()) / (2 * np.pi))
-        R, rest = np.empty((phases.shape[1], 9)), np.zeros_like(half)
-        self._fill(half, rest, self.entries, R)
-        x, less = self._places(half, rest)
+        R, low_word = np.empty((phases.shape[1], 9)), np.zeros_like(half)
+        self._fill(half, low_word, self.entries, R)
+        x, less = self._places(half, low_word)
         D, *numerators = self.sums.at(x[:2], less[:2], slice(3, 10))
         K, W = np.split(_real(np.array(numerators), _inverse(D)).T * self.rate, 2, axis=1)
         return R.reshape(-1, 3, 3), W - K, K
@@ -200,19 +200,19 @@ class ThetaKernel:
 
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, SUM_BLOCK):
-                half, rest, _ = self._phases(t[i : i + SUM_BLOCK], None if low is None else low[i : i + SUM_BLOCK])
-                self._fill(half, rest, weights, rows[i : i + SUM_BLOCK])
+                half, low_word, _ = self._phases(t[i : i + SUM_BLOCK], None if low is None else low[i : i + SUM_BLOCK])
+                self._fill(half, low_word, weights, rows[i : i + SUM_BLOCK])
 
         return fill
 
-    def _fill(self, half: FloatArray, rest: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
+    def _fill(self, half: FloatArray, low_word: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
         """Fill rows with combinations of Re N, Im N and K at half phases: two words, (3, m)."""
-        (*x, angle), (*less, lacking) = self._places(half, rest)
+        (*x, angle), (*less, low_angle) = self._places(half, low_word)
         sums = self.sums.at(np.array(x), np.array(less), slice(0, 7))
         inverse = _inverse(sums[3])
-        turned = np.exp(1j * angle)
-        turned += turned * (1j * lacking)
-        N = sums[:3] * (turned * inverse)
+        rotated = np.exp(1j * angle)
+        rotated += rotated * (1j * low_angle)
+        N = sums[:3] * (rotated * inverse)
         combined(np.concatenate([N.real, N.imag, _real(sums[4:], inverse)]), weights, rows)
 
     def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -223,17 +223,17 @@ class ThetaKernel:
         """Fill rows with quaternions: that of R, of the sign which continues it over the torus."""
         table, steps = self._lift
         for i in range(0, t.size, SUM_BLOCK):
-            half, rest, whole = self._phases(t[i : i + SUM_BLOCK])
-            quaternions = self._quaternions(half, rest)
+            half, low_word, turns = self._phases(t[i : i + SUM_BLOCK])
+            quaternions = self._quaternions(half, low_word)
             index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
-            near = product(self._turn(half[2]), table[index[0], index[1]])
-            rows[i : i + SUM_BLOCK] = quaternions * np.sign((quaternions * near).sum(-1, keepdims=True))
-            rows[i : i + SUM_BLOCK] *= (signs(whole) ** steps).prod(axis=0)[:, None]
+            reference = product(self._turn(half[2]), table[index[0], index[1]])
+            rows[i : i + SUM_BLOCK] = quaternions * np.sign((quaternions * reference).sum(-1, keepdims=True))
+            rows[i : i + SUM_BLOCK] *= (signs(turns) ** steps).prod(axis=0)[:, None]
 
-    def _quaternions(self, half: FloatArray, rest: FloatArray) -> FloatArray:
+    def _quaternions(self, half: FloatArray, low_word: FloatArray) -> FloatArray:
         """Return one quaternion of each R at half phases, (m, 4)."""
         R = np.empty((half.shape[1], 9))
-        self._fill(half, rest, self.entries, R)
+        self._fill(half, low_word, self.entries, R)
         return of_matrix(R.reshape(-1, 3, 3))
 
     def _turn(self, half: FloatArray) -> FloatArray:
@@ -265,23 +265,23 @@ class ThetaKernel:
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, SUM_BLOCK):
-                half, rest, _ = self._phases(t[i : i + SUM_BLOCK])
-                x, less = self._places(half, rest)
+                half, low_word, _ = self._phases(t[i : i + SUM_BLOCK])
+                x, less = self._places(half, low_word)
                 D, *numerators = self.sums.at(x[:2], less[:2], forms)
                 combined(_real(np.array(numerators), _inverse(D)) * self.rate, weights, rows[i : i + SUM_BLOCK])
 
         return fill
 
-    def _places(self, half: FloatArray, rest: FloatArray) -> tuple[Array, Array]:
+    def _places(self, half: FloatArray, low_word: FloatArray) -> tuple[Array, Array]:
         """Return the arguments of the sums, and the angle by which N turns, at half phases: two words, (3, m)."""
         upper = half[:2] + CUT
         upper -= CUT
         x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
-        both = self.lower + self.upper
-        low = both @ (half[:2] - upper + rest[:2]) + self.lower @ upper
-        low[2] += 2 * rest[2]
-        x[2], more = _sum(x[2], 2 * half[2] + 0j)
-        low[2] += more
+        full_ways = self.lower + self.upper
+        low = full_ways @ (half[:2] - upper + low_word[:2]) + self.lower @ upper
+        low[2] += 2 * low_word[2]
+        x[2], low_sum = _sum(x[2], 2 * half[2] + 0j)
+        low[2] += low_sum
         return _sum(x, low)
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:

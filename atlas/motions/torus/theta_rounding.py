@@ -9,7 +9,7 @@ cell. Of the denominator D, with slopes D_k in the middle and the sum B of secon
 
 and so for slopes of y. Errors of an exponential exp(i x) are common to all forms, as if x were another, and count by
 these slopes; others, S, are those of weights, powers, products and sums. To first order, N and K/b being columns of a
-rotation, R is wrong by sqrt(S_N^2 + S_K^2/b^2)/|D| + S_D/|D| and what its last operations add.
+rotation, R is wrong by sqrt(S_N^2 + S_K^2/b^2)/|D| + S_D/|D| plus the errors of its last operations.
 """
 
 from collections.abc import Sequence
@@ -25,8 +25,8 @@ CELLS_PER_PHASE, MAX_CUTS, MAX_WIDENING = 24, 6, 1.02
 """Cells along each phase, how often they are cut, and how much larger than in their middles the bound may be."""
 
 EXPONENTIAL = 6.0
-"""Units of 2^-53 by which an exponential with what its argument lacks is wrong, if the library's and its sines are
-within an ulp: two of both, a product and a sum."""
+"""Units of 2^-53 by which an exponential with the low word of its argument is wrong, if the library's and its sines
+are within an ulp: two of both, a product and a sum."""
 
 EXPONENTIALS = EXPONENTIAL, EXPONENTIAL + PRODUCT / 2
 """That of w_1; and of the root of w_2^2 as it is rounded, by a product."""
@@ -38,7 +38,7 @@ INVERSE, QUOTIENT, COMBINED = 3.0, 2.0, 4.0
 """Those by which 1/D is wrong beside itself, the real part of a product with it, and a sum of three products."""
 
 MAX_POWER_LOG = 600.0
-"""Largest logarithm of a power: in what is smaller no second words are left."""
+"""Largest logarithm of a power: smaller numbers have no second words."""
 
 D = 3
 """Place of the denominator among the forms."""
@@ -57,21 +57,23 @@ def quotients(
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]
-    across, below = (abs(np.einsum("k...,kl->l...", x, by_phases)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
+    slope_sizes, below = (
+        abs(np.einsum("k...,kl->l...", x, by_phases)).sum(axis=0) for x in (G, [x[D] for x in slopes])
+    )
     least = abs(value[D]) - half * below - half**2 / 2 * bends[D]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return y, G, least, (half * across + half**2 / 2 * (bends + abs(y) * bends[D])) / least
+        return y, G, least, (half * slope_sizes + half**2 / 2 * (bends + abs(y) * bends[D])) / least
 
 
 @dataclass(frozen=True)
 class Rounding:
     """Inputs of the error bounds: forms of N, D, K and W, b = |B'|, and the largest rate.
 
-    Their places are `into` @ half phases, and N turns by the angle `turning` @ half phases.
+    Their places are `into_arguments` @ half phases, and N turns by the angle `turning` @ half phases.
     """
 
     sums: Sums
-    into: Array
+    into_arguments: Array
     turning: Array
     b: float
     size: float
@@ -84,81 +86,83 @@ class Rounding:
         half = np.pi * HALF_TURN / CELLS_PER_PHASE
         line = np.linspace(half - np.pi * HALF_TURN, np.pi * HALF_TURN - half, CELLS_PER_PHASE)
         cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-        if not self.sums.reach * abs(self.into.imag).sum(axis=1).max() * np.pi * HALF_TURN < MAX_POWER_LOG:
+        if not self.sums.reach * abs(self.into_arguments.imag).sum(axis=1).max() * np.pi * HALF_TURN < MAX_POWER_LOG:
             return float("inf")
-        enough, worst = enough * 2.0**53, 0.0
-        for last in range(MAX_CUTS + 1):
-            errors = self.wrong(cells, half)
+        enough, largest = enough * 2.0**53, 0.0
+        for cut in range(MAX_CUTS + 1):
+            errors = self.error_bounds(cells, half)
             if not errors.max() <= enough:
-                enough = max(enough, MAX_WIDENING * float(self.wrong(cells, 0.0).max()))
-            done = (errors <= enough) | (last == MAX_CUTS)
-            worst = max(worst, float(errors[done].max(initial=0.0)))
+                enough = max(enough, MAX_WIDENING * float(self.error_bounds(cells, 0.0).max()))
+            done = (errors <= enough) | (cut == MAX_CUTS)
+            largest = max(largest, float(errors[done].max(initial=0.0)))
             half /= 2
             cells = (cells[:, ~done, None] + half * CORNERS[:, None]).reshape(2, -1)
             if not cells.size:
                 break
-        return worst * 2.0**-53
+        return largest * 2.0**-53
 
-    def wrong(self, cells: FloatArray, half: float) -> FloatArray:
+    def error_bounds(self, cells: FloatArray, half: float) -> FloatArray:
         """Return bounds on errors in cells of phases about some (2, m), in units of 2^-53."""
         P, Q = self._places(np.zeros(2))
         table = abs(self.sums.table[D])
-        first, second = (np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into @ cells).imag, strict=True))
-        size, *middle = _summed(np.array([table, table * P[:, None], table * Q]), first, second)
-        near, errors = np.round(np.array(middle) / size), np.empty(cells.shape[1])
+        P_waves, Q_waves = (
+            np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into_arguments @ cells).imag, strict=True)
+        )
+        size, *middle = _summed(np.array([table, table * P[:, None], table * Q]), P_waves, Q_waves)
+        peaks, errors = np.round(np.array(middle) / size), np.empty(cells.shape[1])
         block = max(UNTHREADED // (4 * table.size), 1)
-        for p in np.unique(near, axis=1).T:
-            chosen = np.flatnonzero((near == p[:, None]).all(axis=0))
+        for p in np.unique(peaks, axis=1).T:
+            chosen = np.flatnonzero((peaks == p[:, None]).all(axis=0))
             for i in range(0, chosen.size, block):
-                some = chosen[i : i + block]
-                errors[some] = self._wrong(p, cells[:, some], half)
+                cells_of_block = chosen[i : i + block]
+                errors[cells_of_block] = self._error_bounds(p, cells[:, cells_of_block], half)
         return errors
 
     def _places(self, p: FloatArray) -> list[FloatArray]:
         """Return P and Q of the terms, less p."""
         return [self.sums.P - p[0], self.sums.Q - p[1]]
 
-    def _wrong(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
+    def _error_bounds(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
         """Return the bounds in cells where terms near p are largest."""
         P, Q = self._places(p)
         count = np.array([P[:, None] + 0 * Q, 0 * P[:, None] + Q])
-        ways = sum(abs(np.einsum("k,kpq->pq", way, count)) for way in self.into.T)
+        ways = sum(abs(np.einsum("k,kpq->pq", way, count)) for way in self.into_arguments.T)
         table = self.sums.table
         forms = np.concatenate([table, table[7:] - table[4:7]])  # N, D, K, W and Omega
-        middle = [np.exp(1j * np.outer(n, y)) for n, y in zip((P, Q), self.into @ cells, strict=True)]
+        middle = [np.exp(1j * np.outer(n, y)) for n, y in zip((P, Q), self.into_arguments @ cells, strict=True)]
         rows = [forms, *(forms * n for n in count)]
         value, *slopes = _summed(np.concatenate(rows), *middle).reshape(3, len(forms), -1)
         corners = (cells[:, :, None] + half * CORNERS[:, None]).reshape(2, -1)
-        sizes = [np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into @ corners).imag, strict=True)]
+        sizes = [np.exp(-np.outer(n, y)) for n, y in zip((P, Q), (self.into_arguments @ corners).imag, strict=True)]
         rows = [abs(table) * self.sums.steps, *(abs(forms) * x for x in (ways**2, *(ways * abs(count))))]
-        turned = np.exp(-(self.turning @ corners).imag)
+        turn_factor = np.exp(-(self.turning @ corners).imag)
         summed = _summed(np.concatenate(rows), *sizes)
-        summed[:3] *= turned
+        summed[:3] *= turn_factor
         error, bends, *mixed = np.split(
             summed.reshape(len(summed), -1, 4).max(axis=-1), len(table) + len(forms) * np.arange(3)
         )
-        y, G, least, varying = quotients(value, slopes, bends, self.into, half)
+        y, G, least, varying = quotients(value, slopes, bends, self.into_arguments, half)
         size = abs(y)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            moved = np.zeros(size.shape)
-            for g, slope, mix, x, off in zip(G, slopes, mixed, self.into, EXPONENTIALS, strict=True):
+            shifts = np.zeros(size.shape)
+            for g, slope, mix, x, off in zip(G, slopes, mixed, self.into_arguments, EXPONENTIALS, strict=True):
                 change = abs(g) + half * (mix + size * mix[D]) + varying * (abs(slope[D]) + half * mix[D])
-                moved += (off + PHASE * abs(x).sum()) * change / least
-            moved[:3] *= turned.reshape(-1, 4).max(axis=-1)
-            errors = self._of_quotients(error / least, moved, size + varying)
+                shifts += (off + PHASE * abs(x).sum()) * change / least
+            shifts[:3] *= turn_factor.reshape(-1, 4).max(axis=-1)
+            errors = self._of_quotients(error / least, shifts, size + varying)
         return np.where(least > 0, errors, np.inf)
 
-    def _of_quotients(self, error: FloatArray, moved: FloatArray, y: FloatArray) -> FloatArray:
+    def _of_quotients(self, error: FloatArray, shifts: FloatArray, y: FloatArray) -> FloatArray:
         """Return bounds on errors from those of forms over |D|, those of exponentials, and sizes of quotients."""
-        both = error + moved[: len(error)]
-        attitude = np.hypot(both[:3], both[4:7] / self.b).max(axis=0) + error[D]
-        turned = EXPONENTIAL + PHASE * (1 + abs(self.turning).sum()) + INVERSE + 2 * PRODUCT + COMBINED
+        summed_errors = error + shifts[: len(error)]
+        attitude = np.hypot(summed_errors[:3], summed_errors[4:7] / self.b).max(axis=0) + error[D]
+        turn_factor = EXPONENTIAL + PHASE * (1 + abs(self.turning).sum()) + INVERSE + 2 * PRODUCT + COMBINED
         K, W, Omega = np.minimum(y[4:7], self.b), y[7:10], y[10:]
-        field = both[4:7] + K * (error[D] + INVERSE + QUOTIENT)
-        rate = error[4:7] + error[7:] + moved[10:] + Omega * (error[D] + INVERSE + 1) + QUOTIENT * (K + W)
-        return np.asarray(np.maximum(attitude + turned, np.maximum(field, rate).max(axis=0) / self.size))
+        field = summed_errors[4:7] + K * (error[D] + INVERSE + QUOTIENT)
+        rate = error[4:7] + error[7:] + shifts[10:] + Omega * (error[D] + INVERSE + 1) + QUOTIENT * (K + W)
+        return np.asarray(np.maximum(attitude + turn_factor, np.maximum(field, rate).max(axis=0) / self.size))
 
 
-def _summed(rows: Any, first: Any, second: Any) -> Any:
+def _summed(rows: Any, P_waves: Any, Q_waves: Any) -> Any:
     """Return sums (f, m) of rows (f, P, Q) times first (P, m) and second (Q, m)."""
-    return np.einsum("fpm,pm->fm", rows @ second, first)
+    return np.einsum("fpm,pm->fm", rows @ Q_waves, P_waves)
