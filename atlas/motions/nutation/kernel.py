@@ -71,7 +71,8 @@ class NutatingMotion(Motion[Nutation]):
 
         Notes
         -----
-        Where Omega3 is constant, the period is that of an infinitesimal nutation; of a free body that of Omega.
+        Where Omega3 is constant, the period is that of an infinitesimal nutation. Without a field a `GeneralMotion` has
+        the period of Omega; a `TopMotion` without forces still has that of its axis against the direction n.
         """
         return self._scalar("period")
 
