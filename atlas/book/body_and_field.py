@@ -1,6 +1,7 @@
 """The bodies and fields of a report: as records in its file, as arguments of kernels, and in print."""
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, Literal
 
 import msgspec
@@ -10,7 +11,7 @@ from atlas.bodies.body import SHAPES, SymmetricBody
 from atlas.bodies.field import Field as PhysicalField
 from atlas.bodies.field import LaboratoryFrame
 from atlas.bodies.speeds import check_drift
-from atlas.bodies.units import System, charge_to_mass, system
+from atlas.bodies.units import System, ratio_of, system
 from atlas.book.digits import shown
 from atlas.book.schema import StrictStruct, TwoNumbers, Vector
 from atlas.errors import AtlasError, unknown
@@ -99,6 +100,13 @@ class BodyAndField:
         return self.field
 
     @property
+    def exact_components(self) -> tuple[float | Fraction, ...]:
+        """(B2, B3) without rounding where B is given in the plane of e2 and e3, else `components`."""
+        field, frame = self.physical, self.frame
+        is_in_plane = field is not None and frame is not None and not (frame.axis[:2].any() or field.prime[0])
+        return field.exact_pair if field and is_in_plane and field.prime[1] >= 0 else self.components
+
+    @property
     def ratio(self) -> float:
         """The double nearest to the exact I = I3/I2, for figures."""
         from atlas.bodies.certified_body import ratio_of
@@ -165,13 +173,14 @@ def body_and_field(body_record: Body | None, field_record: Field | None) -> Body
     return BodyAndField(symmetric_body, body_record, frame.field, field_record, physical, frame, units)
 
 
-def _charge_to_mass(body_record: Body | None, field_record: Field) -> float:
+def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fraction:
     """Return the field's charge-to-mass ratio, or that of the body."""
     if field_record.charge_to_mass is not None:
         return field_record.charge_to_mass
     if body_record is None or body_record.charge is None or body_record.mass is None:
         raise AtlasError(f"the field {field_record.title!r} needs charge_to_mass, or a body with a charge and a mass.")
-    return charge_to_mass(body_record.charge, body_record.mass)
+    exact: Fraction = ratio_of(None, body_record.charge, body_record.mass)
+    return exact
 
 
 def parameters(known: BodiesAndFields) -> list[str]:

@@ -15,6 +15,7 @@ from atlas import SymmetricBody
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.bodies.certified_body import shape_moments
+from atlas.book import body_and_field as body_records
 from atlas.cli.app import atlas as command
 from atlas.errors import DomainError, NearlySymmetricWarning
 from atlas.motions.nutation.certified_general import GeneralMotion as Certified
@@ -119,3 +120,12 @@ def test_a_density_stands_for_the_mass_of_a_solid() -> None:
             make(**sizes)
         with pytest.raises(DomainError, match="density must be positive"):
             make(density=0.0, **sizes)
+
+
+def test_a_page_takes_the_field_without_rounding() -> None:
+    """B' of a page's charge, mass and B is the exact product, as for the proven digits of a motion."""
+    record = body_records.Body("a", ratio=1.5, mass=0.7, charge=0.3)
+    case = body_records.body_and_field(record, body_records.Field("b", B=(0.0, 1.0, 2.0)))
+    factor = Fraction(0.3) / Fraction(0.7) / 2
+    assert case.exact_components == (factor, 2 * factor)
+    assert case.components == (float(factor), float(2 * factor))

@@ -58,7 +58,8 @@ class Thing:
                     Number(plain(case.ratio)) if case.body_record and case.body_record.shape else case.ratio
                 )
             elif p.name == "field" and not p.option:
-                value = balls = numbers[p.name] = case.components
+                value = balls = case.exact_components
+                numbers[p.name] = case.components
             else:
                 if p.needed and p.name not in surplus:
                     raise AtlasError(f"parameters: the family {name!r} lacks {p.name!r}.")
